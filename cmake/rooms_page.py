@@ -27,7 +27,8 @@ A newcomer to a room opens the header of the fourth column first. A room may inc
 EXAMPLES_HEAD = """
 ## Examples
 
-How each room is used, in some ten lines. The test `examples_test` runs all of them. They are in namespace `frustumscreen`."""
+How each room is used, in some ten lines. The test `examples_test` runs all of them. They are in namespace `frustumscreen`; a function that no
+header declares is in the whole file."""
 
 
 class Lack(Exception):
@@ -63,7 +64,8 @@ def example(name):
     if not sentence or not shown:
         raise Lack(f"{file.relative_to(ROOT)}: begin with a comment that says what it shows, and put '// example' and '// end' around the example")
     includes = re.findall(r'^#include "(?!tests/).*"$', text, re.MULTILINE)
-    return "\n".join([f"\n### {name}\n", sentence, "\n```cpp", *includes, "", textwrap.dedent(shown[1]) + "```"])
+    place = file.relative_to(ROOT).as_posix()
+    return "\n".join([f"\n### {name}\n", f"{sentence} [The whole file](../{place})", "\n```cpp", *includes, "", textwrap.dedent(shown[1]) + "```"])
 
 
 def page():

@@ -1,4 +1,4 @@
-// A source mesh becomes a pack: turned upright, centred, scaled so that its box's longest edge is 1.
+// A source mesh becomes a pack. Its box stands upright on z = 0, centred, and its longest edge is 1.
 #include "assets_baked/bake/bake.h"
 #include "tests/bake/shapes.h"
 

@@ -1,4 +1,4 @@
-// A function that can fail returns a Result; TRY takes its value or hands its error on.
+// A function that can fail returns a Result. TRY takes the value, or returns the error to the caller.
 #include "firmware_host/base/result.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Touches of projected crosses give the projector, the tracker's registration and a verdict: here with the tracker's
-// frame in the table's, and its sensor in the prop's bottom.
+// Projector, registration and a verdict are computed from touches of projected crosses. Here the tracker's
+// frame is the table's, and its sensor is in the prop's bottom.
 #include "app/calibration/calibrate_touch.h"
 
 #include <gtest/gtest.h>

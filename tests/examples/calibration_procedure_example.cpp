@@ -1,5 +1,5 @@
-// A procedure is a state machine of presses, reports and times: here the prop is laid on the only cross,
-// and rests for a second.
+// A procedure is a state machine that takes presses, tracker reports and times. Here the prop is laid on
+// the only cross, and rests for a second.
 #include "app/calibration/procedure/touch_procedure.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ TEST(RoomExample, CalibrationProcedure) {
     using std::chrono::milliseconds;
     const MonotonicTime start{};
     TouchProcedure procedure(std::vector<Cross>{{.pixel = {960.0, 600.0}}});
-    procedure.step({.now = start, .next = true}); // begin
+    procedure.step({.now = start, .next = true}); // the button that begins
     EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     procedure.step({.now = start, .next = true}); // the prop lies on the cross
     const RigidTransform tracker_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.3, 0.1, 0.0}};

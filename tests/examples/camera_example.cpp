@@ -1,4 +1,4 @@
-// Each frame of a camera is judged: a hand that covers the lens is told after half a second.
+// Each frame is judged. A hand that covers the lens is reported after half a second.
 #include "firmware_host/camera/camera.h"
 #include "firmware_host/camera/frame_health.h"
 

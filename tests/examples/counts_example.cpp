@@ -1,4 +1,4 @@
-// Visits become numbers: a visit of thirty seconds is counted in its hour, and under what was shown.
+// A visit of thirty seconds is counted under its hour, and under the artifact that was shown.
 #include "app/counts/day_counts.h"
 
 #include <gtest/gtest.h>

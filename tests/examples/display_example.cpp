@@ -1,5 +1,5 @@
-// A picture is drawn into the display's framebuffer, then presented; the same for a projector and for a
-// test.
+// A picture is drawn into the display's framebuffer and then presented. A projector and a test use the same
+// interface.
 #include "firmware_host/display/surfaceless_display.h"
 
 #include <gtest/gtest.h>

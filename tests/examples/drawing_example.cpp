@@ -1,4 +1,4 @@
-// Technical drawings come from the settings: a prop of 123.7 mm has that dimension on its sheet.
+// Drawings are made from the settings: a prop 123.7 mm high has that dimension on its sheet.
 #include "app/drawing/drawing.h"
 #include "app/drawing/prop_net.h"
 

@@ -1,5 +1,5 @@
-// The marks of light are compared with where they lay after the calibration; a camera's pixels become
-// metres on the table.
+// The drift marks are compared with their places right after the calibration. A shift of three pixels, one
+// millimetre each, is a drift of 3 mm.
 #include "app/drift/drift_check.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// One step takes the pressed buttons and the tracked state, and answers with what is shown, as plain
-// values.
+// A step takes the pressed buttons and the tracked state, and returns what is shown as plain values.
 #include "app/exhibit/exhibit.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A pose is named to_from, and a pinhole maps points in front of it to pixels: which pixel lights a place
-// of the table?
+// A pose is named to_from, and a pinhole maps points in front of it to pixels. Here: which pixel of the
+// projector lights a place of the table.
 #include "app/geometry/pinhole.h"
 #include "app/geometry/table_plane.h"
 #include "app/geometry/transform.h"

@@ -1,4 +1,4 @@
-// A handle owns one OpenGL object; the object is deleted with its last owner.
+// A handle owns one OpenGL object, which is deleted with its last owner.
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/gl/gl_handle.h"
 

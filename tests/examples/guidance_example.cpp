@@ -1,4 +1,4 @@
-// Where a visitor sees a face that is not lit, advise finds the one move that mends it.
+// If the visitor sees a face that is not lit, advise finds the one move that corrects it.
 #include "app/guidance/advise.h"
 #include "app/settings/settings.h"
 

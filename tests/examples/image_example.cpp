@@ -1,5 +1,4 @@
-// Pictures are plain arrays of texels; what is averaged is averaged as light, and files hold what they
-// were given.
+// A picture is an array of texels. Averages are taken in linear light, and PNG files are lossless.
 #include "app/image/image.h"
 
 #include <gtest/gtest.h>

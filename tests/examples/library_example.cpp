@@ -1,5 +1,5 @@
-// The new set from the shown one and the packs of a stick: a newer pack takes the place of the older one,
-// a new artifact comes last.
+// The new set is planned from the shown set and the packs of a stick. A newer pack replaces the older one
+// in its place, and a new artifact is appended.
 #include "app/library/set_plan.h"
 
 #include <gtest/gtest.h>

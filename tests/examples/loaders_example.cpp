@@ -1,4 +1,4 @@
-// Any artifact file becomes a source mesh; what cannot be read is one sentence with the file and the line.
+// Any artifact file becomes a source mesh. An error names the line that cannot be read.
 #include "assets_baked/bake/loaders/load_bytes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A pack is written to bytes and read back; no byte of it is used before its hash is checked.
+// A pack is written to bytes and read back. A changed byte is found by the hashes.
 #include "app/pack/pack_file.h"
 #include "tests/pack/samples.h"
 

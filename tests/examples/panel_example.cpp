@@ -1,4 +1,4 @@
-// Every panel is polled for presses; this one is operated by a script.
+// Every panel is polled for presses. A script operates this one.
 #include "firmware_host/panel/scripted_panel.h"
 
 #include <gtest/gtest.h>

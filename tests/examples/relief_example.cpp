@@ -1,5 +1,5 @@
-// Rasterizes a relief for one eye through one projector; hit_points tells which place of the artifact each
-// pixel shows.
+// A relief is rasterized for one eye and one projector. hit_points returns the place of the artifact that
+// each pixel shows.
 #include "app/relief/relief_painter.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,5 +1,4 @@
-// A frame plan is drawn into a display's framebuffer; the renderer decides nothing. Here a caption lies on
-// the table.
+// The renderer draws a frame plan into a display's framebuffer. Here a caption lies on the table.
 #include "app/render/read_back.h"
 #include "app/render/renderer.h"
 #include "app/settings/settings.h"

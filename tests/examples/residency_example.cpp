@@ -1,5 +1,5 @@
-// Decides step by step what is loaded and released so that the needed artifacts are in memory within a
-// budget.
+// One step after the other loads the needed artifacts within a budget, and releases others if they do not
+// fit.
 #include "app/residency/residency.h"
 
 #include <gtest/gtest.h>

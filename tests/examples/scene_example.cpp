@@ -1,4 +1,4 @@
-// The plan of a scene names what it needs, before anything of it is read: here one of three mesh levels.
+// The plan of a scene lists what it needs before anything is read. Here it needs one of three mesh levels.
 #include "app/scene/scene_plan.h"
 
 #include <gtest/gtest.h>

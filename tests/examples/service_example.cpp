@@ -1,4 +1,4 @@
-// The watchdog of systemd is fed while pictures change and every device thread keeps its promise.
+// systemd's watchdog is fed while pictures change and every device thread keeps its promise.
 #include "firmware_host/service/watchdog_policy.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,7 @@ TEST(RoomExample, Service) {
     // example
     using std::chrono::seconds;
     const MonotonicTime start{};
-    WatchdogPolicy policy(seconds(10),
-                          start); // systemd restarts the exhibit after ten seconds without a feed
+    WatchdogPolicy policy(seconds(10), start); // to be fed within ten seconds
     policy.presented(start + seconds(1));
     policy.read_back(start + seconds(1), {.code = std::uint8_t{7}});
     const std::array promises{start + seconds(60)}; // of one device thread

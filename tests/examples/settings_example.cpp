@@ -1,5 +1,5 @@
-// A file of settings becomes one checked struct; what it does not name has its default, and a slip is one
-// sentence with its place.
+// The settings file becomes one checked struct. A missing key has its default, and the error for a mistyped
+// key names the nearest known one.
 #include "app/settings/settings.h"
 
 #include <gtest/gtest.h>

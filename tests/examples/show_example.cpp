@@ -1,5 +1,5 @@
-// A pack's file is drawn without a screen, with the plan and the renderer of the live exhibit; hit points
-// tell where on the artifact each pixel lies.
+// The offline renderer draws a pack's file without a screen, as the live exhibit does. Hit points are the
+// places of the artifact that the pixels show.
 #include "app/show/offline_renderer.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bake/shapes.h"

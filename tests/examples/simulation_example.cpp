@@ -1,5 +1,5 @@
-// What an eye sees of the table under a given picture of the projector: here red on the left, blue on the
-// right.
+// The visitor's view is computed from a picture of the projector. Here the picture is red on the left and
+// blue on the right.
 #include "app/settings/settings.h"
 #include "app/simulation/visitor_view.h"
 

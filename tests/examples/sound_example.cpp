@@ -1,4 +1,4 @@
-// The exhibit repeats its request in every frame, and the sound reports what is heard of it.
+// The exhibit passes its request in every frame; the sound returns what has been heard of it.
 #include "firmware_host/sound/silent_sound.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The exhibit writes what it does once a second; from outside, a verdict is made of it.
+// The exhibit writes its status once a second. Other programs read it and derive a verdict.
 #include "app/status/exhibit_verdict.h"
 #include "app/status/status_report.h"
 

@@ -1,4 +1,4 @@
-// Finds the printed tags in a grey picture, with their corners in pixels.
+// The detector finds printed tags in a grey picture, and their corners in pixels.
 #include "firmware_host/tags/tag_detector.h"
 #include "firmware_host/tags/tag_picture.h"
 

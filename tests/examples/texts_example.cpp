@@ -1,5 +1,4 @@
-// A text in any script is shaped into numbered glyphs of typefaces, line by line, for each width of a
-// caption.
+// A text of any script is shaped into numbered glyphs, in lines, for each width.
 #include "assets_baked/texts/shape.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Every tracker is polled in the same way; this one simulates a visitor and needs no device.
+// Every tracker is polled in the same way. This one simulates a visitor and needs no device.
 #include "firmware_host/tracker/simulated_tracker.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Samples of a tracker go in; the pose of the prop and the place of the eye come out, for any later time.
+// The tracked state has the prop's pose and the eye's position at any time after the latest sample.
 #include "app/tracking/tracked_state.h"
 
 #include <gtest/gtest.h>

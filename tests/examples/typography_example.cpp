@@ -1,4 +1,4 @@
-// A caption finds a free place on the table beside the prop, never in the prop's shadow.
+// A caption is placed beside the prop, never in the prop's shadow.
 #include "app/typography/captions.h"
 
 #include <gtest/gtest.h>

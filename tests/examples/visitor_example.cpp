@@ -1,4 +1,4 @@
-// A dark shape before the empty room becomes a head, with its place in pixels and in metres.
+// A head is found in the foreground, and its position follows from its apparent width.
 #include "app/settings/looking_at.h"
 #include "app/visitor/head_fit.h"
 
@@ -30,6 +30,8 @@ TEST(RoomExample, Visitor) {
     ASSERT_TRUE(head);
     EXPECT_NEAR(head->width_px, 30.0, 1.5);
     EXPECT_NEAR(glm::distance(head->pixel, glm::dvec2(160.0, 80.0)), 0.0, 1.5);
+    const double away_m = glm::distance(head->middle_m, table_from_camera.translation);
+    EXPECT_NEAR(away_m, 147.0 * 0.172 / 30.0, 0.08); // a usual head is 0.172 m wide
     // end
 }
 

@@ -1,4 +1,5 @@
-// The ladder takes the mildest action that may help against a fault, waits, and takes the next one.
+// The ladder takes the mildest action that may remedy a fault, waits for its effect, and takes the next
+// one.
 #include "app/watch/ladder.h"
 
 #include <gtest/gtest.h>
