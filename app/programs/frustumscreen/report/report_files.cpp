@@ -6,6 +6,7 @@
 #include "app/status/status_document.h"
 #include "app/status/status_lines.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/run_program.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,15 @@ std::string text_or_why(Result<std::string> text) {
 Result<std::string> small_text(const std::filesystem::path& file) {
     TRY(const Bytes bytes, read_file(file, max_small_bytes));
     return std::string(as_text(bytes));
+}
+
+/// What this sees of the disk with the packs may be read-only for it alone; the watchdog's notes tell of the disk.
+std::string document_to_share(const KnownExhibit& known) {
+    auto document = nlohmann::ordered_json::parse(status_document(known));
+    if (auto& machine = document["machine"]; machine.is_object() && machine["disk"].is_object()) {
+        machine["disk"].erase("writable");
+    }
+    return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string version_text(const Environment& environment) {
@@ -62,7 +72,7 @@ std::vector<ReportFile> report_files(const ReportPlaces& places) {
     std::vector<ReportFile> files;
     files.push_back({"version.txt", version_text(known.environment)});
     files.push_back({"status.txt", status_text(known, std::time(nullptr))});
-    files.push_back({"status.json", status_document(known)});
+    files.push_back({"status.json", document_to_share(known)});
     files.push_back(
         {"settings.txt", text_or_why(small_text(places.config).and_then([](const std::string& text) {
              return settings_to_share(text);
