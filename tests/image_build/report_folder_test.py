@@ -122,6 +122,10 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         self.assertEqual(lines[-5:], ["./frustumscreen-report-2031-05-04-120000/status.txt", f"./{REQUEST}", "./mine.txt", "mine", "status"])
         self.assertIsNone(self.told())
 
+    def test_a_folder_without_a_report_goes_again(self):
+        _, _, after = self.run_in(f"touch {REQUEST}", '"$3" close stick1; cd run/frustumscreen-stick/stick1 && ls; touch no 2>/dev/null || echo read-only')
+        self.assertEqual(after.split(), [REQUEST, "read-only"])
+
     def test_the_same_second_again(self):
         _, _, after = self.run_in(f"touch {REQUEST}; mkdir frustumscreen-report-2031-05-04-120000; touch frustumscreen-report-2031-05-04-120000-2",
                                   "cat run/frustumscreen-report/stick1.name")
