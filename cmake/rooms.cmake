@@ -6,8 +6,7 @@
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
 target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
-target_compile_definitions(frustumscreen_options INTERFACE
-    GLM_FORCE_RADIANS GLM_ENABLE_EXPERIMENTAL FRUSTUMSCREEN_VERSION="${PROJECT_VERSION}")
+target_compile_definitions(frustumscreen_options INTERFACE GLM_FORCE_RADIANS GLM_ENABLE_EXPERIMENTAL)
 set(warnings -Wall -Wextra -Wpedantic -Wconversion)
 if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC warn of what is not there
     list(APPEND warnings -Werror)

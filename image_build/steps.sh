@@ -195,6 +195,7 @@ multi-user.target frustumscreen.service
 multi-user.target frustumscreen-watchdog.service
 multi-user.target frustumscreen-grow.service
 multi-user.target frustumscreen-good.timer
+multi-user.target frustumscreen-settings-proved.service
 multi-user.target frustumscreen-next-try.timer
 multi-user.target frustumscreen-no-card.timer
 boot-complete.target frustumscreen-good.service

@@ -42,18 +42,17 @@ Result<Board> board_for(const FrustumSize& prop) {
     const double in_columns = fitting(std::fmin(band.x, 2.0 * reach.y / 5.0));
     const double size = std::fmax(in_ring, in_columns);
     if (size < min_m) {
-        return fail(
-            ErrorKind::BadConfiguration, "board.prop_too_wide",
-            "the prop's bottom is {:.0f} mm wide, which leaves no room for tags on a sheet of A3; up to "
-            "{:.0f} mm are allowed",
-            1e3 * prop.base_m, 2e3 * (reach.x - beside_prop_m - rim * min_m));
+        return fail(ErrorKind::BadConfiguration, "board.prop_too_wide",
+                    "the prop's bottom is {:.0f} mm wide, which leaves no room for tags on a sheet of A3; "
+                    "allowed are at most {:.0f} mm",
+                    1e3 * prop.base_m, 2e3 * (reach.x - beside_prop_m - rim * min_m));
     }
     const double on_top = whole_mm(std::fmin(1.6 * largest_m, (prop.top_m - 2.0 * around_top_m) / rim));
     if (on_top < min_m) {
-        return fail(ErrorKind::BadConfiguration, "board.top_too_small",
-                    "the prop's top is {:.0f} mm wide, which is too small for a tag; {:.0f} mm at least "
-                    "are needed",
-                    1e3 * prop.top_m, 1e3 * (rim * min_m + 2.0 * around_top_m));
+        return fail(
+            ErrorKind::BadConfiguration, "board.top_too_small",
+            "the prop's top is {:.0f} mm wide, which is too small for a tag; allowed are at least {:.0f} mm",
+            1e3 * prop.top_m, 1e3 * (rim * min_m + 2.0 * around_top_m));
     }
     const glm::dvec2 far = reach - 0.5 * rim * size;
     Board board{prop, {}};

@@ -176,7 +176,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     TouchCalibration& table = calibration.found;
     table.table = in_table_frame(fit.model);
     if (!table.table) {
-        return refused("the light of the picture's middle does not come down on the table");
+        return refused("the light of the picture's middle does not meet the table");
     }
     if (const double off = found.fit.model.print - 1.0; std::abs(off) > max_print_off) {
         return refused(fmt::format(

@@ -211,11 +211,12 @@ void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed
     } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
         is(Verdict::Good, expected);
     } else if (!keeps(calibration, for_usable)) {
-        is(Verdict::Repeat, calibration.hidden_error_m > for_usable.hidden_m
-                                ? fmt::format("the {} agree, but are too few to check each other, and a "
-                                              "wrong one would stay unnoticed: {}",
-                                              kind.many, kind.three_more)
-                                : fmt::format("{}, which is too much: {}", expected, kind.spread));
+        is(Verdict::Repeat,
+           calibration.hidden_error_m > for_usable.hidden_m
+               ? fmt::format(
+                     "the {} agree, but are too few to check each other; a wrong one would go unnoticed: {}",
+                     kind.many, kind.three_more)
+               : fmt::format("{}, which is too much: {}", expected, kind.spread));
     } else if (found.agreement == Agreement::Scattered) {
         is(Verdict::Usable,
            fmt::format("{}; the {} scatter {:.1f} times as much as they should: is metal near, or {}?",
@@ -228,20 +229,19 @@ void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed
 std::string in_words(const Undetermined& open, const MeasuredKind& kind) {
     switch (open.what) {
     case Undetermined::What::SensorAcross:
-        return fmt::format(
-            "the prop was turned the same way in every {0}, or nearly so, which does not tell where in "
-            "it the sensor sits: turn it by a quarter from one {0} to the next",
-            kind.one);
+        return fmt::format("the prop was turned nearly the same way in every {0}, which does not tell where "
+                           "in it the sensor sits: turn it by a quarter from one {0} to the next",
+                           kind.one);
     case Undetermined::What::SensorAbove:
         return fmt::format(
             "the prop stood upright in every {0}, which does not tell the sensor's height in it from the "
-            "tracker's: give it by --sensor-height, or {1} in three of them or more",
+            "tracker's: give it with --sensor-height, or {1} in three of them or more",
             kind.one, kind.tilt);
     case Undetermined::What::Picture:
         break;
     }
-    return fmt::format("these {} leave the picture open by {:.0f} mm, whatever they agree on: spread them "
-                       "over the whole picture, half of them on a block as high as the prop",
+    return fmt::format("these {} tell the picture's place only to {:.0f} mm: spread them over the whole "
+                       "picture, half of them on a block as high as the prop",
                        kind.many, 1e3 * open.picture_m);
 }
 
@@ -330,7 +330,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);
     if (!calibration.table) {
-        return refused("the light of the picture's middle does not come down on the table");
+        return refused("the light of the picture's middle does not meet the table");
     }
     const Covariance covariance = found.scatter * found.scatter * inverse_of(found.fit.information());
     const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);

@@ -28,10 +28,9 @@ std::optional<std::string> bad_points(const Rest& rest) {
         reach = std::fmax(reach, glm::length(point.prop_m));
     }
     if (reach > largest_prop_m || reach < min_prop_m) {
-        return fmt::format(
-            "the points of rest {} reach {:.3g} m from the prop's middle: are they in millimetres "
-            "or inches? Metres are wanted",
-            rest.name, reach);
+        return fmt::format("the points of rest {} reach {:.3g} m from the prop's middle: are they in "
+                           "millimetres or inches? Allowed are metres",
+                           rest.name, reach);
     }
     return std::nullopt;
 }
@@ -40,7 +39,7 @@ std::optional<std::string> bad_points(const Rest& rest) {
 
 std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height) {
     if (rests.size() < min_rests) {
-        return fmt::format("{} rests of the prop are too few: {} at least are needed, and 16 are recommended",
+        return fmt::format("{} rests of the prop are too few: at least {} are needed, and 16 are recommended",
                            rests.size(), min_rests);
     }
     Touches places; // one per point, for the checks of pixels
@@ -78,10 +77,9 @@ std::optional<std::string> refusal_of(std::span<const Rest> rests,
     }
     const Touches standing = as_touches(rests, views);
     if (standing.size() < min_standing) {
-        return fmt::format(
-            "the prop stood on the table or on a block in {} rests, which does not tell where the "
-            "table is: {} at least are needed",
-            standing.size(), min_standing);
+        return fmt::format("the prop stood on the table or on a block in {} rests, which does not tell where "
+                           "the table is: at least {} are needed",
+                           standing.size(), min_standing);
     }
     const auto [low, high] =
         std::minmax_element(standing.begin(), standing.end(),

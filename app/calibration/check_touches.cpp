@@ -46,15 +46,15 @@ Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture, c
     }
     if (reach > farthest_m) {
         return fmt::format(
-            "the tracker's places lie {:.0f} m apart: are they in millimetres or inches? Metres are wanted",
+            "the tracker's places lie {:.0f} m apart: are they in millimetres or inches? Allowed are metres",
             reach);
     }
     if (highest > highest_block_m) {
-        return fmt::format("a block is {:.3g} m high: is that in millimetres or inches? Metres are wanted",
+        return fmt::format("a block is {:.3g} m high: is that in millimetres or inches? Allowed are metres",
                            highest);
     }
     if (pixel <= 1.5) {
-        return "the pixels are all below 1.5: are they shares of the picture? Pixels are wanted";
+        return "the pixels are all below 1.5: are they shares of the picture? Allowed are pixels";
     }
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const glm::dvec2& p = touches[k].pixel;
@@ -102,7 +102,7 @@ Refusal too_few(std::size_t count, std::string_view of, std::size_t least, std::
     if (count >= least) {
         return std::nullopt;
     }
-    return fmt::format("{} {}: {} at least are needed, and {} are recommended", count, of, least,
+    return fmt::format("{} {}: at least {} are needed, and {} are recommended", count, of, least,
                        recommended);
 }
 

@@ -183,7 +183,7 @@ std::optional<std::string> refusal_of(const Lines& lines) {
         for (const Place& place : places) {
             if (place.norm() > 50.0) {
                 return fmt::format(
-                    "a corner is {:.0f} m away: are these millimetres or inches? Metres are wanted",
+                    "a corner is {:.0f} m away: are these millimetres or inches? Allowed are metres",
                     place.norm());
             }
         }
@@ -239,8 +239,8 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     }
     const auto projector = projector_of(rays, width, height);
     if (!projector) {
-        return refused(
-            "these corners are no picture's: are two of them exchanged, or is the picture mirrored?");
+        return refused("these cannot be the corners of a picture: are two of them exchanged, or is the "
+                       "picture mirrored?");
     }
     CornerCalibration calibration;
     TouchModel model;
@@ -251,7 +251,7 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
         -(model.projector_from_tracker.rotation * glm_vector(meeting.place));
     const auto table = in_table_frame(model);
     if (!table) {
-        return refused("the light of the picture's middle does not come down on z = 0");
+        return refused("the light of the picture's middle does not meet z = 0");
     }
     calibration.table_from_projector = table->table_from_projector;
     calibration.measured_from_projector = model.projector_from_tracker.inverse();
@@ -280,9 +280,9 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     calibration.mean_residual_m /= count;
     calibration.mean_residual_px /= count;
     calibration.verdict = Verdict::Usable;
-    calibration.reason = fmt::format(
-        "the corners lie within {:.1f} mm of four rays through one point; by touch it gets better",
-        1e3 * calibration.worst_residual_m);
+    calibration.reason = fmt::format("the corners lie within {:.1f} mm of four rays through one point; a "
+                                     "calibration by touch is more exact",
+                                     1e3 * calibration.worst_residual_m);
     return calibration;
 }
 

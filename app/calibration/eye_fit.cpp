@@ -248,8 +248,7 @@ std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> l
         if (spread_rad(lines, first) < min_spread_rad) {
             return fmt::format(
                 "the head was held nearly alike in all sightings with the {} eye, which does not tell how "
-                "far "
-                "before the sensor it is: turn the head, and the chin up and down, between them",
+                "far in front of the sensor it is: between them turn the head, and move the chin up and down",
                 first == 0 ? "left" : "right");
         }
     }
@@ -320,8 +319,8 @@ void judge(EyeFit& fit) {
         fit.reason = expected + "; with more sightings it would be good";
     } else {
         fit.verdict = Verdict::Repeat;
-        fit.reason = expected +
-                     ", and a wrong sighting may stay unnoticed: make more of them, the head turned further";
+        fit.reason =
+            expected + "; a wrong sighting may go unnoticed: make more of them, with the head turned further";
     }
 }
 
@@ -337,9 +336,8 @@ EyeFit fit_eyes(std::span<const EyeSight> sights, double deep_m, const SightNois
     }
     const std::optional<std::vector<bool>> used = agreeing(lines, noise);
     if (!used) {
-        fit.reason = "the sightings contradict each other, and no one or two of them are to blame: did the "
-                     "sensor slip on the head, "
-                     "was the prop moved, or was the wrong eye shut?";
+        fit.reason = "the sightings contradict each other, and one or two wrong ones do not explain it: did "
+                     "the sensor slip on the head, was the prop moved, or was the wrong eye shut?";
         return fit;
     }
     const Solution solution = solved(lines, *used, noise);

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", 
                                                        "bottom_left"};
 constexpr std::array<std::string_view, 2> eye_names{"left", "right"};
 /// More rows than any calibration has; a larger file is not one of these.
-constexpr std::size_t max_rows = 1000;
+constexpr std::size_t max_touch_rows = 1000;
 /// Rests have a row for each of their points.
 constexpr std::size_t max_points = 50000;
 /// More than a person makes. eye_fit.cpp tries every pair, so the limit bounds its time.
@@ -36,7 +36,8 @@ constexpr std::size_t max_sights = 100;
 class PointRows {
 public:
     using Columns = std::span<const std::string_view>;
-    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = max_rows)
+    PointRows(std::string_view text, std::string_view name, Columns columns,
+              std::size_t max_rows = max_touch_rows)
         : rows_(text, name), columns_(columns), max_rows_(max_rows) {
         if (!rows_.next() ||
             !std::equal(columns.begin(), columns.end(), rows_.fields().begin(), rows_.fields().end())) {
@@ -98,8 +99,8 @@ public:
         const double length = glm::length(turn);
         if (!(std::abs(length - 1.0) <= max_rounded)) {
             refuse("points.no_rotation",
-                   "qw,qx,qy,qz are no rotation: their squares must add up to 1, and the root of that "
-                   "is {:.3g}; are these angles in degrees?",
+                   "qw,qx,qy,qz are not a rotation: their squares must add up to 1, and the root of their "
+                   "sum is {:.3g}; are these angles in degrees?",
                    length);
         }
         return {glm::normalize(turn), place(first)};
@@ -171,9 +172,10 @@ Result<Rests> parse_rests(std::string_view text, std::string_view name) {
         if (known == rests.end()) {
             rests.push_back(std::move(next));
         } else if (!is_same_place(*known, next)) {
-            rows.refuse("points.rest_moved",
-                        "rest {} has another place or block than in its first row; each rest has one",
-                        next.name);
+            rows.refuse(
+                "points.rest_moved",
+                "rest {} has another place or block than in its first row; allowed is one for each rest",
+                next.name);
         } else {
             known->points.push_back(next.points[0]);
         }

@@ -4,7 +4,7 @@
 /// three places of the prop's bottom.
 /// Noise    The tracker's error moves all residuals of a rest together. It is marginalised: instead of being
 ///          solved for, it enters the residuals' covariance, J S J^T + pixel noise. The solution is the same,
-///          with 22 unknowns for any number of rests.
+///          with rest_unknown_count unknowns for any number of rests.
 /// Weights  A weight w divides the variance of a point's pixel noise, or of a rest's tracker noise, by w.
 /// Solver   ceres::TinySolver, as in fit.h.
 /// Threads  pure; any.

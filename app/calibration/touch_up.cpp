@@ -119,7 +119,7 @@ std::string what_moved(Moved moved) {
     case Moved::Tracker:
         return "the tracker's source moved";
     default:
-        return "the projector or the tracker's source moved, which these touches do not tell apart";
+        return "the projector or the tracker's source moved (these touches do not tell which)";
     }
 }
 

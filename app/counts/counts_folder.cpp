@@ -34,8 +34,7 @@ Result<DayCounts> read_day(const fs::path& file) {
     TRY(const Bytes bytes, read_file(file, max_bytes));
     Result<DayCounts> counts = at(file.string(), parse_day_counts(as_text(bytes)));
     if (counts && file.filename() != undated_name && counts->day != day_of(file)) {
-        return bad_input("counts.other_day", "{}: its numbers are of another day than its name",
-                         file.string());
+        return bad_input("counts.other_day", "{}: its numbers are not of the day in its name", file.string());
     }
     return counts;
 }

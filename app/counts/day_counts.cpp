@@ -122,11 +122,11 @@ std::string write_day_counts(const DayCounts& counts) {
 Result<DayCounts> parse_day_counts(std::string_view text) {
     const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object() || !document.contains(mark)) {
-        return bad_input("counts.none", "this is no day of counts");
+        return bad_input("counts.none", "this is not a day's counts");
     }
     if (document.at(mark) != version) {
         return bad_input("counts.version",
-                         "these counts are of another FrustumScreen; read them with that one");
+                         "another version of FrustumScreen wrote these counts; read them with that version");
     }
     DayCounts counts;
     const auto day = document.find("day");
@@ -134,7 +134,7 @@ Result<DayCounts> parse_day_counts(std::string_view text) {
         counts.day = parse_day(day->get<std::string>());
     }
     if (day == document.end() || (!day->is_null() && !counts.day)) {
-        return damaged("their day is none");
+        return damaged("their day is not valid");
     }
     const bool has_hours = each_in(document, "hours", [&](const nlohmann::json& entry, const Tally& tally) {
         const auto hour = entry.find("hour");
@@ -147,7 +147,7 @@ Result<DayCounts> parse_day_counts(std::string_view text) {
     });
     if (!has_hours || !read_names(document, "artifacts", counts.artifacts) ||
         !read_names(document, "languages", counts.languages)) {
-        return damaged("an hour, an artifact or a language of theirs is none");
+        return damaged("an hour, an artifact or a language in them is not valid");
     }
     const std::uint64_t ms = counts.all().ms;
     if (sum_of(counts.artifacts).ms != ms || sum_of(counts.languages).ms != ms) {

@@ -38,7 +38,7 @@ double segment_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dve
     return glm::distance(p, a + t * along);
 }
 
-/// Negative inside a counter-clockwise convex polygon; elsewhere at most the distance from it.
+/// Signed distance from a counter-clockwise convex polygon: negative inside; outside, a lower bound of the distance.
 template <std::size_t count>
 double polygon_distance(const glm::dvec2& p, const std::array<glm::dvec2, count>& corners) {
     double most = -std::numeric_limits<double>::infinity();
@@ -64,7 +64,8 @@ double arrow_distance(const glm::dvec2& p, const glm::dvec2& from, const glm::dv
                      head_distance(p, to, ahead, head));
 }
 
-/// An upright prop seen from the side, its bottom's middle at `foot`, turned counter-clockwise: only its outline.
+/// The outline of an upright prop seen from the side, with the middle of its bottom at `foot`, turned
+/// counter-clockwise.
 double prop_distance(const glm::dvec2& p, const glm::dvec2& foot, double angle) {
     const glm::dvec2 from = p - foot;
     const glm::dvec2 own(std::cos(angle) * from.x + std::sin(angle) * from.y,
@@ -86,7 +87,7 @@ double sign_distance(Sign sign, const glm::dvec2& p) {
     case Sign::Arrow:
         return arrow_distance(p, {-0.036, 0.0}, {0.039, 0.0}, 0.0062, 0.028);
     case Sign::Turn: {
-        const double angle = std::atan2(p.x, -p.y); // 0 below the centre, grows to the right
+        const double angle = std::atan2(p.x, -p.y); // 0 below the centre, increasing to the right
         const double end = arc_half_angle;
         const double inside = std::clamp(angle, -end, end);
         const glm::dvec2 nearest(arc_radius_m * std::sin(inside), -arc_radius_m * std::cos(inside));
@@ -96,7 +97,7 @@ double sign_distance(Sign sign, const glm::dvec2& p) {
                          head_distance(p, tip, ahead, 1.5 * arc_head_m));
     }
     case Sign::Stand:
-        // A prop that lies, a curved way up, and the table.
+        // A lying prop, a curved arrow upwards, and the table.
         return std::fmin(std::fmin(prop_distance(p, {-0.002, -0.012}, -1.15), table_distance(p)),
                          arrow_distance(p, {0.024, 0.016}, {-0.006, 0.024}, thin, head));
     case Sign::Raise:
@@ -109,7 +110,7 @@ double sign_distance(Sign sign, const glm::dvec2& p) {
                      arrow_distance(p, {0.021, 0.022}, {0.021, -0.016}, thin, head));
 }
 
-/// The rectangle that a sign's picture covers, in its own coordinates.
+/// The rectangle of a sign's picture, in the sign's own coordinates.
 struct SignBox {
     glm::dvec2 low;
     glm::dvec2 high;
@@ -125,12 +126,12 @@ SignBox box_of(Sign sign) {
     }
 }
 
-/// Where a sign's picture lies: its own coordinates turned, scaled, mirrored and moved.
+/// The place of a sign's picture: its own coordinates turned, scaled, mirrored and moved.
 struct SignPose {
     glm::dvec2 origin_m{0.0};
     double angle = 0.0;
     double scale = 1.0;
-    bool mirrored = false; ///< left and right exchanged first
+    bool mirrored = false; ///< left and right are exchanged first
 };
 std::array<glm::dvec2, 4> corners_of(Sign sign, const SignPose& pose) {
     const SignBox box = box_of(sign);
@@ -143,7 +144,7 @@ std::array<glm::dvec2, 4> corners_of(Sign sign, const SignPose& pose) {
             at(box.low.x, box.low.y)};
 }
 
-/// How far a convex polygon reaches from a point in a direction.
+/// The reach of a convex polygon from a point in a direction.
 double reach(std::span<const glm::dvec2> polygon, const glm::dvec2& from, const glm::dvec2& ahead) {
     double farthest = 0.0;
     for (const glm::dvec2& corner : polygon) {
@@ -152,7 +153,7 @@ double reach(std::span<const glm::dvec2> polygon, const glm::dvec2& from, const 
     return farthest;
 }
 
-/// Moves the sign into the picture, where it has a little room to its edges.
+/// Moves the sign into the picture, with a margin to its edges.
 void pull_inside(std::span<const glm::dvec2> room, Sign sign, SignPose& pose) {
     for (int round = 0; round < 4; ++round) {
         for (std::size_t k = 0; k < room.size(); ++k) {
@@ -167,7 +168,7 @@ void pull_inside(std::span<const glm::dvec2> room, Sign sign, SignPose& pose) {
     }
 }
 
-/// The same for all of an arrow's way; then moves it along the way.
+/// Moves the arrow so that all of its way is inside the picture, then moves it along the way.
 void glide_inside(std::span<const glm::dvec2> room, const glm::dvec2& ahead, double phase, SignPose& pose) {
     pose.origin_m += ahead * glide_m;
     pull_inside(room, Sign::Arrow, pose);
@@ -186,7 +187,7 @@ bool clear_of(const TablePolygon& shadow, const std::array<glm::dvec2, 4>& corne
     return clearance(ordered, shadow.corners()) > 0.0;
 }
 
-/// An arrow in front of the prop, or wherever on the way there is room; else beside it.
+/// The place of an arrow: in front of the prop, or farther along the way if there is room; otherwise beside the prop.
 std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ahead, double phase,
                                     const TablePolygon& shadow, std::span<const glm::dvec2> room) {
     const glm::dvec2 aside(-ahead.y, ahead.x);
@@ -217,7 +218,7 @@ bool inside(std::span<const glm::dvec2> room, const std::array<glm::dvec2, 4>& c
     return true;
 }
 
-/// An arc around the shadow, on the reader's side if there is room.
+/// The place of an arc around the shadow, on the reader's side if there is room.
 std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise, double phase,
                                   const TablePolygon& shadow, std::span<const glm::dvec2> room,
                                   double readers_angle) {
@@ -237,7 +238,7 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
     return std::nullopt;
 }
 
-/// Beside the prop; or, with a way, where the prop should stand.
+/// The place of an icon: beside the prop; with a way, where the prop should stand.
 std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm::dvec2& way,
                                    const TablePolygon& shadow, std::span<const glm::dvec2> room,
                                    double readers_angle) {
@@ -276,7 +277,7 @@ Sign sign_of(Action action) {
     }
 }
 
-/// A visitor walks along the table's edge: to the side that is asked for, the shorter way.
+/// The direction in which a visitor walks along the table's edge to the requested side, the shorter way.
 glm::dvec2 way_round(const Guidance& guidance) {
     const glm::dvec2 eye(guidance.tracked_state.eye_m);
     const double there = 0.5 * pi * (static_cast<double>(guidance.move.side) - 1.0);

@@ -1,4 +1,4 @@
-/// Whether an artifact can be shown at once.
+/// States of an artifact: whether it can be shown at once.
 ///
 /// Threads  values; any.
 #pragma once
@@ -9,8 +9,8 @@ namespace frustumscreen {
 
 enum class ArtifactState : std::uint8_t {
     Ready,
-    Away,    ///< it comes if it is wanted
-    LeftOut, ///< it cannot be shown, and is not offered
+    Away,    ///< loaded on request
+    LeftOut, ///< cannot be shown, is not offered
 };
 
 } // namespace frustumscreen

@@ -23,8 +23,7 @@ Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTra
     if (known && fade_.goal() == Turning) {
         fade_.turn_to(Prop, now);
     } else if (!known && (never || age >= held) && fade_.goal() == Prop) {
-        // The fade begins as if a frame had come at exactly that time, but not before a fade that still goes
-        // on.
+        // The fade begins as if a frame had come at exactly that time, but not before a running fade has ended.
         const MonotonicTime due = never ? now : now - (age - held);
         turns_since_ = fade_.at(now).which == Prop ? due : turns_since_;
         fade_.turn_to(Turning, due);

@@ -1,9 +1,8 @@
-/// Where the artifact is shown while nobody knows where the prop is. It stays where it was for a while, then
-/// fades, and turns slowly at a place of its own until the prop is known again. A prop put there shows it
-/// too.
+/// The artifact's pose while the prop's pose is unknown. The artifact keeps the last pose for a while, then fades,
+/// and turns slowly at the idle place until the pose is known again. A prop that is put there shows it too.
 ///
 /// Frames   table T.
-/// Time     a closed form of the pose's age and of the time when it came back: the rhythm of frames does not
+/// Time     a closed form of the pose's age and of the time when it became known again: the rhythm of frames does not
 ///          matter. `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
@@ -21,22 +20,23 @@ struct Stand {
     RigidTransform table_from_prop; ///< the pose to draw for
     double brightness = 1.0;        ///< 0..1, a factor on linear light
     bool changing = false;          ///< brightness changes
-    bool attracts = false;          ///< the prop's own pose is not what is drawn
+    bool attracts = false;          ///< the pose drawn for is not the prop's own
 };
 
 class Attract {
 public:
-    static constexpr Nanoseconds held = std::chrono::seconds(2); ///< from the last pose that was good
-    static constexpr Nanoseconds each_way = std::chrono::milliseconds(600); ///< of the fade
+    static constexpr Nanoseconds held = std::chrono::seconds(2);            ///< since the last good pose
+    static constexpr Nanoseconds each_way = std::chrono::milliseconds(600); ///< fade out, or fade in
     static constexpr Nanoseconds turn = std::chrono::seconds(40);
 
-    /// Turns at `place_m`, on the table. `known`: it begins at the prop, else at `place_m`.
+    /// Turns at `place_m` on the table. `known`: it begins at the prop, otherwise at `place_m`.
     Attract(const glm::dvec2& place_m, bool known, MonotonicTime now);
 
-    /// `known`: the prop's pose is good; else its age counts; 0 = there was no pose yet.
+    /// `known`: the prop's pose is good. Otherwise `age` is that of the last good pose; 0 = there was none yet.
     [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
                            const RigidTransform& table_from_prop);
-    /// As of the latest `at`: nobody has known where the prop is for a while, and the picture leaves it or has left it.
+    /// True if, as of the latest `at`, the pose has been unknown for a while and the picture leaves it or has left
+    /// it.
     [[nodiscard]] bool lost() const;
 
 private:
@@ -45,8 +45,8 @@ private:
     MonotonicTime turns_since_;
 };
 
-/// What the artifact's place hides from a point. An artifact that turns at a place of its own hides the same at any angle, so
-/// that nothing beside it moves.
+/// The area that the artifact's place hides from a point. An artifact that turns at the idle place hides the same
+/// area at any angle, so that nothing beside it moves.
 [[nodiscard]] std::optional<TablePolygon> stand_hides(const PropShape& prop, const Stand& stand,
                                                       const glm::dvec3& from_m);
 

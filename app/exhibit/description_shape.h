@@ -1,4 +1,5 @@
-/// Where the portions of a description lie: all in the place of the largest, so that the text stands still while it goes on.
+/// Places of a description's portions: all lie where the largest does, so that the text does not move between
+/// portions.
 ///
 /// Frame    table T, metres.
 /// Threads  pure; any. `portion_place` allocates nothing.
@@ -15,14 +16,14 @@ namespace frustumscreen {
 /// The sizes of a description's portions.
 struct DescriptionShape {
     std::vector<std::vector<glm::dvec2>> sizes_m; ///< by portion and by width
-    std::vector<glm::dvec2> largest_m;            ///< for each width; as `largest_sizes` of them
-    bool flush_right = false;                     ///< its lines begin at the right
+    std::vector<glm::dvec2> largest_m;            ///< for each width, `largest_sizes` of them
+    bool flush_right = false;                     ///< lines begin at the right
 };
 
-/// For each width the size that holds all of them.
+/// For each width, the size that holds all portions.
 [[nodiscard]] std::vector<glm::dvec2> largest_sizes(const std::vector<std::vector<glm::dvec2>>& sizes_m);
 
-/// At the top of `whole`, where the reader begins.
+/// The portion's place at the top of `whole`, where the reader begins.
 [[nodiscard]] TableRectangle portion_place(const TableRectangle& whole, const glm::dvec2& size_m,
                                            bool flush_right);
 

@@ -39,7 +39,7 @@ std::optional<glm::dvec2> standing_place(const PropShape& prop, const RigidTrans
 DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
                          std::span<const TableRectangle> pictures, bool at_once) {
     const bool followed = at_m && last_ && now - *last_ < longest_gap;
-    // On a picture's edge a trembling hand is now on it and now beside it.
+    // On a picture's edge a trembling hand alternates between on and off the picture.
     const bool rests = followed && rest_ && rest_->place < pictures.size() &&
                        holds(pictures[rest_->place], *at_m, leaving_m) &&
                        glm::distance(*at_m, rest_->anchor_m) < resting_m;
@@ -86,7 +86,7 @@ double Dwell::Rest::full(MonotonicTime now) const {
     return settled ? ramp(to_seconds(now - since - settles), to_seconds(fills)) : 0.0;
 }
 
-/// A ring that was filling empties from where it is.
+/// Empties a filling ring from its current share.
 void Dwell::stop(MonotonicTime now) {
     if (rest_ && rest_->settled) {
         left_ = Left{rest_->place, now, rest_->full(now)};

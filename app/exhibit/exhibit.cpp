@@ -19,7 +19,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
                            const TrackedState& tracked_state) {
     const bool pressed =
         std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
-    // Who is told something is there, also without moving.
+    // A visitor who is being told something is present, even without moving.
     const bool narration_sequencer = tells();
     there_ = presence_.update(now, tracked_state, pressed || narration_sequencer);
     const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
@@ -149,7 +149,7 @@ Observed Exhibit::observe(MonotonicTime now, const TrackedState& tracked_state, 
     return seen;
 }
 
-/// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
+/// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
 void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
                          Observed& seen) {
     if (!table_) {
@@ -170,7 +170,7 @@ void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, c
     const std::optional<std::size_t> chosen = table_->step(now, input);
     seen.prop_rests = table_->presented().ring.has_value();
     seen.artifact_chosen = chosen.has_value();
-    if (chosen && state_ != State::Attract) { // there a prop that stands on a picture is nobody's wish
+    if (chosen && state_ != State::Attract) { // in Attract, no visitor has chosen it
         selection_.choose(*chosen, now);
     }
     choose_ = choose_ && !table_->chose();
@@ -189,7 +189,7 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const TrackedState& track
         return nullptr;
     }
     if (table_ && table_->prop_is_on_picture()) {
-        guide_->rest(now); // what is being chosen is no mistake
+        guide_->rest(now); // a prop that chooses a picture needs no advice
         return nullptr;
     }
     const std::size_t shown = selection_.at(now).artifact;
@@ -201,7 +201,7 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const TrackedState& track
         guide_->rest(now);
         return nullptr;
     }
-    // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
+    // A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
     const bool may_speak =
         (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
     const Guidance& guidance =
@@ -210,8 +210,8 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const TrackedState& track
     return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
-/// Who slides the prop among pictures is on the way to one, and back: advice that does not lie there yet waits until the prop
-/// stands, or is moved about for long.
+/// True while the prop slides between pictures, on the way to one and back: new advice waits until the prop stands,
+/// or has been moving for long.
 bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
     constexpr Nanoseconds longest_way = std::chrono::seconds(4);
     if (!presence_.prop_moves(now)) {

@@ -1,16 +1,16 @@
-/// Decides what the exhibit shows, from what was pressed and from where the prop and the eye are.
+/// Decides what the exhibit shows, from the pressed buttons and the poses of prop and eye.
 ///
 ///     commands, situation -> step -> events -> state -> Presentation
 ///
 /// A Presentation is plain values: the code that draws, lights lamps or reports needs nothing else.
 ///
-/// States   app/exhibit/states.h has them all; what is said, and where, follows from the state.
-/// Rest     after `ExhibitPlace::rest` without anybody the artifacts come in turn, in the house's language. The first touch ends
-///          it, and the artifact on show stays.
-/// Staff    Command::StaffMode shows the staff's picture, and ends it; what buttons do there, and when it goes by itself, is
-///          staff_tool.h's. Presses take effect at once, since a visitor's must. If they turn out to be the beginning of the
-///          staff's chord they are undone, so the picture leaves no trace. The staff may ask there for the table's calibration;
-///          whoever runs the exhibit sees to it, or not.
+/// States   all are in app/exhibit/states.h; the state determines what is said and where.
+/// Rest     after `ExhibitPlace::rest` without a visitor, the artifacts are shown in turn, in the house's language.
+///          The first touch ends this, and the artifact on show stays.
+/// Staff    Command::StaffMode shows and ends the staff picture; its buttons and its time limit are in staff_tool.h.
+///          Presses take effect at once, as a visitor's must. Presses that turn out to begin the staff's chord are
+///          undone, so the staff picture leaves no trace. The staff may ask there for the table's calibration; the
+///          program that runs the exhibit starts it, or does not.
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -52,18 +52,18 @@ namespace frustumscreen {
 
 /// An artifact that can be shown.
 struct CatalogueEntry {
-    std::vector<std::string> languages; ///< of its captions, BCP 47
-    /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, and again without its attribution
-    /// where it has one; in falling preference.
+    std::vector<std::string> languages; ///< of the captions, BCP 47
+    /// For each of `languages`, the caption's sizes: one for each width that it was wrapped to, and again without its
+    /// attribution if it has one; in falling preference.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
-    /// For each of `languages` what there is to tell, and how large it is; none: there is nothing.
+    /// For each of `languages`, what there is to tell, and its size; empty: nothing.
     std::vector<Tellable> tellables{};
     std::vector<DescriptionShape> descriptions{};
     HotspotSet hotspots{};
-    /// The artifact in the prop, by the corners of its hull (pack/pack_hull.h), prop frame; none: it is not known, and every seen
-    /// face counts.
+    /// The corners of the hull of the artifact in the prop (pack/pack_hull.h), prop frame; empty: unknown, and every
+    /// face in view counts.
     std::vector<glm::dvec3> hull{};
-    std::optional<ZoneFrame> zone{}; ///< where it is seen whole; none: the place's
+    std::optional<ZoneFrame> zone{}; ///< where the artifact is seen whole; none: the place's zone
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
@@ -71,18 +71,18 @@ using Catalogue = std::vector<CatalogueEntry>;
 struct ExhibitPlace {
     PropShape prop;
     glm::dvec3 lens_m{0.0};            ///< the projector's
-    std::vector<glm::dvec2> picture_m; ///< what the projector's picture covers of the table, convex
-    ZoneFrame zone;                    ///< by default there is none
-    glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while nobody knows where the prop is
+    std::vector<glm::dvec2> picture_m; ///< the part of the table that the projector's picture covers, convex
+    ZoneFrame zone;                    ///< none by default
+    glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while the prop's pose is unknown
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
-    std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
-    std::vector<AdviceLanguage> words;            ///< none: guidance has no words
+    std::optional<GuidanceSetup> guidance;        ///< none: no guidance
+    std::vector<AdviceLanguage> words;            ///< empty: guidance has no words
     bool staff_stays = false;                     ///< there is no calibration: as StaffTool
-    bool table_pictures = false;                  ///< the set's artifacts lie on the table, to choose from
-    Nanoseconds rest = std::chrono::seconds(60);  ///< nobody has been there for so long: attract
+    bool table_pictures = false;                  ///< the set's artifacts lie on the table to choose from
+    Nanoseconds rest = std::chrono::seconds(60);  ///< time without a visitor before State::Attract
 };
 
-/// What lies on the table to choose from; nothing where the place has no such pictures. Takes some tens of milliseconds.
+/// The pictures on the table to choose from; nothing if the place has none. Takes some tens of milliseconds.
 [[nodiscard]] std::optional<TableBrowser> lay_out_catalogue(const Catalogue& catalogue,
                                                             const ExhibitPlace& place);
 
@@ -91,12 +91,12 @@ struct PresentedCaption {
     std::size_t shape = 0;    ///< index into its sizes
     TableRectangle rectangle;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
-    /// Of the description, which is shown in place of the short text.
+    /// The portion of the description that is shown in place of the short text.
     std::optional<std::size_t> portion = std::nullopt;
 };
 
-/// Artifacts that a visitor may see next, the most urgent first: the chosen one, the one that is rested on, the next, the
-/// previous. Some may be the same.
+/// Artifacts that a visitor may see next, most urgent first: the chosen one, the one whose picture the prop rests on,
+/// the next, the previous. Some may be equal.
 class WantedArtifacts {
 public:
     void add(std::size_t artifact) { artifacts_.at(count_++) = artifact; }
@@ -111,91 +111,92 @@ private:
 
 struct Presentation {
     State state = State::Attract;
-    State state_before = State::Attract; ///< the latest other one
+    State state_before = State::Attract; ///< the latest state other than `state`
     std::size_t artifact = 0;            ///< index into the catalogue
-    double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 while it is not ready
+    double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
     WantedArtifacts wanted;  ///< to load ahead
-    std::optional<PresentedStandIn> placeholder; ///< in the place of the chosen artifact, until that is ready
-    std::string_view language;        ///< of the caption, shown or not; valid as long as the exhibit
+    std::optional<PresentedPlaceholder> placeholder; ///< in place of the chosen artifact until that is ready
+    std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign;             ///< what the visitor should do
-    std::optional<PresentedAdvice> advice;      ///< the same in words; an invitation; why nothing is shown
-    std::optional<WordIndex> says;              ///< what begins to be spoken at this step
-    bool falls_silent = false;                  ///< what was spoken of it holds no more
-    std::optional<WordIndex> prepares_word;     ///< what may be spoken next; none while the set leaves
-    std::optional<DescriptionIndex> tells;      ///< whose description is to be heard, from its beginning on
-    bool leaves = false;                        ///< what it told before ends at its next pause, else at once
-    std::optional<DescriptionIndex> prepares;   ///< whose description may be heard next
-    std::optional<std::size_t> tells_of;        ///< the hotspot that is pointed out, seen or not
-    std::optional<PresentedHotspot> hotspot;    ///< its label
-    const PresentedTable* table = nullptr;      ///< what lies there to choose from; valid until the next step
-    std::string_view table_language;            ///< of its titles; valid as long as the exhibit
-    double set_share = 1.0;                     ///< of the table's pictures: 0..1, the same
-    double title_brightness = 1.0;              ///< of its titles: 0..1, a factor on linear light
-    std::optional<PresentedNotice> notice;      ///< what is told of a stick; the exhibit leaves it out
+    std::optional<PlacedSign> sign;           ///< advice as a picture
+    std::optional<PresentedAdvice> advice;    ///< advice in words; an invitation; why nothing is shown
+    std::optional<WordIndex> says;            ///< sentence whose speech begins in this step
+    bool falls_silent = false;                ///< the sentence being spoken does not apply any more
+    std::optional<WordIndex> prepares_word;   ///< sentence that may be spoken next; none while the set leaves
+    std::optional<DescriptionIndex> tells;    ///< description to be heard, from its beginning
+    bool leaves = false;                      ///< the description before ends at its next pause, else at once
+    std::optional<DescriptionIndex> prepares; ///< description that may be heard next
+    std::optional<std::size_t> tells_of;      ///< the hotspot pointed out, visible or not
+    std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
+    const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
+    std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit
+    double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light
+    double title_brightness = 1.0;            ///< of the table's titles: 0..1, a factor on linear light
+    std::optional<PresentedNotice> notice;    ///< notice about a stick; not set by the exhibit
     std::array<TableRectangle, 4> zone_sides{}; ///< of the frame around the zone
-    double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
+    double zone_share = 0.0;        ///< of the frame around the zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
-    bool attracts = false;          ///< the prop's own pose is not what is drawn
+    bool attracts = false;          ///< the pose drawn for is not the prop's own
     bool settled = true;            ///< nothing fades: a good moment for a picture
-    bool staff = false;             ///< State::Staff: the staff's picture is shown instead
-    StaffView staff_view;           ///< then, what it shows
-    std::uint32_t staff_tones = 0;  ///< how often the staff have asked for the test tone
-    int louder_db = 0;              ///< than the settings say
-    bool calibrate = false;         ///< in this step the staff asked for it
-    std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
+    bool staff = false;             ///< State::Staff: the staff picture is shown instead
+    StaffView staff_view;           ///< what the staff picture shows
+    std::uint32_t staff_tones = 0;  ///< number of test tones asked for by the staff
+    int louder_db = 0;              ///< relative to the settings' volume
+    bool calibrate = false;         ///< the staff asked for calibration in this step
+    std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
 };
 
 class Exhibit {
 public:
-    /// Of an artifact, while they come in turn.
+    /// How long each artifact is shown while they come in turn.
     static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
-    /// Of another set, for somebody who is being told something.
+    /// How long another set waits for a visitor who is being told something.
     static constexpr Nanoseconds longest_wait = std::chrono::seconds(20);
 
     /// Begins in State::Attract with the first artifact, and with the caption that `caption_for` chooses for `language`.
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
 
-    /// `commands`: those since the step before, in their order.
+    /// `commands`: those since the previous step, in order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
                                     const TrackedState& tracked_state);
-    /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
+    /// Sets the state of each artifact; before the first call all are ready. An empty list changes nothing.
     void note(std::span<const ArtifactState> states);
-    /// This press did something else, which the exhibit knows nothing of: no chord undoes it.
+    /// The press did something else that the exhibit does not know of: no chord undoes it.
     void forget_press(Command command) { selected_.at(static_cast<std::size_t>(button_of(command))) = false; }
-    /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
+    /// Sets the triangles that hide the hotspots of the artifact on show, which need not be loaded; those of other
+    /// artifacts are dropped.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
-    /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
+    /// `speaking`: something is being spoken, so no spoken advice begins. `narration`: of the description being told.
     void hear(bool speaking, const SpeechProgress& narration = {});
-    /// Another set of artifacts comes, and can be shown now or not. When it suits who is there, all that belongs to this set fades
-    /// out: in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`,
-    /// which begins when the other set is ready for the first time.
+    /// Announces another set of artifacts; `ready`: it can be shown. When it does not disturb the visitor, everything
+    /// of this set fades out: in State::Attract with the next turn; while something is told, spoken or chosen,
+    /// afterwards, or after `longest_wait`, which begins when the other set is first ready.
     void await_set(bool ready) { set_is_ready_ = ready; }
-    /// It does not come any more.
+    /// Withdraws the announced set.
     void await_no_set() {
         set_is_ready_ = false;
         set_waits_since_.reset();
     }
-    /// All of this set fades out, or is dark.
+    /// True if everything of this set fades out or is dark.
     [[nodiscard]] bool leaves_set() const { return set_leaves_since_.has_value(); }
-    /// All of it is dark, and stays dark.
+    /// True if everything of this set is dark; it stays dark.
     [[nodiscard]] bool set_has_left() const { return set_left_; }
-    /// The other set takes its place: `artifact` fades in, in the language that was chosen, if the set has it, and in the state in
-    /// which everything was. `table`: lay_out_catalogue of it. Returns what was shown before. Not for a frame that is being
+    /// Replaces the set. `artifact` fades in, in the chosen language if the set has it, and the state is kept.
+    /// `table`: lay_out_catalogue of the new catalogue. Returns the previous catalogue. Not for a frame that is being
     /// presented.
     [[nodiscard]] Catalogue show_set(Catalogue catalogue, std::optional<TableBrowser> table,
                                      std::vector<AdviceLanguage> words, std::size_t artifact,
                                      MonotonicTime now);
-    /// When the prop moved last, something was pressed or told; nothing: never.
+    /// The time when the prop last moved, or something was pressed or told; nothing: never.
     [[nodiscard]] const std::optional<MonotonicTime>& used() const { return presence_.touched(); }
     /// The chosen artifact; it may not be visible yet.
     [[nodiscard]] std::size_t chosen() const { return selection_.artifact(); }
     /// The chosen language.
     [[nodiscard]] const std::string& language() const { return selection_.language(); }
-    /// The volume that the staff chose before, in place of the settings'.
+    /// Sets the volume that the staff chose earlier, in place of the settings'.
     void set_louder_db(int louder_db) { staff_.set_louder_db(louder_db); }
-    /// Ends the staff's mode early: there is no picture to show.
+    /// Ends the staff mode early, when there is no picture to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 
 private:
@@ -205,27 +206,27 @@ private:
     void offer_what_can_be_shown(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
     void go_to(State state, MonotonicTime now);
-    /// The visitor has gone.
+    /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
     [[nodiscard]] Observed observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand);
     void step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand, Observed& seen);
-    /// Nothing where nobody is there, or there is nothing to mend.
+    /// Nothing if no visitor is present or there is nothing to correct.
     [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const TrackedState& tracked_state,
                                              const Stand& stand);
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
     [[nodiscard]] const ZoneFrame& zone_of(std::size_t artifact) const;
-    /// Something of the artifact is being told.
+    /// True while something of the artifact is being told.
     [[nodiscard]] bool tells() const;
 
-    // Of another set: exhibit_set.cpp.
+    // Change of the set: exhibit_set.cpp.
     [[nodiscard]] static Selection make_selection(const Catalogue& catalogue, const std::string& language,
                                                   MonotonicTime now);
     void follow_set(MonotonicTime now);
     [[nodiscard]] bool may_leave_set(MonotonicTime now) const;
     void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;
 
-    // What is shown in the state that it is in: exhibit_shows.cpp.
-    /// Behind the staff's picture all goes on but what is told.
+    // The contents of the presentation, by state: exhibit_shows.cpp.
+    /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const TrackedState& tracked_state,
                                        const Stand& stand, bool pressed);
@@ -244,7 +245,7 @@ private:
     void tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown, const Stand& stand,
               bool pressed, Presentation& presentation);
     [[nodiscard]] DescriptionIndex description_of(std::size_t artifact, std::string_view language) const;
-    /// None: there is nothing to tell.
+    /// Null: there is nothing to tell.
     [[nodiscard]] const Tellable* tellable(const DescriptionIndex& description) const;
     [[nodiscard]] std::uint32_t lamps() const;
 
@@ -253,7 +254,7 @@ private:
     std::string house_language_;
     Selection selection_;
     std::vector<ArtifactState> ready_;
-    std::vector<bool> offered_;    ///< by artifact: selection and table offer it
+    std::vector<bool> offered_;    ///< by artifact: offered by selection and table
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
     Placeholder placeholder_;
     State state_ = State::Attract;
@@ -266,27 +267,27 @@ private:
     Sensed sensed_;
     std::optional<Guide> guide_;
     const Guidance* guidance_ = nullptr;     ///< of this step
-    std::optional<MonotonicTime> way_since_; ///< the prop moves
+    std::optional<MonotonicTime> way_since_; ///< since when the prop has been moving
     std::optional<PlacedSign> sign_;         ///< of the latest step
     Sentences sentences_;
-    bool speaking_ = false;           ///< somebody hears something
-    bool speech_due_ = false;         ///< until the words lie on the table
-    std::optional<WordIndex> spoken_; ///< what they may still hear
-    VisitorSide side_;                ///< what lies on the table is turned to it
+    bool speaking_ = false;           ///< speech is heard
+    bool speech_due_ = false;         ///< until the words are visible on the table
+    std::optional<WordIndex> spoken_; ///< the sentence that may still be heard
+    VisitorSide side_;                ///< the texts on the table are turned to this side
     SpeechProgress narration_;
     Narrator narrator_;
-    bool choose_ = false;       ///< pressed, and not taken yet
-    bool help_ = false;         ///< the same
-    bool answer_comes_ = false; ///< advice for who pressed it is being looked for
-    bool there_ = false;        ///< somebody is
+    bool choose_ = false;       ///< pressed, not handled yet
+    bool help_ = false;         ///< as `choose_`
+    bool answer_comes_ = false; ///< advice for the visitor who pressed it is being searched
+    bool there_ = false;        ///< a visitor is present
     std::optional<TableBrowser> table_;
     CaptionPlacer placer_;
     HotspotLabels labels_;
-    bool waits_ = false; ///< the artifact is still to come, as the latest step showed it
+    bool waits_ = false; ///< the artifact was not ready in the latest step
     bool set_is_ready_ = false;
     bool set_left_ = false;
     std::optional<MonotonicTime> set_waits_since_, set_leaves_since_;
-    const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
+    const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has been given
     /// By button: its latest press reached the selection.
     std::array<bool, button_commands.size()> selected_{};
 };

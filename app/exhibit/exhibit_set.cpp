@@ -1,4 +1,4 @@
-// How the exhibit takes another set of artifacts.
+// Change to another set of artifacts.
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/languages.h"
 #include "app/geometry/time_curves.h"
@@ -21,7 +21,7 @@ std::vector<std::string> languages_of(const Catalogue& catalogue) {
     return languages;
 }
 
-/// The sizes of one text for as many shapes: again and again those that it has.
+/// The sizes of one text for `shapes` shapes: its own sizes, repeated.
 std::vector<glm::dvec2> repeated(const std::vector<glm::dvec2>& sizes_m, std::size_t shapes) {
     std::vector<glm::dvec2> all;
     for (std::size_t k = 0; k < shapes && !sizes_m.empty(); ++k) {
@@ -30,7 +30,7 @@ std::vector<glm::dvec2> repeated(const std::vector<glm::dvec2>& sizes_m, std::si
     return all;
 }
 
-/// For each of the shapes that captions have, the size that holds them all. Texts without an attribution, descriptions among them,
+/// For each shape of a caption, the size that holds all captions. Texts without an attribution, and descriptions,
 /// have fewer shapes, for the same widths.
 std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
     std::vector<std::vector<glm::dvec2>> all;
@@ -68,13 +68,13 @@ std::optional<TableBrowser> lay_out_catalogue(const Catalogue& catalogue, const 
                          .captions_m = sizes_of_all_captions(catalogue)});
 }
 
-/// Whoever waits for it is told of nothing new meanwhile: what begins later does not put it off for ever.
+/// Nothing new is told while a set waits, so narration delays the change only for a limited time.
 bool Exhibit::may_leave_set(MonotonicTime now) const {
     if (state_ == State::Staff || state_ == State::Fault) {
         return true;
     }
     if (selection_.at(now).changing || waits_) {
-        return false; // between two artifacts, not in the middle of a change
+        return false; // wait until a change between two artifacts has ended
     }
     if (state_ == State::Attract) {
         return now >= next_turn_;
@@ -85,7 +85,7 @@ bool Exhibit::may_leave_set(MonotonicTime now) const {
 
 void Exhibit::follow_set(MonotonicTime now) {
     if (set_is_ready_ && !set_waits_since_) {
-        set_waits_since_ = now; // it is kept while what is chosen in the meantime is loaded of the other set
+        set_waits_since_ = now; // kept while the other set loads an artifact that was chosen meanwhile
     }
     if (set_is_ready_ && !leaves_set() && may_leave_set(now)) {
         set_leaves_since_ = now;
@@ -105,7 +105,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
         if (part && share > 0.0) {
             part->brightness *= share;
         } else {
-            part.reset(); // what is dark is not presented
+            part.reset(); // a dark part is not presented
         }
     };
     dim(presentation.placeholder);
@@ -116,11 +116,11 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
 
 Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> table,
                             std::vector<AdviceLanguage> words, std::size_t artifact, MonotonicTime now) {
-    // Who chose no language has the house's, and another set may have a nearer one.
+    // Without a chosen language the house's applies, and another set may have a nearer one.
     const std::string chosen = selection_.is_at_first_language() ? house_language_ : selection_.language();
     Catalogue before = std::exchange(catalogue_, std::move(catalogue));
     if (guide_) {
-        guide_->show({}); // what it was shown goes
+        guide_->show({}); // drops its pointer to the old catalogue
     }
     selection_ = make_selection(catalogue_, house_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_);

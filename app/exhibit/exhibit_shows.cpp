@@ -1,4 +1,4 @@
-// What the exhibit shows and says in the state that it is in.
+// The contents of the presentation, by the exhibit's state.
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/languages.h"
 
@@ -26,14 +26,14 @@ Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_sta
     tell(now, tracked_state, shown, stand, pressed, presentation);
     presentation.caption = caption(now, shown, tracked_state, stand);
     if (presentation.caption && presentation.advice) {
-        // One text at a time, or the two would lie on each other.
+        // Only one text at a time, so that the two do not overlap.
         presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
     presentation.hotspot = label(now, shown, tracked_state, stand, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
-    // Pictures invite out of the zone, and its frame would cross them.
+    // Table pictures invite the prop out of the zone, and the zone's frame would cross them.
     const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
     const ZoneFrame& zone = zone_of(shown.artifact);
     presentation.zone_sides = zone.sides();
@@ -79,7 +79,7 @@ WantedArtifacts Exhibit::wanted() const {
 
 namespace {
 
-/// Where a standing artifact is seen in the prop: as large as the prop is high, on the reader's half.
+/// The area of a standing artifact in the prop: as large as the prop is high, on the reader's half.
 TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_prop, int quarter_turns) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-low);
@@ -151,7 +151,8 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     return caption;
 }
 
-/// Beside the pictures and the caption; without words of advice, which say what to do first.
+/// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
+/// priority.
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
                                                const TrackedState& tracked_state, const Stand& stand,
                                                const Presentation& presentation) {
@@ -219,17 +220,17 @@ void Exhibit::tell(MonotonicTime now, const TrackedState& tracked_state, const S
     }
 }
 
-/// The sentence that this state has on the table, in the visitor's language.
+/// The current state's sentence on the table, in the visitor's language.
 std::optional<WordIndex> Exhibit::word() const {
     if (leaves_set()) {
-        return std::nullopt; // another set has other words
+        return std::nullopt; // another set has other texts
     }
     switch (note_of(state_).words) {
     case Words::Invitation:
         return sentences_.find("attract_line", selection_.language());
     case Words::Fault:
         return sentences_.find("fault.no_artifact", selection_.language());
-    case Words::Advice: // once it is more than a sign
+    case Words::Advice: // from the stage at which advice has words
         return guidance_ != nullptr && guidance_->stage >= GuidanceStage::Text
                    ? sentences_.find(words_key(*guidance_), selection_.language())
                    : std::nullopt;
@@ -266,7 +267,7 @@ void Exhibit::present_words(MonotonicTime now, const TrackedState& tracked_state
     speak(now, wanted, presentation);
 }
 
-/// Nothing is heard whose words do not lie on the table: what is due waits for them.
+/// Speech waits until its words are visible on the table.
 void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation) {
     if (spoken_ && spoken_ != word) {
         spoken_.reset();
@@ -281,7 +282,7 @@ void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Pre
     }
 }
 
-/// The language of the artifact's caption; without captions the chosen one.
+/// The language of the artifact's caption; without captions, the chosen language.
 std::string_view Exhibit::language_of(std::size_t artifact) const {
     if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
         return selection_.language();
@@ -292,7 +293,7 @@ std::string_view Exhibit::language_of(std::size_t artifact) const {
 
 std::uint32_t Exhibit::lamps() const {
     if (state_ == State::Staff) {
-        return (1U << place_.buttons) - 1U; // each of them is tested, and its lamp
+        return (1U << place_.buttons) - 1U; // each button and its lamp is tested
     }
     std::uint32_t lamps = 0;
     for (std::size_t button = 0; button < button_commands.size(); ++button) {

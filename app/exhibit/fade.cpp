@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 void Fade::change_to(std::size_t which, MonotonicTime now, MonotonicTime begin) {
     if (now < out_ && which == from_) {
-        to_ = from_; // the change had not begun: what fades in stays
+        to_ = from_; // the change had not begun: the current one stays
         out_ = in_ - each_way_;
     } else if (now < dark()) {
         to_ = which;
@@ -24,10 +24,10 @@ void Fade::turn_to(std::size_t which, MonotonicTime now) {
     const Nanoseconds elapsed = now - out_;
     if (elapsed >= each_way_) {
         from_ = std::exchange(to_, which);
-        // A fade-in that is not over turns round at the brightness it has reached.
+        // An unfinished fade-in reverses at the brightness that it has reached.
         out_ = now < ends() ? now - (ends() - now) : now;
     } else if (which == from_ && to_ != from_) {
-        to_ = from_; // still fading out, and wanted again: fade in from here
+        to_ = from_; // fading out, but wanted again: fade in from here
         out_ = now - (ends() - now);
     } else {
         to_ = which; // still fading out: only the goal changes

@@ -25,15 +25,14 @@ public:
     Fade(std::size_t which, Nanoseconds each_way, MonotonicTime now)
         : each_way_(each_way), from_(which), to_(which), in_(now), out_(now - each_way) {}
 
-    /// Begins at `begin`, or later: a fade-in is finished first, so changes are at least twice `each_way`
-    /// apart, however often they are asked for. During a fade-out only the goal changes. A `begin` before
-    /// `now` acts as if the change had been asked for then.
+    /// Begins at `begin` or later: a fade-in is finished first, so changes are at least twice `each_way` apart,
+    /// however often they are requested. During a fade-out only the goal changes. A `begin` before `now` acts as if
+    /// the change had been requested at that time.
     void change_to(std::size_t which, MonotonicTime now, MonotonicTime begin);
-    /// Begins at once: a fade that is not over turns round at the brightness that it has reached. Use it for
-    /// changes that are rare.
+    /// Begins at once: a running fade reverses at the brightness that it has reached. Use it only for rare changes.
     void turn_to(std::size_t which, MonotonicTime now);
     [[nodiscard]] Faded at(MonotonicTime now) const;
-    /// What it fades to, or already shows.
+    /// The thing that it fades to or already shows.
     [[nodiscard]] std::size_t goal() const { return to_; }
 
     /// When the latest change begins; it may lie in the future.

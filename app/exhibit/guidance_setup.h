@@ -1,4 +1,4 @@
-/// What guidance needs of the settings.
+/// The guidance set-up, from the settings.
 ///
 /// Threads  pure; any.
 #pragma once

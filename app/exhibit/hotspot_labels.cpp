@@ -12,9 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// Cosine between the surface's normal and the way to the eye, from which on a label is as bright as can be.
+/// Cosine between the surface's normal and the direction to the eye, above which a label has full brightness.
 constexpr double facing = 0.12;
-/// As far as any table goes on behind a caption.
+/// More than any table extends behind a caption.
 constexpr double behind_caption_m = 0.4;
 
 Occluder occluder_of(const HotspotSet& set) {
@@ -24,14 +24,14 @@ Occluder occluder_of(const HotspotSet& set) {
     return artifact;
 }
 
-/// 0 where the point is turned away.
+/// 0 if the point faces away.
 double brightness_facing(const Hotspot& hotspot, const glm::dvec3& eye_m) {
     const glm::dvec3 to_eye = eye_m - hotspot.point_m;
     const double distance = glm::length(to_eye);
     return distance > 0.0 ? ease(glm::dot(to_eye, hotspot.normal) / distance / facing) : 0.0;
 }
 
-/// Where the eye sees a point of the table's own plane behind the hotspot; the hotspot's own place if it sees none.
+/// The point of the table's plane that the eye sees behind the hotspot; the hotspot's own place if the eye is too low.
 glm::dvec2 seen_on_table(const glm::dvec3& point_m, const glm::dvec3& eye_m) {
     if (!(point_m.z < 0.99 * eye_m.z)) {
         return point_m;
@@ -69,7 +69,8 @@ void HotspotLabels::turn_to(const std::optional<Key>& key, const Input& input) {
                            : std::span<const glm::dvec2>());
 }
 
-/// No line leads past a caption to what lies behind it, seen from the prop: there the label has no place either.
+/// Excludes the area behind the caption, seen from the prop: no line leads past a caption, so a label has no place
+/// there.
 void HotspotLabels::keep_clear(const Input& input) {
     std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = std::min(input.obstacles.size(), obstacles.size() - 1);
@@ -92,7 +93,7 @@ std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Inp
     const double passed = last_ ? to_seconds(now - *last_) / to_seconds(each_way) : 0.0;
     last_ = now;
     const std::optional<Key> goal = wanted(input);
-    // Another artifact fades in with its own brightness, so nothing of the one before needs to fade out.
+    // Another artifact fades in with its own brightness, so the old label need not fade out.
     const bool other_artifact = key_ && input.artifact != key_->artifact;
     if (goal != key_ && (presence_ <= 0.0 || other_artifact)) {
         presence_ = 0.0;

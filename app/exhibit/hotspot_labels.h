@@ -1,12 +1,12 @@
-/// The label of a hotspot: where it lies beside the prop, the line that leads to it, and how bright both are.
+/// The label of a hotspot: its place beside the prop, the line that leads to it, and the brightness of both.
 ///
-/// One hotspot at a time. It is dark where its point is turned away from the eye, exactly; where another part of the artifact
-/// hides it or it is not lit, it fades, and so it does when another hotspot is shown.
+/// Shows one hotspot at a time. The label is dark exactly where the hotspot's point faces away from the eye. It fades
+/// where another part of the artifact hides the point, where the point is not lit, and when another hotspot is shown.
 ///
 /// Frames   as named; metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: a label without room, and one to which no line leads, is not shown.
+/// Errors   none: a label without room, or without a way for its line, is not shown.
 #pragma once
 
 #include "app/exhibit/leader_line.h"
@@ -28,20 +28,20 @@ namespace frustumscreen {
 
 struct LabelledHotspot {
     Hotspot at; ///< prop frame
-    /// By CatalogueEntry::languages; without height where there is no label in a language.
+    /// By CatalogueEntry::languages; the height is 0 if there is no label in a language.
     std::vector<glm::dvec2> label_sizes_m;
 };
 
-/// What hides an artifact's points.
+/// The surface that hides an artifact's points.
 struct ArtifactTriangles {
-    std::shared_ptr<const TriangleTree> tree; ///< in the box frame (pack.h); none: it hides nothing
+    std::shared_ptr<const TriangleTree> tree; ///< in the box frame (pack.h); none: nothing is hidden
     double tolerance_m = 0.0;                 ///< at least the triangles' error
 };
 
-/// Of one artifact.
+/// The hotspots of one artifact.
 struct HotspotSet {
     std::vector<LabelledHotspot> hotspots;
-    ArtifactTriangles triangles; ///< while the artifact is there
+    ArtifactTriangles triangles; ///< set while the artifact is loaded
     double metres_per_box = 1.0;
 };
 
@@ -56,7 +56,7 @@ struct PresentedHotspot {
 
 class HotspotLabels {
 public:
-    static constexpr Nanoseconds each_way = std::chrono::milliseconds(200); ///< of a fade
+    static constexpr Nanoseconds each_way = std::chrono::milliseconds(200); ///< fade out, or fade in
 
     explicit HotspotLabels(std::span<const glm::dvec2> room) : placer_(room) {}
 
@@ -65,17 +65,17 @@ public:
         std::size_t artifact = 0;
         std::optional<std::size_t> hotspot; ///< nothing: none is to be shown
         std::size_t language = 0;
-        double brightness = 1.0; ///< of the artifact and of what is said of it
+        double brightness = 1.0; ///< of the artifact and of its texts
         const PropShape* prop = nullptr;
         RigidTransform table_from_prop;
         glm::dvec3 eye_m{0.0};                     ///< table frame
         glm::dvec3 lens_m{0.0};                    ///< table frame
-        std::span<const TableRectangle> obstacles; ///< what else lies on the table
-        std::optional<TableRectangle> caption;     ///< one of them
+        std::span<const TableRectangle> obstacles; ///< everything else on the table
+        std::optional<TableRectangle> caption;     ///< also in `obstacles`
         int quarter_turns = 0;                     ///< the reader's side
     };
     [[nodiscard]] std::optional<PresentedHotspot> step(MonotonicTime now, const Input& input);
-    /// A brightness changes by itself.
+    /// True while a brightness changes by itself.
     [[nodiscard]] bool changing() const { return changing_; }
 
 private:
@@ -90,7 +90,7 @@ private:
     void turn_to(const std::optional<Key>& key, const Input& input);
 
     CaptionPlacer placer_;
-    std::optional<Key> key_; ///< that the placer has
+    std::optional<Key> key_; ///< the one that the placer holds
     double presence_ = 0.0;  ///< 0..1
     std::optional<MonotonicTime> last_;
     bool changing_ = false;

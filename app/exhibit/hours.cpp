@@ -15,10 +15,10 @@ using std::chrono::seconds;
 using std::chrono::sys_days;
 using std::chrono::sys_seconds;
 
-/// No zone is farther from UTC.
+/// Largest offset of a time zone from UTC.
 constexpr std::chrono::hours farthest_zone{15};
 
-/// The first second in (low, high] at which the offset is another than at `low`.
+/// The first second in (low, high] whose offset differs from that at `low`.
 sys_seconds change_of_offset(sys_seconds low, sys_seconds high, const OffsetAt& offset_at) {
     const seconds before = offset_at(low);
     while (high - low > seconds(1)) {
@@ -84,12 +84,12 @@ Opening Timetable::at(sys_seconds time) const {
         return {true, std::nullopt};
     }
     const sys_days today = std::chrono::floor<days>(time + offset_at_(time));
-    std::optional<sys_seconds> closes; ///< of what is open at `time`
+    std::optional<sys_seconds> closes; ///< of the span that is open at `time`
     std::optional<sys_seconds> opens;  ///< the next one after `time`
-    // A span may have begun the day before; where the date line moved, two days before.
+    // A span may have begun the day before, or two days before if the date line moved.
     for (sys_days day = today - days(2); day <= today + farthest; day += days(1)) {
         const std::optional<sys_seconds> closed_before = closes;
-        // Spans of one day stand in any order, and may touch each other.
+        // Spans of one day are in any order, and may touch each other.
         for (std::size_t pass = 0; pass < 8; ++pass) {
             const std::optional<sys_seconds> before = closes;
             each_interval(day, [&](const Interval& each) {

@@ -1,11 +1,11 @@
-/// The timetable: from a wall clock's time to whether the exhibit is open, and when that changes next.
+/// The timetable: from the wall clock's time to whether the exhibit is open and when that changes next.
 ///
 ///     Timetable(settings, local_offset_at).at(time) -> open, until
 ///
-/// Zones    only `offset_at` knows them. Where clocks are put forward, a time that there is not is the moment at which they are.
-///          Where they are put back, a span lasts from the first second that is not before its opening to the last one that is before
-///          its closing: each span of the settings is open once, without a gap.
-/// Units    seconds of UTC, as sys_seconds; a local time is written as if it were UTC.
+/// Zones    only `offset_at` knows them. Where clocks are put forward, a skipped local time counts as the moment of
+///          the change. Where they are put back, a span lasts from the first second not before its opening to the
+///          last second before its closing: each span of the settings is open once, without a gap.
+/// Units    seconds of UTC, as sys_seconds; a local time is stored as if it were UTC.
 /// Threads  pure; any.
 /// Errors   none.
 #pragma once
@@ -21,16 +21,16 @@
 
 namespace frustumscreen {
 
-/// How far local time is ahead of UTC.
+/// The lead of local time over UTC.
 using OffsetAt = std::function<std::chrono::seconds(std::chrono::sys_seconds)>;
 
 struct Opening {
     bool open = true;
-    std::optional<std::chrono::sys_seconds> until; ///< none: for `Timetable::farthest` at least
+    std::optional<std::chrono::sys_seconds> until; ///< none: no change for at least `Timetable::farthest`
     [[nodiscard]] bool operator==(const Opening&) const = default;
 };
 
-/// When local time comes to `local`: for a time that there is twice or not at all, see Zones.
+/// The time when local time reaches `local`. Repeated and skipped local times: see Zones.
 enum class Edge : std::uint8_t { Opens, Closes };
 [[nodiscard]] std::chrono::sys_seconds utc_of_local(std::chrono::sys_seconds local, Edge edge,
                                                     const OffsetAt& offset_at);
@@ -41,7 +41,7 @@ public:
 
     Timetable(HoursSettings hours, OffsetAt offset_at);
     [[nodiscard]] Opening at(std::chrono::sys_seconds time) const;
-    /// It never closes.
+    /// True if the exhibit never closes.
     [[nodiscard]] bool always_open() const { return always_open_; }
 
 private:
@@ -57,13 +57,13 @@ private:
     bool always_open_;
 };
 
-/// Says whether a wall clock can be believed. It is held against the monotonic clock, which nobody sets.
+/// Judges whether a wall clock is plausible, by comparison with the monotonic clock, which cannot be set.
 class WallClock {
 public:
-    /// A smaller step is a clock that is put right.
+    /// A smaller step is a correction of the clock.
     static constexpr std::chrono::seconds leap{30};
 
-    /// Returns by how much the clock was set since the look before; 0: it was not.
+    /// Returns the amount by which the clock was set since the previous call; 0: it was not set.
     std::chrono::seconds look(MonotonicTime now, std::chrono::sys_seconds wall);
     [[nodiscard]] static bool plausible(std::chrono::sys_seconds wall) {
         return wall >= earliest_plausible_day;
@@ -71,13 +71,14 @@ public:
 
 private:
     std::optional<std::chrono::sys_seconds>
-        began_; ///< of the monotonic clock, by the wall's, at the latest look
+        began_; ///< when the monotonic clock began, in wall time, as of the latest call
 };
 
-/// When the exhibit sleeps, from the timetable and from what people do. Dark only comes by a fade; light comes within half a second.
+/// When the exhibit sleeps, from the timetable and from its use. It fades to dark slowly and becomes bright within
+/// half a second.
 ///
-/// Closed   it falls asleep when nobody has used the prop for `unused_for`, at the latest `longest_delay` after it could.
-/// Woken    a button that is pressed while it is closed keeps it awake for `woken_for` from then.
+/// Closed   falls asleep when the prop has not been used for `unused_for`, at most `longest_delay` after closing.
+/// Woken    a button pressed while closed keeps it awake for `woken_for` from then.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
 class Sleep {
@@ -91,26 +92,26 @@ public:
     struct Input {
         bool open = true;
         bool pressed = false;              ///< a button
-        std::optional<MonotonicTime> used; ///< when the prop was moved last or a button pressed; none: never
-        bool may_sleep = true;             ///< false while the exhibit begins
+        std::optional<MonotonicTime> used; ///< when the prop last moved or a button was pressed; none: never
+        bool may_sleep = true;             ///< false while the exhibit starts
     };
     void step(MonotonicTime now, const Input& input);
 
-    /// All is dark; what was pressed to end it does nothing else.
+    /// True if everything is dark; the press that ends this has no other effect.
     [[nodiscard]] bool asleep() const { return wants_dark_ && share_ <= 0.0; }
-    /// Of the picture's light, 0..1.
+    /// The factor on the picture's light, 0..1.
     [[nodiscard]] double light() const;
-    /// It is closed, and a button keeps it awake.
+    /// True if it is closed and a button keeps it awake.
     [[nodiscard]] bool is_woken() const { return woken_until_.has_value(); }
 
 private:
     void move_light(MonotonicTime now);
 
     bool wants_dark_ = false;
-    double share_ = 1.0; ///< of the way from dark to light
+    double share_ = 1.0; ///< from dark to light
     std::optional<MonotonicTime> stepped_;
     std::optional<MonotonicTime> woken_until_;
-    std::optional<MonotonicTime> closed_since_; ///< and nothing but use keeps it awake
+    std::optional<MonotonicTime> closed_since_; ///< from then on only use keeps it awake
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Chooses the language that is nearest to the one asked for. Languages are named by BCP 47 tags.
+/// Chooses the language nearest to the requested one. Languages are named by BCP 47 tags.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -14,7 +14,7 @@ namespace frustumscreen {
 /// Index of the caption for `language` among captions in `languages`: the same tag, else the same language
 /// with another region or script, else English, else the first. `languages` is not empty.
 [[nodiscard]] std::size_t caption_for(std::string_view language, std::span<const std::string> languages);
-/// Appends a language that is not there yet.
+/// Appends the language if it is not in the list.
 void add_language(std::vector<std::string>& languages, const std::string& language);
 /// True if one of them is this language, with any region and script.
 [[nodiscard]] bool has_language(std::span<const std::string> languages, std::string_view language);

@@ -18,8 +18,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// The share of the way from `a` to `b` at which it has left the convex polygon, grown by `margin_m`, for good; 0 if it
-/// never meets it, more than 1 if it ends inside.
+/// The share of the way from `a` to `b` at which it leaves the convex polygon, grown by `margin_m`, for the last
+/// time; 0 if it never meets it, more than 1 if it ends inside.
 double leaves_at(const TablePolygon& polygon, const glm::dvec2& a, const glm::dvec2& b, double margin_m) {
     double first = 0.0;
     double last = std::numeric_limits<double>::infinity();
@@ -44,7 +44,7 @@ double leaves_at(const TablePolygon& polygon, const glm::dvec2& a, const glm::dv
     return !corners.empty() && first < std::min(last, 1.0) ? last : 0.0;
 }
 
-/// In the frame of the rectangle: its middle at the origin, its sides along the axes.
+/// A point in the rectangle's frame: origin at its middle, axes along its sides.
 glm::dvec2 seen_from(const TableRectangle& rectangle, const glm::dvec2& point) {
     return turned(point - rectangle.centre_m, -rectangle.quarter_turns);
 }
@@ -55,7 +55,7 @@ glm::dvec2 nearest_of(const TableRectangle& rectangle, const glm::dvec2& point) 
     return rectangle.centre_m + turned(nearest, rectangle.quarter_turns);
 }
 
-/// Whether a segment comes closer than `from_picture_m` to a picture's sides, or within them.
+/// True if a segment comes closer than `from_picture_m` to a picture.
 bool crosses(const TableRectangle& picture, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 half = 0.5 * picture.size_m + from_picture_m;
     const glm::dvec2 from = seen_from(picture, a);
@@ -88,7 +88,7 @@ public:
     [[nodiscard]] bool is_beside_prop(const glm::dvec2& a, const glm::dvec2& b) const {
         return last_exit(a, b) <= 0.0;
     }
-    /// From where the eye sees the point towards `goal`: the first place from which on nothing is on the prop.
+    /// The share of the way from `a` to `b` from which the line is clear of the prop and its shadow.
     [[nodiscard]] double last_exit(const glm::dvec2& a, const glm::dvec2& b) const {
         return std::max(leaves_at(*needs_.shadow, a, b, from_prop_m),
                         leaves_at(*needs_.hidden, a, b, from_prop_m));
@@ -98,7 +98,7 @@ private:
     const LeaderLineNeeds& needs_;
 };
 
-/// Goes around a picture's corner: the shortest such way.
+/// The shortest line that goes around one corner of a picture.
 std::optional<LeaderLine> with_bend(const LeaderLineNeeds& needs, const Way& way, const glm::dvec2& seen) {
     std::optional<LeaderLine> best;
     double best_length = std::numeric_limits<double>::infinity();
@@ -126,7 +126,7 @@ bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const PropShape& p
              const Occluder& artifact) {
     const glm::dvec3 to_point = hotspot.point_m - eye_m;
     if (!(glm::dot(to_point, hotspot.normal) < 0.0)) {
-        return false; // turned away
+        return false; // faces away
     }
     PropHit entry;
     if (!intersect(prop, eye_m, to_point, entry) || entry.t > 1.0 || (lit_faces >> entry.face & 1U) == 0) {

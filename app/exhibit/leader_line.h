@@ -1,15 +1,17 @@
-/// Hotspots: a point on the artifact's surface, a label beside the prop, and a thin line from the one to the other.
+/// Hotspots: a point on the artifact's surface, a label beside the prop, and a thin line between them.
 ///
-/// A hotspot is seen where the ray from the eye to it comes to the surface from outside, meets the artifact nowhere before,
-/// and enters the prop through a face that is lit. Rays are cast at one of the pack's coarser levels (triangle_tree.h): the
-/// end of the ray is lifted off the surface by a tolerance, which must not be less than that level's error.
+/// A hotspot is seen if the ray from the eye to it meets the surface from outside, meets no other part of the
+/// artifact before, and enters the prop through a lit face. Rays are cast at one of the pack's coarser levels
+/// (triangle_tree.h): the ray's end is lifted off the surface by a tolerance, which must be at least that level's
+/// error.
 ///
-/// The line lies on the table. It is a part of the straight line from where the eye sees the point (there the table is behind
-/// the prop) to the nearest place of the label: the part that neither the prop hides from the eye nor its shadow covers. So it
-/// seems to come out of the prop straight from the point, and follows softly as the prop turns. Where it would cross another
-/// picture it goes around with one bend; where that does not do either, there is none.
+/// The line lies on the table. It is part of the straight line from where the eye sees the point, on the table behind
+/// the prop, to the nearest place of the label: the part that is neither hidden by the prop from the eye nor covered
+/// by its shadow. The line therefore seems to leave the prop straight from the point, and it follows smoothly as the
+/// prop turns. Where it would cross another picture it goes around with one bend; where one bend is not enough, there
+/// is no line.
 ///
-/// Frames   as said for each; metres.
+/// Frames   as stated for each value; metres.
 /// Threads  pure; any. Allocates nothing.
 #pragma once
 
@@ -34,10 +36,10 @@ struct Hotspot {
     glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit, outward
 };
 
-/// The artifact as rays meet it.
+/// The artifact's surface for ray casts.
 struct Occluder {
-    const TriangleTree* triangles = nullptr; ///< in a frame of their own, for which:
-    glm::dmat4 triangles_from_prop{1.0};     ///< affine
+    const TriangleTree* triangles = nullptr; ///< in a frame of its own
+    glm::dmat4 triangles_from_prop{1.0};     ///< to that frame; affine
     double tolerance_m = 0.0;                ///< in the prop frame; at least the triangles' error
 };
 
@@ -57,10 +59,10 @@ struct LeaderLineNeeds {
     std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
     std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
     TableRectangle label;
-    std::span<const TableRectangle> pictures; ///< what it must not cross
+    std::span<const TableRectangle> pictures; ///< not to be crossed
 };
 
-/// Nothing where the eye is not above the prop, the label touches shadow or prop, or pictures leave no way.
+/// Nothing if the eye is not above the prop, the label touches shadow or prop, or pictures leave no way.
 [[nodiscard]] std::optional<LeaderLine> leader_line(const LeaderLineNeeds& needs);
 
 } // namespace frustumscreen

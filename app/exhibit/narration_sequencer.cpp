@@ -10,7 +10,7 @@ bool is_described(const Tellable& tellable) {
     return !tellable.portions.empty();
 }
 
-/// The number of a hotspot among all things that are told.
+/// The index of a hotspot among all things to tell.
 std::size_t thing_of_hotspot(const Tellable& tellable, std::size_t hotspot) {
     return hotspot + (is_described(tellable) ? 1 : 0);
 }
@@ -28,7 +28,7 @@ Told NarrationSequencer::step(MonotonicTime now, const NarrationInput& input) {
     }
     give_way(now, input);
     take_presses(now, input);
-    if (state_ == State::Description && since_ < now) { // what began now is not what was heard until now
+    if (state_ == State::Description && since_ < now) { // in its first step, speech is still the earlier one
         follow_speech(now, input);
     }
     follow_rest(now, input);
@@ -44,7 +44,7 @@ Told NarrationSequencer::step(MonotonicTime now, const NarrationInput& input) {
     return told;
 }
 
-/// Whatever was told of something else is over, and whoever comes after a while is told all again.
+/// Ends what was told of another subject, and forgets what was told when the visitor has been away for a while.
 void NarrationSequencer::follow_subject(MonotonicTime now, const NarrationInput& input) {
     const bool other = input.subject != subject_;
     if (other || input.stops || input.tellable == nullptr) {
@@ -100,7 +100,7 @@ void NarrationSequencer::take_presses(MonotonicTime now, const NarrationInput& i
     next_waits_ = describe_waits_ = false;
 }
 
-/// What a press goes on to; the number of all things: nothing.
+/// The thing that a press leads to; the number of all things means nothing.
 std::size_t NarrationSequencer::next_thing(const Tellable& tellable) const {
     switch (state_) {
     case State::Nothing:
@@ -190,7 +190,7 @@ void NarrationSequencer::read_on(MonotonicTime now, const Tellable& tellable) {
 
 void NarrationSequencer::follow_rest(MonotonicTime now, const NarrationInput& input) {
     const Tellable& tellable = *input.tellable;
-    // Rest that an end or a fade has interrupted begins there.
+    // Rest counts from the latest interruption by an end or a fade.
     const Nanoseconds rested = std::min(input.rested, now - rests_from_);
     const bool rests = input.shown && input.whole && !input.gives_way;
     const auto lead_on = [&] { begin(std::min(leads_to_, tellable.count()), now, tellable); };

@@ -27,7 +27,7 @@ const Told& Narrator::step(MonotonicTime now, const TrackedState& tracked_state,
     return told_;
 }
 
-/// Who asks to be told while something is amiss is told; what becomes amiss later goes first.
+/// A request is served even while something is wrong; a problem that begins later takes priority.
 bool Narrator::gives_way(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input) {
     const bool comes_to_words =
         input.stage >= GuidanceStage::Text && std::exchange(stage_, input.stage) < GuidanceStage::Text;
@@ -43,7 +43,7 @@ bool Narrator::gives_way(MonotonicTime now, const TrackedState& tracked_state, c
     return comes_to_words || moved_away || goes;
 }
 
-/// The description is to lie on the table, and there has been no place for it.
+/// True if the description should be on the table but has had no place for a while.
 bool Narrator::is_unread(MonotonicTime now, const NarratorInput& input) {
     const CaptionText shown = text();
     const bool hidden = told_.portion && shown.portion && !shown.changing && !input.text_has_place;
@@ -51,7 +51,7 @@ bool Narrator::is_unread(MonotonicTime now, const NarratorInput& input) {
     return hidden_since_ && now - *hidden_since_ >= lost;
 }
 
-/// With another artifact or language comes its short text; it is dark then.
+/// Another artifact or language starts with its short text, while the caption is dark.
 void Narrator::follow_text(MonotonicTime now, const NarratorInput& input) {
     const double step = to_seconds(now - std::exchange(last_, now)) / to_seconds(fade_time);
     portion_ = told_.portion.value_or(portion_);

@@ -1,11 +1,11 @@
-/// Tells the visitor of the artifact: when telling goes on and when it gives way (telling.h), and which text the caption has.
+/// Narration of the artifact: when it goes on, when it yields (narration_sequencer.h), and which text the caption has.
 ///
-/// It gives way to advice that comes to words, to a prop or a head that is lost for longer than a tracker's dropout, and to the
-/// staff; and it ends where its text has no place on the table.
+/// Narration yields to advice in words, to the staff, and to a prop or head lost for longer than a tracker's dropout.
+/// It ends if its text has no place on the table.
 ///
-/// The caption changes between the artifact's short text and its description through darkness. While the artifact or the caption
-/// itself fades, this fade stands still, and it begins no sooner than a moment later: each alone flashes at most twice a second, and
-/// together they flash at most three times (selection.h).
+/// The caption changes between the artifact's short text and its description through darkness. While the artifact or
+/// the caption itself fades, this fade is held, and it begins no sooner than one fade time afterwards: each alone
+/// flashes at most twice a second, and together they flash at most three times (selection.h).
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -25,15 +25,15 @@ namespace frustumscreen {
 
 struct NarratorInput {
     DescriptionIndex subject;           ///< chosen; it may not be visible yet
-    DescriptionIndex visible;           ///< what is on show, perhaps fading
-    const Tellable* tellable = nullptr; ///< of the subject, unless nothing of it is to be told now
-    bool fades = false;                 ///< the artifact or its caption does
-    bool attracts = false;              ///< the artifact stands at a place of its own
-    bool there = true;                  ///< somebody is
-    bool pressed = false;               ///< anything
-    bool next = false;                  ///< asked for the next thing
-    bool help = false;                  ///< asked for help
-    bool text_has_place = true;         ///< the caption is seen, or fades
+    DescriptionIndex visible;           ///< on show, perhaps fading
+    const Tellable* tellable = nullptr; ///< of the subject; null: nothing of it is to be told
+    bool fades = false;                 ///< the artifact or its caption fades
+    bool attracts = false;              ///< the artifact stands at the idle place
+    bool there = true;                  ///< a visitor is present
+    bool pressed = false;               ///< any button
+    bool next = false;                  ///< the next thing is requested
+    bool help = false;                  ///< help is requested
+    bool text_has_place = true;         ///< the caption is visible, or fades
     GuidanceStage stage = GuidanceStage::Quiet;
     SpeechProgress narration;
 };
@@ -47,7 +47,7 @@ struct CaptionText {
 
 class Narrator {
 public:
-    /// A tracker that loses prop or head for less is no visitor who goes.
+    /// A shorter loss of prop or head is a tracker's dropout, not a visitor who leaves.
     static constexpr Nanoseconds lost = std::chrono::seconds(1);
 
     const Told& step(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input);
@@ -63,18 +63,18 @@ private:
     NarrationSequencer narration_sequencer_;
     Told told_;
     Stillness stillness_;
-    GuidanceStage stage_ = GuidanceStage::Quiet; ///< at the step before
-    bool attracts_ = false;                      ///< the same
-    bool head_known_ = false;                    ///< the latest head that was not lost was known
+    GuidanceStage stage_ = GuidanceStage::Quiet; ///< in the previous step
+    bool attracts_ = false;                      ///< in the previous step
+    bool head_known_ = false;                    ///< a head was known before the current loss
     std::optional<MonotonicTime> lost_since_;
-    std::optional<MonotonicTime> hidden_since_; ///< the description has had no place
+    std::optional<MonotonicTime> hidden_since_; ///< since when the description has had no place
     DescriptionIndex visible_;
-    MonotonicTime last_;             ///< the step before
-    MonotonicTime fades_until_;      ///< the artifact or its caption did
+    MonotonicTime last_;             ///< the previous step
+    MonotonicTime fades_until_;      ///< end of the latest fade of the artifact or its caption
     bool shows_description_ = false; ///< in the caption
-    bool text_leaves_ = false;       ///< it fades out
-    double text_brightness_ = 1.0;   ///< before it is eased
-    std::size_t portion_ = 0;        ///< that was told last
+    bool text_leaves_ = false;       ///< the text fades out
+    double text_brightness_ = 1.0;   ///< before easing
+    std::size_t portion_ = 0;        ///< told last
 };
 
 } // namespace frustumscreen

@@ -16,29 +16,29 @@ namespace {
 
 using Coverage = Image<std::uint8_t>;
 
-/// In type sizes.
-constexpr double wide_em = 36.0;   ///< what words are broken for at the bake
+/// Lengths in type sizes.
+constexpr double wide_em = 36.0;   ///< the width for which texts are broken at the bake
 constexpr double middle_em = 25.0; ///< beside a prop in the middle of the table
 constexpr double narrow_em = 18.0;
 constexpr double narrowest_em = 9.0;
-constexpr double max_label_share = 0.36; ///< of the width, beside a word
+constexpr double max_label_share = 0.36; ///< of the width, if beside a word
 constexpr double between_columns_em = 1.0;
 constexpr double number_em = 2.5;
 constexpr double between_lines_em = 0.3;
-constexpr double between_packs_em = 0.5; ///< where a pack takes two lines
+constexpr double between_packs_em = 0.5; ///< if a pack takes two lines
 constexpr double below_sentences_em = 0.7;
 constexpr double beside_ring_em = 1.0;
 constexpr double fades_over_em = 1.5;
 
 constexpr double ring_reach_m = notice_ring_radius_m + ring_gap_m + ring_width_m;
 
-/// Set text, and the row of it that its first line stands on.
+/// Set text, and the row of its first baseline.
 struct SetText {
     Coverage image;
     int baseline = 0;
 };
 
-/// Where a text lies, from the reader's first side: from the right where the language runs from there.
+/// The place of a text, from the side where the reader begins: from the right for languages that run from there.
 struct Piece {
     SetText text;
     int from_begin = 0;
@@ -61,7 +61,7 @@ public:
             add(word(key, width_em_, width_em_ > narrowest_em ? caption_title_em : 1.0), indent,
                 top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0), 1.0);
         }
-        if (beside) { // in the middle of one another
+        if (beside) { // centre text and ring on each other
             const int lower = std::max(0, (ring_px - top_) / 2);
             for (std::size_t k = first; k < pieces_.size(); ++k) {
                 pieces_[k].top += lower;
@@ -74,7 +74,7 @@ public:
         }
     }
 
-    /// Label beside label, word beside word.
+    /// Lines in two columns: labels and words.
     void columns(const std::vector<NoticeLine>& lines) {
         std::vector<SetText> labels;
         int column = 0;
@@ -89,7 +89,7 @@ public:
         }
     }
 
-    /// Words below labels, or beside them where both find room in one line.
+    /// Lines with words below labels, or beside them if both fit in one line.
     void stacked(const std::vector<NoticeLine>& lines) {
         const bool numbers =
             std::all_of(lines.begin(), lines.end(), [](const NoticeLine& line) { return line.file.empty(); });
@@ -100,7 +100,7 @@ public:
         for (const NoticeLine& line : lines) {
             top_ += px_of(&line == &lines.front() ? below_sentences_em : between_packs_em);
             SetText name = label(line, width_em_);
-            const int least = line.file.empty() ? px_of(number_em) : 0; // numbers have one column
+            const int least = line.file.empty() ? px_of(number_em) : 0; // numbers share one column
             const int column = std::max(name.image.width, least) + px_of(between_columns_em);
             const double left_em = width_em_ - column / em_px_;
             const GlyphSetting* const setting = fitting_setting(type_.runs.find(line.key), left_em);
@@ -113,7 +113,7 @@ public:
         }
     }
 
-    /// The kiosk's own typeface, from left to right: it is English, for a technician.
+    /// Uses the kiosk's own typeface, from left to right: the remark is English, for a technician.
     void remark(const std::string& text) {
         if (text.empty() || !type_.typesetter.can_set(text)) {
             return;
@@ -149,7 +149,7 @@ private:
         return !type_.runs.texts.empty() && type_.runs.texts.front().direction == TextDirection::RightToLeft;
     }
 
-    /// `em`: its type size.
+    /// Sets a word. `em`: its type size.
     [[nodiscard]] SetText word(std::string_view key, double width_em, double em = 1.0) const {
         const GlyphSetting* const setting = fitting_setting(type_.runs.find(key), width_em / em);
         if (setting == nullptr || setting->lines.empty()) {
@@ -173,7 +173,7 @@ private:
         return {std::move(image), px_of(Typesetter::ascent_em)};
     }
 
-    /// Both stand on one line.
+    /// Puts a name and an outcome on one baseline.
     void row(SetText name, SetText outcome, int column) {
         const int baseline = top_ + std::max(name.baseline, outcome.baseline);
         const int name_top = baseline - name.baseline;
@@ -198,9 +198,9 @@ private:
     double em_px_;
     double width_em_;
     std::vector<Piece> pieces_;
-    std::optional<glm::dvec2> ring_px_; ///< from the reader's first side, from the top
+    std::optional<glm::dvec2> ring_px_; ///< from the side where the reader begins, and from the top
     int width_ = 0, height_ = 0;
-    int top_ = 0; ///< what comes next lies below it
+    int top_ = 0; ///< where the next piece begins
 };
 
 NoticeShape shape_of(const NoticeText& text, double width_em, bool in_columns, const NoticeType& type) {

@@ -1,12 +1,14 @@
-/// What is told of a stick as pictures to lay on the table, in several shapes, and where its ring is in each.
+/// A notice about a stick as pictures on the table, in several shapes, with the place of the ring in each.
 ///
-/// Sentences are set over lines. A line has a pack's title beside what became of it, in narrow shapes above it. Languages that run
-/// from right to left are mirrored: the title is at the right. A title or a file's name that the kiosk's typeface cannot set, as it
-/// shapes no letters, is left out for the other one, then for a dash.
+/// Sentences are set above lines. A line has a pack's title beside its outcome, in narrow shapes above it. For
+/// languages that run from right to left the picture is mirrored: the title is at the right. If the kiosk's typeface,
+/// which does not shape letters, cannot set the title, the file's name takes its place; if it cannot set that either,
+/// a dash.
 ///
-/// Units    metres on the table; type of 24 pt, sentences larger, as a caption's title. Coverage is linear light, 255 = white; row 0 at the top.
+/// Units    metres on the table; type of 24 pt; sentences are larger, as a caption's title. Coverage is linear light,
+///          255 = white; row 0 at the top.
 /// Threads  as Typesetter; never in a frame.
-/// Errors   none: a word that is not there is left out.
+/// Errors   none: a missing word is left out.
 #pragma once
 
 #include "app/exhibit/stick_notice.h"
@@ -21,11 +23,11 @@
 
 namespace frustumscreen {
 
-inline constexpr double notice_ring_radius_m = 0.007; ///< of what the ring lies around (ring.h)
+inline constexpr double notice_ring_radius_m = 0.007; ///< of what the ring surrounds (ring.h)
 
 struct NoticeShape {
     CaptionImage image;
-    std::optional<glm::dvec2> ring_m; ///< its middle, from the picture's, as the reader sees it: right, up
+    std::optional<glm::dvec2> ring_m; ///< middle, relative to the picture's; the reader's right, up
 };
 struct NoticePicture {
     NoticeText text;
@@ -34,12 +36,12 @@ struct NoticePicture {
 };
 
 struct NoticeType {
-    const GlyphRuns& runs; ///< of the exhibit's own words
+    const GlyphRuns& runs; ///< of the exhibit's own texts
     const DistanceAtlas& atlas;
     const Typesetter& typesetter;
     double texels_per_m = 2400.0;
 };
-/// `counts`: the same with fewer lines, for shapes where all of them may find no room.
+/// `counts`: the same notice with fewer lines, for shapes in which all lines may not fit.
 [[nodiscard]] NoticePicture draw_notice(const NoticeText& text, const NoticeText& counts,
                                         const NoticeType& type);
 

@@ -13,7 +13,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double beside_caption_m =
-    0.015; ///< more than between others: nobody reads on from one to the other
+    0.015; ///< more than between pictures, so that notice and caption do not read as one text
 
 } // namespace
 
@@ -74,7 +74,7 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
     }
     look(now, environment);
     const CaptionPlace place = placer_.at(now);
-    if (placer_.searched_in_vain()) { // the next search is another one
+    if (placer_.searched_in_vain()) { // the next search uses other obstacles
         beside_ = beside_ == Beside::All                 ? Beside::AllButEmptyPlaces
                   : beside_ == Beside::AllButEmptyPlaces ? Beside::AllButCaption
                                                          : Beside::All;

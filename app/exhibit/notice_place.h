@@ -1,15 +1,16 @@
-/// Where on the table a notice lies: beside the prop and beside what visitors are shown there, and it gives way to that.
+/// The place of a notice on the table: beside the prop and beside everything shown to visitors, to which it gives
+/// way.
 ///
-/// A notice fades in at the best place that there is, stays there while it has room, and fades out before the next one comes.
-/// Where it had to leave, it comes again once it has had room for half a second: a prop that is slid about does not make it come
-/// and go. It lies beside all else;
-/// without room there, where a picture to choose would lie that is not shown now; then in the caption's place, which dims
-/// meanwhile. Pictures to choose from, words and signs of guidance are never covered: a notice waits until there is room.
+/// A notice fades in at the best place, stays while it has room, and fades out before the next one. After losing its
+/// place it returns once it has had room for half a second, so that a sliding prop does not make it appear and
+/// vanish. It prefers a place beside everything else; then the place of a picture to choose that is not shown; then
+/// the caption's place, where the caption dims meanwhile. Pictures to choose from, words and signs of guidance are
+/// never covered: a notice waits until there is room.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: without room nothing is shown.
+/// Errors   none: without room, nothing is shown.
 #pragma once
 
 #include "app/exhibit/notice_image.h"
@@ -33,30 +34,30 @@ struct PresentedNotice {
     double ring_full = 0.0;  ///< 0..1, where the shape has a ring
 };
 
-/// The notice's ring as ring_around takes it; nothing where the shape has none.
+/// The notice's ring, as ring_around takes it; nothing if the shape has none.
 [[nodiscard]] std::optional<TablePolygon> notice_ring(const PresentedNotice& notice);
 
 struct NoticeEnvironment {
     std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
-    std::optional<TablePolygon> hidden; ///< and from the eye
+    std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
     int quarter_turns = 0; ///< the reader's side
-    /// With the kept ones and the caption at most CaptionPlacer::max_obstacles.
+    /// Together with `kept` and `caption` at most CaptionPlacer::max_obstacles.
     std::span<const TableRectangle> obstacles;
-    std::span<const TableRectangle> kept; ///< empty places, where something may come
+    std::span<const TableRectangle> kept; ///< empty places where a picture may come
     std::optional<TableRectangle> caption;
 };
 
 class NoticePlace {
 public:
-    static constexpr Nanoseconds leaves = std::chrono::milliseconds(250); ///< to fade out
+    static constexpr Nanoseconds leaves = std::chrono::milliseconds(250); ///< fade out
 
     static constexpr Nanoseconds settles = std::chrono::milliseconds(500);
     static constexpr double border_m = 0.008; ///< from the picture's edge
 
     explicit NoticePlace(std::span<const glm::dvec2> picture_m) : placer_(picture_m, border_m, settles) {}
 
-    /// `wanted` is shown, or nothing more. Returns what is.
+    /// Shows `wanted`, or nothing if it is null. Returns what is shown in this step.
     [[nodiscard]] std::optional<PresentedNotice> step(MonotonicTime now, const SharedNotice& wanted,
                                                       const NoticeEnvironment& environment);
 
@@ -64,15 +65,15 @@ private:
     void look(MonotonicTime now, const NoticeEnvironment& environment);
 
     CaptionPlacer placer_;
-    SharedNotice lies_; ///< that the placer has
-    /// What it lies beside: the next one is tried where there was no room.
+    SharedNotice lies_; ///< the one that the placer holds
+    /// Things that the notice must not overlap. If there is no room, the next value is tried.
     enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
     Beside beside_ = Beside::All;
-    double share_ = 0.0; ///< of its light; it falls while another is wanted
+    double share_ = 0.0; ///< of its light; falls while another is wanted
     MonotonicTime last_;
 };
 
-/// How much light is left to a caption that a notice lies on, 0..1.
+/// Factor on the light of a caption that a notice covers, 0..1.
 [[nodiscard]] double left_to_caption(const TableRectangle& caption, const PresentedNotice& notice);
 
 } // namespace frustumscreen

@@ -12,19 +12,19 @@ void Placeholder::begin(std::size_t artifact, MonotonicTime now, const Input& in
     from_ = input.from.value_or(TableRectangle{input.to.centre_m, glm::dvec2(0.0), input.to.quarter_turns});
 }
 
-/// Of the picture, while the artifact that is shown has `artifact`.
+/// Brightness of the picture while the shown artifact has the brightness `artifact`.
 double Placeholder::light(const Input& input, double artifact) const {
     return replaces_ ? 1.0 - artifact : input.shown.brightness * (1.0 - ease(arrival_));
 }
 
 Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
-    const bool other = shown_ != input.shown.artifact; // it is dark now
+    const bool other = shown_ != input.shown.artifact; // its brightness is 0 in this step
     const bool gone = !other && !input.shown_ready && arrival_ >= 1.0;
     const bool leaves = input.shown.leaving && (other || !leaving_);
     if (other || gone) {
         arrival_ = input.shown_ready ? 1.0 : 0.0;
         if (!input.shown_ready && picture_) {
-            picture_ = input.shown.artifact; // something else was chosen on the way
+            picture_ = input.shown.artifact; // another one was chosen on the way
         } else if (!input.shown_ready) {
             begin(input.shown.artifact, now, input);
         }

@@ -1,9 +1,9 @@
-/// How an artifact comes that may not be there yet. While it is not, its picture stands in for it: it grows from its place
-/// on the table into the prop's place, or from nothing where the table shows no pictures, and the artifact fades into it.
+/// Placeholder of an artifact that is not ready. Its picture grows from its place on the table into the prop's place,
+/// or from nothing if the table shows no pictures, and the artifact fades into it.
 ///
-/// Light    the old artifact fades into the picture, and the picture into the new one; nothing is dark in between. Where
-///          a picture fades out itself, the next one comes after it. So however often something else is chosen, one
-///          change (selection.h) makes the light of the prop's place go down and up no more than once and a half.
+/// Light    the old artifact fades into the picture, and the picture into the new one; nothing is dark in between. If
+///          a picture fades out itself, the next one comes after it. However often another artifact is chosen, one
+///          change (selection.h) makes the light of the prop's place fall and rise at most one and a half times.
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-struct PresentedStandIn {
+struct PresentedPlaceholder {
     std::size_t artifact = 0; ///< whose PackCard::table_picture it is
     TableRectangle rectangle; ///< square
     double brightness = 0.0;  ///< above 0, up to 1; a factor on linear light
@@ -31,15 +31,15 @@ public:
 
     struct Input {
         Shown shown;
-        std::size_t chosen = 0; ///< what is shown, or will be
+        std::size_t chosen = 0; ///< shown, or to be shown
         bool shown_ready = true, chosen_ready = true;
-        std::optional<TableRectangle> from; ///< where the chosen one's picture lies on the table
+        std::optional<TableRectangle> from; ///< place of the chosen one's picture on the table
         TableRectangle to;                  ///< the prop's place
     };
     struct Output {
         double brightness = 1.0; ///< of the artifact that is shown, 0..1
-        std::optional<PresentedStandIn> picture;
-        bool waits = false; ///< something is still to come, or fades
+        std::optional<PresentedPlaceholder> picture;
+        bool waits = false; ///< an artifact is not ready, or fades
     };
     [[nodiscard]] Output step(MonotonicTime now, const Input& input);
 
@@ -48,13 +48,13 @@ private:
     [[nodiscard]] double light(const Input& input, double artifact) const;
 
     std::optional<std::size_t> shown_; ///< at the latest step
-    bool leaving_ = false;             ///< it faded out then
-    double arrival_ = 1.0;             ///< of its way into the picture, 0..1
+    bool leaving_ = false;             ///< in that step it faded out
+    double arrival_ = 1.0;             ///< progress of its fade into the picture, 0..1
     MonotonicTime last_;
-    std::optional<std::size_t> picture_; ///< of this artifact; none: nothing stands in
-    bool replaces_ = false; ///< the picture, of the artifact before: it came as that one faded out
+    std::optional<std::size_t> picture_; ///< the artifact whose picture stands in; none: no picture does
+    bool replaces_ = false; ///< the picture came as the artifact before faded out, and replaces that
     TableRectangle from_;
-    MonotonicTime since_; ///< it began to grow
+    MonotonicTime since_; ///< when it began to grow
 };
 
 } // namespace frustumscreen

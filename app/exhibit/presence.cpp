@@ -15,7 +15,7 @@ bool prop_has_moved(const TrackedState& now, const TrackedState& then) {
 }
 
 bool head_has_moved(const TrackedState& now, const TrackedState& then) {
-    constexpr double nodded_m = 0.05; // nobody holds their head still
+    constexpr double nodded_m = 0.05; // a head is never quite still
     return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 

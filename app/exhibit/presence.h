@@ -1,7 +1,7 @@
-/// Whether somebody is at the table: the prop or the head moved, or a button was pressed, within half a minute; and for how long
-/// nobody has been.
+/// Presence of a visitor at the table: the prop or the head moved, or a button was pressed, within half a minute.
+/// Also how long no visitor has been present.
 ///
-/// A prop that was left out of the light overnight is not told all night to come back.
+/// Guidance depends on it: a prop left out of the light overnight brings no advice all night.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -17,25 +17,25 @@ namespace frustumscreen {
 class Presence {
 public:
     static constexpr Nanoseconds stays = std::chrono::seconds(30);
-    /// A movement is more than a tracker's noise at rest.
+    /// Movement beyond a tracker's noise at rest.
     static constexpr double moved_m = 0.004;
     static constexpr double turned_rad = 0.05;
 
-    /// `active`: a button was pressed, or somebody is being told something. Returns whether somebody is there.
+    /// `active`: a button was pressed, or narration is heard. Returns true if a visitor is present.
     bool update(MonotonicTime now, const TrackedState& tracked_state, bool active);
-    /// Nobody has been there for so long, or ever.
+    /// True if no visitor has been present for `rest`, or ever.
     [[nodiscard]] bool rests(MonotonicTime now, Nanoseconds rest) const {
         return !moved_ || now - *moved_ >= rest;
     }
-    /// When the prop moved last or a button was pressed; nothing: never.
+    /// The time when the prop last moved or a button was pressed; nothing: never.
     [[nodiscard]] const std::optional<MonotonicTime>& touched() const { return touched_; }
-    /// Whether the prop is being moved, by 16 mm a second or more.
+    /// True if the prop is being moved, by 16 mm/s or more.
     [[nodiscard]] bool prop_moves(MonotonicTime now) const {
         return prop_moved_ && now - *prop_moved_ < std::chrono::milliseconds(250);
     }
 
 private:
-    std::optional<TrackedState> rested_; ///< where prop and head were at the latest movement
+    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
     std::optional<MonotonicTime> moved_;
     std::optional<MonotonicTime> touched_;
     std::optional<MonotonicTime> prop_moved_;

@@ -45,7 +45,8 @@ ReadersTable::ReadersTable(const TableSetUp& set_up, int quarter_turns)
     }
 }
 
-/// By a separating axis: the directions are the normals of all edges, the area's too, which mostly decide and come first.
+/// Separating-axis test. The directions are the normals of all edges, including the area's, which mostly decide and
+/// come first.
 bool ReadersTable::is_clear_of_home(const TableArea& area, double margin) const {
     if (glm::distance(area.centre, home) < hidden_around_home + margin) {
         return false;

@@ -1,8 +1,8 @@
-/// The table as the reader sees it: turned so that the reader stands at the front, with the place of the prop at home.
+/// The table as the reader sees it: turned so that the reader stands at the front, with the prop at its home place.
 ///
 /// Frames   the reader's: table T turned by quarter turns about its origin; metres.
 /// Threads  pure; any.
-/// Errors   none: a table that nothing can lie on is not `usable`.
+/// Errors   none: a table without usable room is not `usable`.
 #pragma once
 
 #include "app/exhibit/table_layout.h"
@@ -26,8 +26,8 @@ struct TableArea {
     }
 };
 
-/// What the prop at home may hide, at any yaw, is the convex hull of circles: those on which its corners go round, as seen
-/// from the lens. It is kept as how far it reaches in each of some directions.
+/// The area that the prop at home may hide at any yaw is the convex hull of the circles that its corners describe, as
+/// seen from the lens. It is stored as its reach in each of several directions.
 struct ReadersTable {
     static constexpr std::size_t direction_count = 32;
 
@@ -37,7 +37,7 @@ struct ReadersTable {
         return at.y > home.y && std::abs(at.x - home.x) < home_radius;
     }
 
-    TableArea room; ///< the picture's edge is `border_m` away
+    TableArea room; ///< `border_m` inside the picture's edge
     glm::dvec2 home{0.0};
     double home_radius = 0.0;
     double hidden_around_home = 0.0; ///< in every direction

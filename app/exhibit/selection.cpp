@@ -47,7 +47,7 @@ void Selection::take(Command command, MonotonicTime now) {
     choose(command == Command::NextArtifact ? next() : previous(), now);
 }
 
-/// It begins together with a language change that has not begun yet, and after one that has.
+/// Begins together with a language change that has not begun yet, and after one that has.
 void Selection::choose(std::size_t artifact, MonotonicTime now) {
     if (artifact < count_ && !left_out_[artifact] && artifact != artifact_.goal()) {
         const MonotonicTime begin =
@@ -74,8 +74,8 @@ std::size_t Selection::neighbour(std::size_t step) const {
     return artifact_.goal();
 }
 
-/// It begins together with an artifact's change that is not dark yet, and after one that fades in. Where both
-/// fade together, they give the caption the same brightness.
+/// Begins together with an artifact's change that is not dark yet, and after one that fades in. If both fade
+/// together, they give the caption the same brightness.
 void Selection::change_language(std::size_t which, MonotonicTime now) {
     if (which != language_.goal()) {
         language_.change_to(which, now,

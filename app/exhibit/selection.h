@@ -1,11 +1,11 @@
-/// Which artifact and which language are chosen, and how bright both are while they change.
+/// The chosen artifact and language, and the brightness of both while they change.
 ///
-/// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h), a change of language
-/// only the caption. A change that is asked for during a fade-in begins after it, and a caption never fades
-/// in the middle of an artifact's fade or the other way round: changes are at least 0.5 s apart, whatever is
-/// pressed. So the picture flashes at most twice a second, which leaves room for the staff's pattern to come
-/// and go. WCAG 2.3.1 and ITU-R BT.1702 allow three times, to protect photosensitive people. A press still
-/// shows at once: either the picture dims, or it is changing anyway.
+/// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h); a change of language fades
+/// only the caption. A change requested during a fade-in begins after it, and a caption never fades in the middle of
+/// an artifact's fade, nor an artifact in the middle of a caption's: changes are at least 0.5 s apart, whatever is
+/// pressed. The picture therefore flashes at most twice a second, which leaves room for the staff picture to come and
+/// go. WCAG 2.3.1 and ITU-R BT.1702 allow three flashes, to protect photosensitive people. A press still shows at
+/// once: either the picture dims, or it is already changing.
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` is pure.
@@ -23,7 +23,7 @@
 
 namespace frustumscreen {
 
-inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< to fade out, and to fade in
+inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< fade out, or fade in
 
 struct Shown {
     std::size_t artifact = 0;
@@ -32,34 +32,34 @@ struct Shown {
     double caption_brightness = 0.0;
     bool changing = false;            ///< a brightness changes, or is about to
     bool leaving = false;             ///< the artifact fades out
-    double language_brightness = 1.0; ///< of what is in this language and stays when the artifact changes
+    double language_brightness = 1.0; ///< of texts in this language that stay when the artifact changes
 };
 
 class Selection {
 public:
-    /// `languages` (BCP 47): those that some artifact has a caption in, in the order in which the button goes
+    /// `languages` (BCP 47): those that some artifact has a caption in, in the order in which the button cycles
     /// through them.
     Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
               MonotonicTime now);
 
-    /// Begins with these in place of the first artifact and the house's language, which rest comes back to; what there is not
-    /// changes nothing.
+    /// Replaces the first artifact and the current language; the house's language remains the one that rest returns
+    /// to. An unknown artifact or language changes nothing.
     void begin_with(std::size_t artifact, std::string_view language, MonotonicTime now);
     /// A command that is not accepted changes nothing.
     void take(Command command, MonotonicTime now);
-    /// Chooses one artifact; one that there is not changes nothing.
+    /// Chooses an artifact; an index out of range changes nothing.
     void choose(std::size_t artifact, MonotonicTime now);
-    /// Whether the artifact can be chosen. Where the chosen one cannot, the next one that can is.
+    /// Sets whether the artifact can be chosen. If the chosen one cannot, the next one that can is chosen.
     void offer(std::size_t artifact, bool offered, MonotonicTime now);
-    /// The one that the button for the next artifact leads to, or for the previous one; the chosen one where there is no
+    /// The artifact that the button for the next or for the previous artifact leads to; the chosen one if there is no
     /// other.
     [[nodiscard]] std::size_t next() const { return neighbour(1); }
     [[nodiscard]] std::size_t previous() const { return neighbour(count_ - 1); }
-    /// Goes back to the language that it began with.
+    /// Returns to the first language.
     void reset_language(MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(Command command, MonotonicTime now);
-    /// Whether the command has something to change to.
+    /// True if the command has something to change to.
     [[nodiscard]] bool accepts(Command command) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
     /// The chosen artifact; it may not be visible yet.
@@ -71,12 +71,12 @@ public:
 private:
     void change_language(std::size_t which, MonotonicTime now);
 
-    /// The nearest that is not left out, `step` by `step` round the set.
+    /// The nearest artifact that is not left out, in steps of `step` around the set.
     [[nodiscard]] std::size_t neighbour(std::size_t step) const;
 
     std::size_t count_;
     std::vector<bool> left_out_;
-    std::vector<std::string> languages_; ///< and one more, where it begins in none of them
+    std::vector<std::string> languages_; ///< with one more if the first language is none of them
     std::size_t language_count_;
     std::size_t first_language_;
     std::size_t language_before_; ///< the language before the latest command for another

@@ -1,7 +1,7 @@
-/// What the tracker does not know and a visitor could mend: a covered prop, metal, a head that is not seen any more.
+/// Losses of the tracker that a visitor could correct: a covered prop, metal, a head that is lost.
 ///
-/// A head is missed only by somebody who is there without it: it was known in this visit, and the prop was touched since it was
-/// lost. Whoever goes is not asked to come back.
+/// A head is missed only if its owner is still present: it was known in this visit, and the prop was touched since
+/// the head was lost. A visitor who leaves is not asked to come back.
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.
@@ -16,10 +16,11 @@ namespace frustumscreen {
 
 class Sensed {
 public:
-    /// `lost`: the prop's place has not been known for a while. `touched`: when the prop moved last or a button was pressed.
+    /// `lost`: the prop's pose has been unknown for a while. `touched`: when the prop last moved or a button was
+    /// pressed.
     [[nodiscard]] Sensing update(MonotonicTime now, const TrackedState& tracked_state, bool lost,
                                  const std::optional<MonotonicTime>& touched);
-    /// The visitor has gone.
+    /// Forgets the visitor, who has gone.
     void forget() { *this = {}; }
 
 private:

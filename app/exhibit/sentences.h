@@ -1,11 +1,11 @@
-/// The exhibit's own words on the table: one sentence at a time, beside the prop, in the visitor's language.
+/// The exhibit's own texts on the table: one sentence at a time, beside the prop, in the visitor's language.
 ///
-/// A sentence fades in at the best place that there is, stays there, and fades out before the next one comes.
+/// A sentence fades in at the best place, stays there, and fades out before the next one.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `find` and `place` allocate nothing.
-/// Errors   none: a key that is not there, and a sentence without room, are not shown.
+/// Errors   none: an unknown key, or a sentence without room, shows nothing.
 #pragma once
 
 #include "app/typography/captions.h"
@@ -19,9 +19,9 @@
 
 namespace frustumscreen {
 
-/// A sentence of the exhibit's own words.
+/// A sentence of the exhibit's own texts.
 struct AdviceText {
-    std::string key; ///< of an advice as words_key gives it, of others as the file of words has it
+    std::string key;                 ///< of an advice as from words_key, of others as in the file of words
     std::vector<glm::dvec2> sizes_m; ///< as CatalogueEntry::caption_sizes_m
 };
 struct AdviceLanguage {
@@ -42,7 +42,7 @@ struct PresentedAdvice {
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
 
-/// What a sentence lies beside.
+/// The surroundings that a sentence must not overlap.
 struct SentenceEnvironment {
     std::optional<TablePolygon> around; ///< the prop's shadow, and the sign beside it
     std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
@@ -52,30 +52,30 @@ struct SentenceEnvironment {
 
 class Sentences {
 public:
-    static constexpr Nanoseconds leaves = std::chrono::milliseconds(250); ///< to fade out
+    static constexpr Nanoseconds leaves = std::chrono::milliseconds(250); ///< fade out
 
     Sentences(std::vector<AdviceLanguage> words, std::span<const glm::dvec2> picture_m);
 
-    /// In the language nearest to `language`.
+    /// The sentence with this key, in the language nearest to `language`.
     [[nodiscard]] std::optional<WordIndex> find(std::string_view key, std::string_view language) const;
-    /// What else lies on the table.
+    /// Sets the other rectangles on the table.
     void set_obstacles(std::span<const TableRectangle> obstacles) { placer_.set_obstacles(obstacles); }
-    /// `wanted` is shown, or nothing more. Returns what is.
+    /// Shows `wanted`, or nothing. Returns what is shown in this step.
     [[nodiscard]] std::optional<PresentedAdvice>
     place(MonotonicTime now, const std::optional<WordIndex>& wanted, const SentenceEnvironment& environment);
-    /// Its words are seen, or fade in: it may be spoken.
+    /// True if its words are visible or fade in, so that it may be spoken.
     [[nodiscard]] bool shows(MonotonicTime now, const WordIndex& word) const;
-    /// Something is or will be shown: `place` looks at its surroundings.
+    /// True if a sentence is or will be shown: `place` uses its surroundings.
     [[nodiscard]] bool busy() const { return lies_.has_value(); }
 
 private:
     std::vector<AdviceLanguage> words_;
     std::vector<std::string> languages_;
     CaptionPlacer placer_;
-    std::optional<WordIndex> lies_; ///< that the placer has
-    double share_ = 0.0;            ///< of its light; it falls while another is wanted
+    std::optional<WordIndex> lies_; ///< the one that the placer holds
+    double share_ = 0.0;            ///< of its light; falls while another is wanted
     MonotonicTime last_;
-    MonotonicTime appears_; ///< when the placer was given it
+    MonotonicTime appears_; ///< when the placer received it
 };
 
 } // namespace frustumscreen

@@ -61,7 +61,7 @@ void StaffTool::act(std::size_t button) {
     }
 }
 
-/// After the loudest comes the quietest: two buttons reach all of them.
+/// The volume wraps around from the loudest to the quietest: two buttons reach all steps.
 void StaffTool::change_volume(int steps) {
     const int wished_db = view_.louder_db + steps * volume_step_db;
     view_.louder_db = wished_db > loudest_db ? quietest_db : wished_db < quietest_db ? loudest_db : wished_db;

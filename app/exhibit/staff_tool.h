@@ -1,16 +1,16 @@
-/// What the staff do with the buttons while their picture is shown: pages, volume, and when the picture goes.
+/// The staff's use of the buttons while the staff picture is shown: pages, volume, and when the picture ends.
 ///
 ///     first button    does what the page is for: the next light, louder and a tone
 ///     second button   the next page
-///     third button    one step back of what the first one does
+///     third button    undoes one step of the first
 ///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured
 ///
-/// Buttons  two are enough. On StaffPage::Buttons each press counts and does nothing else; so this page comes last, and the chord
-///          alone leads away from it, as it ends the picture on every page. What the presses of a chord, or of a button that is then
-///          held, did before is undone.
-/// End      `after_press` after the latest press; kept: `longest` after it came, which is the most. Without a calibration (`stays`) it
-///          goes with the chord alone.
-/// Flashes  what is shown follows the presses at most once every `between_views`, whoever hammers at the buttons.
+/// Buttons  two are enough. On StaffPage::Buttons each press is only counted. This page is therefore the last, and
+///          only the chord leaves it, as the chord ends the picture on every page. The effect of the presses of a
+///          chord, or of a button that is then held, is undone.
+/// End      `after_press` after the latest press; if kept, `longest` after it appeared, the upper limit. Without a
+///          calibration (`stays`) only the chord ends it.
+/// Flashes  the picture follows the presses at most once every `between_views`, however fast the buttons are pressed.
 /// Units    decibels.
 /// Time     `now` never goes back.
 /// Threads  a value; one caller. Allocates nothing.
@@ -30,18 +30,19 @@ namespace frustumscreen {
 enum class StaffPage : std::uint8_t { Status, Place, Focus, Light, Sound, Tracker, Buttons };
 inline constexpr std::array<std::string_view, 7> staff_page_names{"Status", "Place",   "Focus",  "Light",
                                                                   "Sound",  "Tracker", "Buttons"};
-/// Of StaffPage::Light: all white, all black, steps from black to white.
+/// The picture of StaffPage::Light: all white, all black, steps from black to white.
 enum class StaffLight : std::uint8_t { White, Black, Greys };
 
-/// What is shown to the staff.
+/// The content of the staff picture.
 struct StaffView {
     StaffPage page = StaffPage::Status;
     StaffLight light = StaffLight::White;
-    bool has_words = true; ///< a white or black picture is without any after `words_stay`, to be measured
-    int louder_db = 0;     ///< than the settings say
-    std::array<std::uint16_t, button_commands.size()> presses{}; ///< of each button since the picture came
-    std::optional<std::uint8_t> pressed;                         ///< the latest button, for `lit_for`
-    bool held = false; ///< `pressed` was held long enough to count as that
+    bool has_words = true; ///< a white or black picture loses its words after `words_stay`, to be measured
+    int louder_db = 0;     ///< relative to the settings' volume
+    std::array<std::uint16_t, button_commands.size()>
+        presses{};                       ///< of each button since the picture appeared
+    std::optional<std::uint8_t> pressed; ///< the latest button, for `lit_for`
+    bool held = false;                   ///< `pressed` was held long enough to count as held
     bool kept = false;
     bool stays = false;
 
@@ -60,30 +61,30 @@ public:
     /// `stays`: there is no calibration.
     explicit StaffTool(bool stays) { view_.stays = stays; }
 
-    /// The picture comes, with its first page.
+    /// Shows the first page.
     void begin(MonotonicTime now);
     void press(std::size_t button, MonotonicTime now);
-    /// The button of the latest press of `first`, or of another one, is held.
+    /// Call when a button is held: that of the latest press of `first`, or of another one.
     void hold(bool first, MonotonicTime now);
-    /// The first and the last button are held: what their presses did is undone.
+    /// Call when the first and the last button are held: undoes the effect of their presses.
     void undo_chord(std::size_t last_button);
-    /// Call in every step, after what was pressed; the picture is shown.
+    /// Call in every step while the picture is shown, after the presses.
     void step(MonotonicTime now);
     [[nodiscard]] bool is_over(MonotonicTime now) const;
-    /// Since `begin` or the last call, the staff asked to measure the table.
+    /// True if the staff asked to measure the table since `begin` or the last call.
     [[nodiscard]] bool take_measure();
 
-    /// What is shown.
+    /// The content to show.
     [[nodiscard]] const StaffView& shown() const { return shown_; }
-    /// How often a tone was asked for.
+    /// Number of tones asked for.
     [[nodiscard]] std::uint32_t tones() const { return tones_; }
-    /// Also while the picture is not shown.
+    /// Valid also while the picture is not shown.
     [[nodiscard]] int louder_db() const { return view_.louder_db; }
-    /// As it was kept; a value that is none of its steps counts as the nearest.
+    /// Restores a kept volume; a value between the steps counts as the nearest.
     void set_louder_db(int louder_db);
 
 private:
-    /// What a press changes, and undoing brings back.
+    /// The values that a press changes and `undo` restores.
     struct Step {
         StaffPage page;
         StaffLight light;
@@ -100,7 +101,7 @@ private:
     std::uint64_t press_number_ = 0;
     std::uint32_t tones_ = 0;
     bool measure_ = false;
-    std::size_t latest_other_ = 1; ///< the button but the first that was pressed last
+    std::size_t latest_other_ = 1; ///< the latest pressed button other than the first
     MonotonicTime begun_, pressed_, lit_, shown_since_;
 };
 

@@ -1,12 +1,13 @@
-/// The exhibit's states, and what leads from one to the other: one table, from which the program runs and docs/states.md
-/// is written.
+/// The exhibit's states and the transitions between them: one table, by which the program runs and from which
+/// docs/states.md is written.
 ///
 ///     next(State::View, Event::AdviceDue) == State::Guide
 ///
-/// Rules    An event that a state has no row for changes nothing there. Most events say what is the case, and are raised in
-///          every step in which it is: so none can be missed. Within a step they are raised in the order of `Event`.
-/// Rest     leads from every state to Attract, in two rests at most: the compiler checks it, and that each state can be
-///          reached.
+/// Rules    An event without a row for the current state changes nothing. Most events report a condition and are
+///          raised in every step in which it holds, so none can be missed. Within a step they are raised in the order
+///          of `Event`.
+/// Rest     leads from every state to Attract in at most two rests. The compiler checks this, and that each state can
+///          be reached.
 /// Threads  pure; any.
 #pragma once
 
@@ -40,15 +41,15 @@ enum class Event : std::uint8_t {
 };
 inline constexpr std::size_t event_count = 15;
 
-/// The words that lie on the table beside the caption, or in its place.
+/// The words on the table beside the caption, or in its place.
 enum class Words : std::uint8_t { None, Invitation, Advice, NarrationSequencer, Fault };
 
-/// What a state shows and says; `shows` says it to people.
+/// The properties of a state: its picture, words and voice; `shows` describes them for people.
 struct StateNote {
     State state;
     std::string_view name;
-    bool artifact; ///< it is shown
-    bool sign;     ///< a dark face brings the sign of the move that mends it
+    bool artifact; ///< the artifact is shown
+    bool sign;     ///< a dark face brings the sign of the move that corrects it
     Words words;
     bool voice; ///< its words may be spoken
     std::string_view shows;
@@ -114,7 +115,7 @@ inline constexpr std::array transitions{
     Transition{State::View, Event::NarrationBegins, State::Describe},
     Transition{State::View, Event::AdviceDue, State::Guide},
 
-    // A ring that fills is not disturbed: what the prop stands on is no place to be mended.
+    // A filling ring is not disturbed: the prop's place there needs no correction.
     Transition{State::Browse, Event::Rest, State::Attract},
     Transition{State::Browse, Event::Chord, State::Staff},
     Transition{State::Browse, Event::NothingToShow, State::Fault},
@@ -131,7 +132,7 @@ inline constexpr std::array transitions{
     Transition{State::Guide, Event::NarrationBegins, State::Describe},
     Transition{State::Guide, Event::AdviceOver, State::View},
 
-    // What is told is told to its end, also without the prop and with a dark face.
+    // A description is told to its end, even without the prop or with a dark face.
     Transition{State::Describe, Event::Rest, State::Attract},
     Transition{State::Describe, Event::Chord, State::Staff},
     Transition{State::Describe, Event::NothingToShow, State::Fault},
@@ -144,17 +145,17 @@ inline constexpr std::array transitions{
     Transition{State::Degraded, Event::TrackerBack, State::View},
     Transition{State::Degraded, Event::NarrationBegins, State::Describe},
 
-    // The next rest begins anew; while there is still nothing to show, that step leads back.
+    // The next rest begins anew; while there is still nothing to show, that step returns to Fault.
     Transition{State::Fault, Event::Rest, State::Attract},
     Transition{State::Fault, Event::Chord, State::Staff},
     Transition{State::Fault, Event::SomethingToShow, State::View},
 
-    // A press turns its pages. What is the case is looked at afterwards.
+    // A press turns its pages. Conditions are observed after it ends.
     Transition{State::Staff, Event::Rest, State::View},
     Transition{State::Staff, Event::Chord, State::View},
 };
 
-/// The same state where the table has no row.
+/// The state after an event; the same state if the table has no row.
 [[nodiscard]] constexpr State next(State from, Event event) {
     for (const Transition& transition : transitions) {
         if (transition.from == from && transition.on == event) {
@@ -170,13 +171,13 @@ inline constexpr std::array transitions{
 [[nodiscard]] constexpr const EventNote& note_of(Event event) {
     return event_notes[static_cast<std::size_t>(event)];
 }
-/// In the place of a state's name while the exhibit sleeps (hours.h); behind it the states go on.
+/// Shown in place of a state's name while the exhibit sleeps (hours.h); the states go on meanwhile.
 inline constexpr std::string_view asleep_name = "asleep";
 [[nodiscard]] constexpr std::string_view name_of(State state) {
     return note_of(state).name;
 }
 
-/// What is the case in a step, as far as it moves states.
+/// The conditions of a step that move states.
 struct Observed {
     bool nothing_to_show = false;
     bool tracker_lost = false;
@@ -185,7 +186,7 @@ struct Observed {
     bool narration_sequencer = false;
     bool advice_due = false;
 };
-/// The state after the events of what is the case, in their order: those from NothingToShow on.
+/// The state after the events of the conditions, in order, from NothingToShow on.
 [[nodiscard]] constexpr State state_after(State state, const Observed& seen) {
     state = next(state, seen.nothing_to_show ? Event::NothingToShow : Event::SomethingToShow);
     state = next(state, seen.tracker_lost ? Event::TrackerLost : Event::TrackerBack);
@@ -196,7 +197,7 @@ struct Observed {
 }
 
 inline constexpr int max_rests = 2;
-/// How many rests lead to Attract; more than `max_rests`: none do.
+/// Number of rests that lead to Attract; more than `max_rests`: none do.
 [[nodiscard]] constexpr int rests_to_attract(State state) {
     int rests = 0;
     for (; state != State::Attract && rests <= max_rests; ++rests) {
@@ -221,7 +222,7 @@ consteval bool notes_are_in_order() {
     return true;
 }
 
-/// One row for a state and an event, and it leads elsewhere.
+/// True if a state and an event have one row at most, and each row leads to another state.
 consteval bool rows_are_unique() {
     for (std::size_t k = 0; k < transitions.size(); ++k) {
         const Transition& row = transitions[k];

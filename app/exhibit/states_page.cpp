@@ -24,12 +24,12 @@ std::vector<Event> events_between(State from, State to) {
     return events;
 }
 
-/// What leads to staff or fault from nearly everywhere is drawn from attract alone.
+/// Transitions to staff and fault, which come from nearly every state, are drawn from attract alone.
 bool is_drawn(State from, State to) {
     return from == State::Attract || (to != State::Staff && to != State::Fault);
 }
 
-/// On white, so that no line runs through the letters.
+/// A label on a white ground, so that no line runs through its letters.
 std::string label_of(const std::vector<Event>& events) {
     std::string rows;
     for (const Event event : events) {
@@ -39,7 +39,7 @@ std::string label_of(const std::vector<Event>& events) {
         "<<table border=\"0\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"1\">{}</table>>", rows);
 }
 
-/// How the states stand to each other, so that few lines cross.
+/// Arranges the states so that few lines cross.
 constexpr std::string_view layout = "  rankdir=TB; nodesep=1.0; ranksep=0.9; bgcolor=white;\n"
                                     "  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3f8\", "
                                     "color=\"#334455\", fontname=\"Noto Sans\", "

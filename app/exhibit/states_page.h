@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 /// Markdown, for `frustumscreen states`.
 [[nodiscard]] std::string states_page();
-/// The language of Graphviz, for `frustumscreen states --dot`.
+/// Graphviz's language, for `frustumscreen states --dot`.
 [[nodiscard]] std::string states_graph();
 
 } // namespace frustumscreen

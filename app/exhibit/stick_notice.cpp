@@ -15,7 +15,7 @@ namespace {
 
 constexpr double ring_follows_s = 0.3;
 
-/// In the order of ImportRefusal.
+/// Entries are in the order of ImportRefusal.
 constexpr std::array<std::string_view, import_refusal_names.size()> refusal_words{
     "stick.refused.unreadable", // a refusal without a reason
     "stick.refused.unsigned",   "stick.refused.wrong_key",  "stick.refused.altered",
@@ -37,7 +37,7 @@ double share_done(const ImportReport& report) {
     return std::min(1.0, static_cast<double>(report.done_bytes) / all);
 }
 
-/// Refusals first, then as a person asks.
+/// Order of the lines: refusals first, then by interest to the reader.
 int rank_of(const ImportedPack& pack) {
     switch (pack.outcome) {
     case ImportOutcome::Refused:
@@ -58,7 +58,7 @@ NoticeLine line_of(const ImportedPack& pack) {
     return {believed ? pack.title : pack.file, pack.file, outcome_word(pack.outcome, pack.refusal)};
 }
 
-/// How many of the packs, which are in their order, have each word.
+/// The number of packs with each word.
 struct WordCount {
     std::string_view key;
     std::size_t count = 0;
@@ -79,7 +79,7 @@ std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs
     return counts;
 }
 
-/// The most lines of single packs that leave room for those that come together.
+/// As many single packs as leave room for the combined lines.
 std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
     std::vector<const ImportedPack*> packs;
     for (const ImportedPack& pack : report.packs) {
@@ -107,7 +107,7 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
     return lines;
 }
 
-/// Where no shell is, nobody else tells the technician which line is wrong, and why no report is on the stick.
+/// A kiosk has no shell, so only the notice tells the technician which line is wrong, and why no report was written.
 std::string remark_of(const ImportReport& report) {
     const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
         return pack.outcome == ImportOutcome::NotWritten ||
@@ -148,7 +148,7 @@ NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
         break;
     case ImportStage::Failed: {
         NoticeText text{{outcome_word(ImportOutcome::Refused, report.refusal)}, {}, false};
-        if (report.refusal != ImportRefusal::Unreadable) { // that one may be out already
+        if (report.refusal != ImportRefusal::Unreadable) { // an unreadable stick may be out already
             text.sentences.emplace_back("stick.take_out");
         }
         text.lines = lines_of(report, max_lines);
@@ -179,9 +179,9 @@ void StickNotice::take(MonotonicTime now, const ImportReport& report, bool is_ol
         changed_ = now;
         ring_to_ = 0.0;
     } else if (is_over(stage_)) {
-        return; // it ended already
+        return; // it has already ended
     } else {
-        hidden_ = false; // what was said to have stopped goes on
+        hidden_ = false; // an import reported as stopped goes on
     }
     const double full = share_done(report);
     ring_from_ = another ? full : ring_at(now);

@@ -1,10 +1,10 @@
-/// What the table tells the staff of a stick: what the importer's report says in words, and when that is shown.
+/// The notice about a stick: the importer's report in words, and when it is shown.
 ///
 ///     ImportReport -> notice_text -> NoticeText: sentences and lines, as keys of the exhibit's own words
-///     ImportReport, now, presses -> StickNotice -> which of it is shown, and how full its ring is
+///     ImportReport, now, presses -> StickNotice -> the part of it that is shown, and how full its ring is
 ///
-/// Shown    from the report on until two minutes after it was over, or until a button is pressed then. A report that was over
-///          two minutes before the exhibit began is not shown. Another import begins anew.
+/// Shown    from the report until two minutes after its end, or until a button is pressed after its end. A report
+///          that ended two minutes before the exhibit began is not shown. Another import begins anew.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` and `press` allocate nothing.
 /// Errors   none.
@@ -22,14 +22,14 @@
 
 namespace frustumscreen {
 
-/// Key of the word for what became of a pack; `refusal` counts for what was refused.
+/// Key of the word for a pack's outcome; `refusal` counts only for a refused pack.
 [[nodiscard]] std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal);
 
 struct NoticeLine {
     std::string
-        label; ///< the pack's title; of a refused one its file's name; 490: so many; `+ 483`: so many more
-    std::string file;     ///< in place of a title that no typeface has; may be empty
-    std::string_view key; ///< of the word for what became of it
+        label; ///< the pack's title; a refused one's file name; 490: number of packs; `+ 483`: more packs
+    std::string file;     ///< in place of a title that no typeface can set; may be empty
+    std::string_view key; ///< of the word for its outcome
     [[nodiscard]] bool operator==(const NoticeLine&) const = default;
 };
 struct NoticeText {
@@ -40,33 +40,34 @@ struct NoticeText {
     [[nodiscard]] bool operator==(const NoticeText&) const = default;
 };
 inline constexpr std::size_t max_notice_lines = 8;
-/// `max_lines`: with more packs than this, those that are left come together, a line for each word; there may be more of these.
+/// `max_lines`: with more packs than this, the rest are combined, one line for each word; these lines may exceed the
+/// limit.
 [[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t max_lines = max_notice_lines);
-/// That nothing comes any more.
+/// The text for a copy that has stopped.
 [[nodiscard]] NoticeText stopped_text();
 
 struct ShownNotice {
-    bool stopped = false;       ///< stopped_text in place of the report's
-    std::optional<double> ring; ///< how full it is, 0..1
-    std::string_view speech;    ///< key of the word that is spoken while this is shown; empty: none
-    std::uint64_t import = 0;   ///< which one, by its number: what was spoken of it is spoken once
-    bool ends_at_press = false; ///< and the press does nothing else
+    bool stopped = false;       ///< stopped_text in place of the report's text
+    std::optional<double> ring; ///< how full the ring is, 0..1
+    std::string_view speech;    ///< key of the word that is spoken meanwhile; empty: none
+    std::uint64_t import = 0;   ///< number of the import: each speech is spoken once for each import
+    bool ends_at_press = false; ///< the press has no other effect
     [[nodiscard]] bool operator==(const ShownNotice&) const = default;
 };
 
 class StickNotice {
 public:
     static constexpr Nanoseconds told_for = std::chrono::minutes(2);
-    /// A copy that stands still for so long has stopped: the stick was pulled, or the importer has ended.
+    /// A copy without progress for this long has stopped: the stick was pulled, or the importer has ended.
     static constexpr Nanoseconds copy_patience = std::chrono::seconds(30);
-    /// A stick with many files is looked through for a minute at most.
+    /// Searching a stick with many files takes a minute at most.
     static constexpr Nanoseconds look_patience = std::chrono::seconds(90);
 
-    /// `is_old`: it was long there when the exhibit began. The same report again changes nothing.
+    /// `is_old`: it ended long before the exhibit began. The same report again changes nothing.
     void take(MonotonicTime now, const ImportReport& report, bool is_old);
-    /// Nothing: nothing is shown.
+    /// The notice to show; nothing: none.
     [[nodiscard]] std::optional<ShownNotice> at(MonotonicTime now) const;
-    /// Ends what ends at a press. True: it did.
+    /// Ends a notice that ends at a press. True if it did.
     bool press(MonotonicTime now);
 
 private:
@@ -78,7 +79,7 @@ private:
     ImportStage stage_ = ImportStage::Found;
     ImportRefusal refusal_ = ImportRefusal::None;
     std::uint64_t done_bytes_ = 0;
-    MonotonicTime changed_; ///< when the report last said something new
+    MonotonicTime changed_; ///< when the report last changed
     double ring_from_ = 0.0, ring_to_ = 0.0;
     bool hidden_ = false; ///< by a press, or from the beginning
 };

@@ -1,5 +1,5 @@
-/// For how long the visitor has moved nothing: neither the prop nor, by more than people sway who stand and look, the head; and
-/// has pressed nothing.
+/// Time for which the visitor has moved or pressed nothing: neither the prop nor, by more than a standing person
+/// sways, the head.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -14,17 +14,17 @@ namespace frustumscreen {
 
 class Stillness {
 public:
-    /// More than a tracker's noise and a hand that rests on the prop.
+    /// Movement beyond a tracker's noise and a hand resting on the prop.
     static constexpr double moved_m = 0.004;
     static constexpr double turned_rad = 0.05;
-    /// A step, and not a nod.
+    /// A step, not a nod.
     static constexpr double stepped_m = 0.12;
 
     /// Returns the time since the latest movement or press.
     Nanoseconds update(MonotonicTime now, const TrackedState& tracked_state, bool pressed);
 
 private:
-    std::optional<TrackedState> rested_; ///< where prop and head were at the latest movement
+    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
     MonotonicTime moved_;
 };
 

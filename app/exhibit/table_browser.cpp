@@ -52,7 +52,7 @@ std::optional<std::size_t> TableBrowser::step(MonotonicTime now, const Input& in
     return chosen;
 }
 
-/// Sides may have room for different numbers, and so other pages.
+/// Layouts of different sides may have different numbers of places, and so different pages.
 void TableBrowser::turn_to_page_of(std::size_t artifact, std::size_t side) {
     page_ = layouts_[side].page_of(artifact);
     artifact_ = artifact;
@@ -93,7 +93,8 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
     }
 }
 
-/// A sign glides to and fro; what it comes back to stays dim.
+/// True if a sign lies on the picture, or did recently: a sign glides to and fro, and the picture stays dim
+/// meanwhile.
 bool TableBrowser::is_under_sign(MonotonicTime now, const Input& input, std::size_t picture) {
     constexpr Nanoseconds comes_back = std::chrono::seconds(2);
     std::optional<MonotonicTime>& signed_at = signed_at_[picture];
@@ -112,7 +113,7 @@ bool TableBrowser::is_on_picture(const std::optional<glm::dvec2>& prop_m) const 
            });
 }
 
-/// All but the empty place. What the prop is on now is not chosen before the prop has left it.
+/// Lists all places but the empty one. The picture under the prop is not chosen until the prop has left it.
 void TableBrowser::note_choosable(std::size_t artifact) {
     choosable_count_ = 0;
     for (std::size_t k = 0; k < presented_.count; ++k) {

@@ -1,8 +1,9 @@
-/// What lies on the table to choose from, and what is chosen there: layout, pages, fades and dwell in one place.
+/// The pictures on the table to choose from, and the choice among them: layout, pages, fades and dwell in one place.
 ///
-/// The artifact in the prop has an empty place; its picture fades out as it is chosen, and that of the one before fades in at
-/// its own place. When the reader goes to another side, or to another page, all fade out and in again. A page is turned by
-/// resting on the last place, or when an artifact of another page comes into the prop.
+/// The place of the artifact in the prop is empty: its picture fades out as it is chosen, and the previous artifact's
+/// picture fades in at its own place. When the reader goes to another side or the page changes, all pictures fade out
+/// and in again. A page is turned by resting on the last place, or when an artifact of another page comes into the
+/// prop.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -23,7 +24,7 @@
 namespace frustumscreen {
 
 struct PlacedPicture {
-    std::optional<std::size_t> artifact; ///< index into the catalogue; nothing: it leads to the next page
+    std::optional<std::size_t> artifact; ///< index into the catalogue; nothing: leads to the next page
     TablePlace place;
     double brightness = 0.0; ///< 0..1, a factor on linear light
 };
@@ -39,7 +40,7 @@ struct PresentedTable {
 
 class TableBrowser {
 public:
-    static constexpr Nanoseconds each_way = std::chrono::milliseconds(250); ///< of a fade
+    static constexpr Nanoseconds each_way = std::chrono::milliseconds(250); ///< fade out, or fade in
     static constexpr double dimmed = 0.12; ///< light of a picture under a sign
 
     explicit TableBrowser(const TableSetUp& set_up);
@@ -49,22 +50,22 @@ public:
         int quarter_turns = 0;              ///< the reader's side
         std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
         std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
-        bool choose = false;                ///< pressed: takes the picture whose ring has begun
-        std::optional<TablePolygon> sign;   ///< what the visitor should do; pictures under it dim
+        bool choose = false;                ///< pressed: chooses the picture whose ring has begun
+        std::optional<TablePolygon> sign;   ///< advice as a picture; table pictures under it dim
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
-    /// Whether the artifact can be chosen: its picture comes or goes.
+    /// Sets whether the artifact can be chosen: its picture appears or disappears.
     void offer(std::size_t artifact, bool offered) {
         left_out_[artifact] = !offered;
         choosable_holds_ = false;
     }
     [[nodiscard]] const PresentedTable& presented() const { return presented_; }
-    /// Whether the prop is on a picture that resting there chooses.
+    /// True if the prop is on a picture that resting chooses.
     [[nodiscard]] bool prop_is_on_picture() const { return on_picture_ || presented_.ring; }
-    /// Whether the latest step chose an artifact or turned the page.
+    /// True if the latest step chose an artifact or turned the page.
     [[nodiscard]] bool chose() const { return chose_; }
-    /// What captions lie beside: the places of this side, empty ones too.
+    /// The places that captions must not overlap: those of this side, empty ones too.
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
     }
@@ -84,7 +85,7 @@ private:
     [[nodiscard]] bool is_under_sign(MonotonicTime now, const Input& input, std::size_t picture);
     [[nodiscard]] bool is_on_picture(const std::optional<glm::dvec2>& prop_m) const;
 
-    /// Whether the place is empty: of what is in the prop, or left out.
+    /// True if the place is empty: its artifact is in the prop, or left out.
     [[nodiscard]] bool empty(const PlacedPicture& picture, std::size_t artifact) const {
         return picture.artifact && (*picture.artifact == artifact || left_out_[*picture.artifact]);
     }
@@ -92,10 +93,10 @@ private:
     std::array<TableLayout, 4> layouts_;
     std::vector<bool> left_out_; ///< by artifact
     std::size_t page_ = 0;
-    std::optional<std::size_t> artifact_; ///< for which `page_` and the choosable pictures are
+    std::optional<std::size_t> artifact_; ///< artifact of `page_` and the choosable pictures
     std::size_t side_ = 0;
     std::optional<Fade> fade_;            ///< from the first step on
-    std::optional<std::size_t> laid_out_; ///< the arrangement that lies there
+    std::optional<std::size_t> laid_out_; ///< the arrangement on the table
     MonotonicTime last_;
     std::array<double, max_table_places> presence_{};                        ///< 0: the place is empty
     std::array<double, max_table_places> under_sign_{};                      ///< 1: dimmed
@@ -104,7 +105,7 @@ private:
     std::array<TableRectangle, max_table_places> choosable_{};
     std::array<std::size_t, max_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
-    bool choosable_holds_ = false; ///< the choosable pictures are those that lie there
+    bool choosable_holds_ = false; ///< the choosable pictures match the table
     bool on_picture_ = false;
     std::array<TableRectangle, max_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;

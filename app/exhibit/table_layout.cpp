@@ -14,13 +14,13 @@ constexpr double dimming_m = 0.012;        ///< as a caption's
 constexpr double caption_margin_m = 0.022; ///< a caption is never placed closer to the prop than 20 mm
 constexpr double caption_slack_m = 0.012;  ///< captions are placed on a grid of 10 mm
 
-/// How many more artifacts a page must have room for, to be lopsided.
+/// Ratio of artifacts on a page that makes an asymmetric page worth it.
 constexpr double worth_being_lopsided = 1.5;
-/// In metres of picture size.
+/// The following are in metres of picture size.
 constexpr double size_for_better_anchor = 0.003;
 constexpr double size_for_better_shape = 0.015;
 
-/// Where a caption may be while the prop is at home, the best first: at the reader's edge, then at the sides.
+/// Areas for a caption while the prop is at home, best first: at the reader's edge, then at the sides.
 std::vector<TableArea> caption_areas(const ReadersTable& table, const glm::dvec2& caption) {
     std::vector<TableArea> areas;
     const glm::dvec2 half = 0.5 * (caption + caption_slack_m);
@@ -39,8 +39,8 @@ std::vector<TableArea> caption_areas(const ReadersTable& table, const glm::dvec2
     return areas;
 }
 
-/// How many places a page has, for so many artifacts where at most `most` find room: the last one leads on where there are
-/// several pages, and all pages but the last are full.
+/// The number of places of a page, for `artifacts` artifacts where at most `most` fit: with several pages the last
+/// place leads on, and all pages but the last are full.
 std::size_t places_of_page(std::size_t artifacts, std::size_t most) {
     if (artifacts <= most) {
         return artifacts;
@@ -75,7 +75,8 @@ Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, doubl
     return candidate;
 }
 
-/// With an area for the caption if that leaves places; the most artifacts on a page first, then the larger pictures.
+/// The best layout: with an area for the caption if that leaves places; most artifacts on a page first, then larger
+/// pictures.
 Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bool symmetric) {
     const std::size_t wanted = std::min(set_up.artifacts, max_table_places);
     Candidate best;
@@ -95,7 +96,7 @@ Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bo
     return best.shown > 0 ? best : candidate_for({table, std::nullopt, symmetric}, set_up, 0.0, 0.0);
 }
 
-/// Symmetric, unless that leaves room for far fewer.
+/// Symmetric, unless an asymmetric layout has room for far more.
 Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up) {
     Candidate symmetric = best_candidate(table, set_up, true);
     const double many = worth_being_lopsided * static_cast<double>(symmetric.shown);

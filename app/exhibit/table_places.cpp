@@ -6,29 +6,29 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double widest_gap_m = 0.050; ///< a row that is spread does not fall apart
+constexpr double widest_gap_m = 0.050; ///< a wider row falls apart
 constexpr double size_step_m = 0.0025;
-constexpr double home_margin_m = 0.015; ///< more than pictures dim at: with the prop at home, all are bright
+constexpr double home_margin_m = 0.015; ///< beyond dimming: with the prop at home, pictures are bright
 constexpr double rounding_m = 1e-9;
 
-/// Costs in metres away from the reader, or of picture size.
+/// Costs in metres of distance from the reader, or of picture size.
 constexpr double cost_behind_prop = 1.0;
 constexpr double cost_of_unused_place = 0.2;
 constexpr double size_for_even_rows = 0.015;
 
-/// From low to high, along one axis.
+/// An interval along one axis.
 struct Span {
     double low = 0.0;
     double high = 0.0;
 };
 
-/// Middles of rows, or of columns.
+/// Middles of rows or of columns.
 struct Lines {
     std::vector<double> middles;
-    bool split = false; ///< half of them at each end
+    bool split = false; ///< half of the lines are at each end
 };
 
-/// All ways to lay out lines of things of one size: spread evenly about a middle, or packed against both ends.
+/// All ways to arrange lines of one size: spread evenly about a middle, or packed against both ends.
 std::vector<Lines> ways_to_line_up(const Span& span, double wanted_middle, double size) {
     std::vector<Lines> ways;
     const double length = span.high - span.low;
@@ -59,13 +59,13 @@ std::vector<Lines> ways_to_line_up(const Span& span, double wanted_middle, doubl
     return ways;
 }
 
-/// Left to right, row by row, from the one farthest from the reader.
+/// Sorts left to right, row by row, from the row farthest from the reader.
 void put_in_reading_order(std::vector<glm::dvec2>& middles) {
     std::sort(middles.begin(), middles.end(),
               [](const glm::dvec2& a, const glm::dvec2& b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
 }
 
-/// All rows have the same columns.
+/// True if all rows have the same columns.
 bool has_equal_rows(const std::vector<glm::dvec2>& middles) {
     const auto length = static_cast<std::size_t>(std::count_if(
         middles.begin(), middles.end(), [&](const glm::dvec2& at) { return at.y == middles.front().y; }));
@@ -82,18 +82,18 @@ struct Place {
     double cost = 0.0;
 };
 
-/// A lattice's places that have room, nearest first.
+/// The usable places of a lattice, nearest first.
 struct Lattice {
     double size = 0.0;        ///< of the pictures
-    double line = 0.0;        ///< x of the line that pairs mirror each other at
-    bool split = false;       ///< its rows are
-    std::vector<Place> pairs; ///< the left one of each
+    double line = 0.0;        ///< x of the mirror line of the pairs
+    bool split = false;       ///< its rows are split
+    std::vector<Place> pairs; ///< the left one of each pair
     std::vector<Place> singles;
     [[nodiscard]] std::size_t places() const { return 2 * pairs.size() + singles.size(); }
 };
 
-/// Takes `pairs` pairs and some singles for n pictures, if that is better than what was found. Of a pair that is not needed
-/// whole, the last in reading order goes.
+/// Uses `pairs` pairs and some singles for n pictures, if that is better than `best`. If a pair is only half needed,
+/// its last place in reading order is dropped.
 void keep_if_better(FoundPlaces& best, const Lattice& lattice, std::size_t n, std::size_t pairs) {
     const std::size_t singles = n - std::min(n, 2 * pairs);
     double sum = 0.0;
@@ -130,7 +130,7 @@ void keep_if_better(FoundPlaces& best, const Lattice& lattice, std::size_t n, st
     best = {lattice.size, value, cost, std::move(middles)};
 }
 
-/// For every n, the best of a lattice if nothing better was found yet: pairs and, for the rest, singles.
+/// For every n, keeps the best of the lattice if it beats `found`: pairs and, for the rest, singles.
 void keep_better(FoundByCount& found, const Lattice& lattice) {
     for (std::size_t n = 1; n <= std::min(lattice.places(), max_table_places); ++n) {
         for (std::size_t pairs = 0; pairs <= std::min(lattice.pairs.size(), (n + 1) / 2); ++pairs) {
@@ -141,7 +141,7 @@ void keep_better(FoundByCount& found, const Lattice& lattice) {
     }
 }
 
-/// Between what the rows are spread: the table's edges, or the caption and an edge.
+/// The spans for rows: between the table's edges, or between the caption and an edge.
 std::vector<Span> row_spans(const PictureRoom& room) {
     const ReadersTable& table = room.table;
     const std::optional<TableArea>& caption = room.caption;
@@ -162,7 +162,7 @@ Span column_span(const PictureRoom& room) {
                : Span{table.room.centre.x - table.room.half.x, table.room.centre.x + table.room.half.x};
 }
 
-/// Fills a lattice with its places that have room; of a symmetric one, with those whose mirror image has too.
+/// Fills a lattice with its usable places; of a symmetric one, those whose mirror image is usable too.
 void fill(Lattice& lattice, const PictureRoom& room, const Lines& rows, const Lines& columns,
           const glm::dvec2& whole) {
     const ReadersTable& table = room.table;

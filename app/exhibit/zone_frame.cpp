@@ -11,8 +11,8 @@ namespace {
 
 constexpr double begins_m = 0.015; ///< inside the border
 constexpr double whole_m = 0.015;  ///< past the border
-constexpr double lifted_m = 0.02;  ///< of the prop's bottom: it counts as being on the border
-constexpr double tilted = 0.17;    ///< radians, 10 degrees: likewise
+constexpr double lifted_m = 0.02;  ///< of the prop's bottom: counts as being on the border
+constexpr double tilted = 0.17;    ///< radians, 10 degrees: counts as being on the border
 constexpr double arm_m = 0.1;      ///< metres past the border for each radian of tilt
 
 } // namespace

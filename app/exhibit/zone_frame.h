@@ -1,7 +1,7 @@
-/// A frame of light on the table around the places where the prop is lit evenly.
+/// A frame of light on the table around the zone: the places where the prop is lit evenly.
 ///
-/// It comes up softly as the prop comes near the border of its zone, is lifted or tilted, and stays while it is outside: it
-/// shows the way back. It is a function of the pose alone, so nothing can flicker.
+/// It brightens smoothly as the prop nears the border of its zone, or is lifted or tilted. It stays while the prop is
+/// outside, to show the way back. It is a function of the pose alone, so nothing can flicker.
 ///
 /// Frames   table T, metres.
 /// Threads  values; any. Allocates nothing.
@@ -16,17 +16,17 @@
 namespace frustumscreen {
 
 inline constexpr double zone_line_m = 0.003;
-/// The frame's light, as a share of a caption's.
+/// Brightness of the frame relative to a caption's.
 inline constexpr double zone_brightness = 0.5;
 
 class ZoneFrame {
 public:
-    /// `axis`: the places of the prop's axis; `half_bottom_m`: half the side of the prop's bottom. `table`: width, depth; the
-    /// frame never lies past its edges. No zone, no frame.
+    /// `axis`: the zone of the prop's axis; `half_bottom_m`: half the side of the prop's bottom. `table`: width,
+    /// depth; the frame never extends past its edges. An empty zone has no frame.
     ZoneFrame(const Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m);
     ZoneFrame() = default;
 
-    /// 0..1.
+    /// The frame's brightness, 0..1.
     [[nodiscard]] double share(const RigidTransform& table_from_prop) const;
     /// The frame's four sides.
     [[nodiscard]] const std::array<TableRectangle, 4>& sides() const { return sides_; }

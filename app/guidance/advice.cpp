@@ -12,12 +12,12 @@ namespace frustumscreen {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-/// An unlit area counts as smaller below this share of the one before.
+/// Ratio to the previous unlit area below which an area counts as smaller.
 constexpr double better_share = 0.97;
-constexpr int looks_of_an_area = 5; ///< what is unlit takes as long as so many looks at what is lit
+constexpr int looks_of_an_area = 5; ///< cost of an unlit area, in looks at what is lit
 
-/// Calls `visit` with what people do who turn the prop or stand it up: the angle is theirs, and whether they turn it about
-/// its middle. What is unlit between two angles can be a fifth of a degree wide. `visit` returns false to end.
+/// Calls `visit` with the executions of a turn or of standing the prop up: various angles, about the prop's middle or
+/// not. An unlit range of angles can be only 0.2 degrees wide. `visit` returns false to end.
 template <typename Visit> bool for_each_angle(const Move& move, double margin, Visit visit) {
     constexpr int to_each_side = 100;
     constexpr int coarse = 10;
@@ -36,10 +36,10 @@ template <typename Visit> bool for_each_angle(const Move& move, double margin, V
         }
         return true;
     };
-    return visit_each(true) && visit_each(false); // what fails mostly fails soon
+    return visit_each(true) && visit_each(false); // a coarse pass finds most failures early
 }
 
-/// The same for what is stood up or set down elsewhere: both the way and the angle are theirs.
+/// As for_each_angle, for a prop that is stood up or set down elsewhere: both the way and the angle vary.
 template <typename Visit>
 void for_each_place(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
     struct Way {
@@ -53,7 +53,7 @@ void for_each_place(const Move& move, const GuidanceSetup& setup, double margin,
         const bool goes_on = for_each_angle(move, margin, [&](Execution execution) {
             execution.amount = 1.0 + margin * sloppy_amount * amount;
             execution.raised_rad = margin * sloppy_direction_deg * degree * rise;
-            // On the table it is all the same what it is turned about.
+            // on the table, the axis of the turn makes no difference
             return (execution.about_origin && !setup.in_hand) || visit(execution);
         });
         if (!goes_on) {
@@ -62,7 +62,7 @@ void for_each_place(const Move& move, const GuidanceSetup& setup, double margin,
     }
 }
 
-/// The same for a way or a walk: the edges of what people do, and between.
+/// As for_each_angle, for a way or a walk: the limits of what people do, and values between.
 template <typename Visit>
 void for_each_way(const Move& move, const GuidanceSetup& setup, double margin, Visit visit) {
     constexpr std::array<double, 7> amounts{0.0, -1.0, 1.0, -0.67, 0.67, -0.33, 0.33};

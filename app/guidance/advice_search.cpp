@@ -9,16 +9,16 @@ namespace frustumscreen {
 
 namespace {
 
-/// What stands in an order of advice: all in units of effort.
-constexpr double not_surely_whole = 3.0; ///< where no way of carrying it out mends all
+/// Terms of the order of advice, in units of effort.
+constexpr double not_surely_whole = 3.0; ///< if no execution makes the artifact whole
 constexpr double as_advised_already = -2.0;
-constexpr double unsteady = 6.0; ///< where no small movement leaves it whole
-/// What replaces an advice that stands must help people who are even sloppier, or the two would take turns.
+constexpr double unsteady = 6.0; ///< if no small movement leaves it whole
+/// An advice that replaces the standing one must help with larger deviations, or the two would alternate.
 constexpr double newcomers_margin = 1.25;
-/// People are looked at on a grid; a little more than its corners holds between them too.
+/// Executions are sampled on a grid; a margin slightly beyond its corners covers the values between them.
 constexpr double usual_margin = 1.12;
 
-/// The moves with which longer sequences begin: stood upright, then lowered to the table, the prop is where a zone is
+/// The moves that begin longer sequences: stood upright, then lowered to the table, the prop is where its zone is
 /// widest.
 std::optional<Move> settling(const GuidanceSetup& setup, const GuidedState& tracked_state) {
     constexpr double low_enough_m = 0.03;
@@ -72,7 +72,7 @@ void AdviceSearch::end(const Move& move, int steps) {
     over_ = true;
 }
 
-/// Those that make it whole if they are done well, the easiest first.
+/// Collects the moves that make the artifact whole if carried out well, the easiest first.
 void AdviceSearch::collect_single_moves(const FaceReader& reader) {
     const Candidates list = candidates(reader.setup(), tracked_state_, MoveSet::Only);
     looks_left_ -= static_cast<int>(list.all().size());
@@ -87,7 +87,7 @@ void AdviceSearch::collect_single_moves(const FaceReader& reader) {
     stage_ = Stage::Steadiness;
 }
 
-/// As well as by its effort, by where it ends.
+/// Adds to a move's effort the steadiness of the situation that it ends in.
 void AdviceSearch::weigh_single_move(const FaceReader& reader) {
     if (next_ == candidates_.all().size()) {
         candidates_.sort_by_effort();
@@ -99,7 +99,7 @@ void AdviceSearch::weigh_single_move(const FaceReader& reader) {
     candidates_.add_effort(next_++, cost_of_end(reader, next));
 }
 
-/// The best one makes it whole if it is done well, and helpful however it is done.
+/// Finds the best move that makes the artifact whole if carried out well and helps however it is carried out.
 void AdviceSearch::try_single_move(const FaceReader& reader) {
     const std::span<const Candidate> moves = candidates_.all();
     if (next_ == moves.size() || moves[next_].effort >= best_.cost) {
@@ -122,7 +122,7 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
     }
 }
 
-/// What stands is kept while a sequence begins with it.
+/// The standing advice is kept while a sequence begins with it.
 void AdviceSearch::plan_sequences(const FaceReader& reader) {
     try_count_ = 0;
     if (standing_ && standing_->holds(tracked_state_)) {
@@ -141,7 +141,7 @@ void AdviceSearch::plan_sequences(const FaceReader& reader) {
     begin_try(reader);
 }
 
-/// With the last move all over the table only where no coarse one is found.
+/// Tries the last move all over the table only if no coarse one is found.
 void AdviceSearch::plan_up_to_two(Try from) {
     constexpr std::array<std::pair<int, MoveSet>, 4> searches{
         {{1, MoveSet::Only}, {1, MoveSet::Last}, {2, MoveSet::Inner}, {2, MoveSet::Last}}};
@@ -166,19 +166,19 @@ void AdviceSearch::begin_try(const FaceReader& reader) {
     best_ = {};
     next_ = 0;
     if (try_ == try_count_) {
-        end(Move{}, 1); // it has to wait
+        end(Move{}, 1); // the visitor has to wait
         return;
     }
     const Try& search = tries_.at(try_);
     candidates_ = candidates(reader.setup(), search.from, search.depth == 1 ? search.last : MoveSet::Inner);
 }
 
-/// Each move is done well, at the end it is whole; only the first move and the length matter.
+/// Each move is carried out well, and the artifact is whole at the end; only the first move and the length matter.
 void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     const Try& search = tries_.at(try_);
     if (next_ == candidates_.all().size()) {
         if (best_.any()) {
-            // A single move that people may get wrong is mended by one more.
+            // An uncertain single move may need one more as a correction.
             end(search.settled_by.value_or(best_.move), std::max(2, search.depth + search.steps_before));
         } else {
             ++try_;
@@ -188,7 +188,8 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     }
     const Candidate& first = candidates_.all()[next_++];
     --looks_left_;
-    // In the hand a place and a turn at once are hardly met; where that is not sure to help, two moves are easier.
+    // A place and a turn at once are hard to carry out in the hand; if that is not sure to help, two moves are
+    // easier.
     const bool too_much = reader.setup().in_hand && stands_elsewhere(first.move);
     if (too_much || first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
         return;
@@ -200,7 +201,7 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     }
 }
 
-/// Who is led to the edge of what is lit soon has to be led again.
+/// The cost of ending in a situation: at the edge of the light, another advice would soon be needed.
 double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedState& end) {
     if (!reader.whole(end)) {
         return never;
@@ -211,7 +212,7 @@ double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedState& en
     return cost;
 }
 
-/// Of the one move that is left.
+/// The least effort of the one move that is left.
 double AdviceSearch::min_effort(const FaceReader& reader, const GuidedState& from, MoveSet set) {
     double least = never;
     const Candidates list = candidates(reader.setup(), from, set);

@@ -1,9 +1,10 @@
-/// Looks for an advice in pieces, so that no frame waits for it: each piece looks at about as many situations as it may.
+/// Searches for an advice in pieces, so that no frame waits for it: each piece examines about as many situations as
+/// allowed.
 ///
-/// First single moves, the least effort first; then sequences, the shortest first. What is found does not depend on the
+/// Single moves come first, in order of effort; then sequences, the shortest first. The result does not depend on the
 /// pieces.
 ///
-/// Cost     a situation about 1 us; a single move needs hundreds, a sequence tens of thousands.
+/// Cost     about 1 us for a situation; a single move needs hundreds, a sequence tens of thousands.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -23,14 +24,14 @@ class AdviceSearch {
 public:
     static constexpr int unlimited = std::numeric_limits<int>::max();
 
-    /// `standing`: the advice that the visitor has already.
+    /// `standing`: the advice that the visitor already has.
     void begin(const FaceReader& reader, const GuidedState& tracked_state,
                const std::optional<GivenAdvice>& standing);
-    /// Goes on by about `looks` situations. True: it is over.
+    /// Examines about `looks` more situations. True: the search is over.
     [[nodiscard]] bool advance(const FaceReader& reader, int looks);
-    /// That of the latest `begin`.
+    /// The situation of the latest `begin`.
     [[nodiscard]] const GuidedState& tracked_state() const { return tracked_state_; }
-    /// Once it is over: as `advise`.
+    /// The result, once the search is over: as `advise`.
     [[nodiscard]] const std::optional<Advice>& found() const { return found_; }
 
 private:
@@ -44,8 +45,8 @@ private:
     /// A search for sequences of one length.
     struct Try {
         GuidedState from;
-        std::optional<Move> settled_by = {}; ///< what comes before it; then this is the advice
-        std::optional<Move> like = {};       ///< its first move is to be alike
+        std::optional<Move> settled_by = {}; ///< the move before the try; it is then the advice
+        std::optional<Move> like = {};       ///< the try's first move must be alike
         int steps_before = 0;
         int depth = 1;
         MoveSet last = MoveSet::Only;
@@ -69,7 +70,7 @@ private:
     int looks_left_ = 0;
     Stage stage_ = Stage::Begun;
     Candidates candidates_; ///< single moves, or the first moves of the try
-    std::size_t next_ = 0;  ///< of `candidates_`
+    std::size_t next_ = 0;  ///< index into `candidates_`
     Best best_;
     std::array<Try, 24> tries_{};
     std::size_t try_count_ = 0;

@@ -8,7 +8,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-/// A prop on the table that hovers less than this stands: trackers err by some millimetres, and downwards too.
+/// A prop on the table that hovers less than this counts as standing: trackers err by some millimetres, also
+/// downwards.
 constexpr double down_within_m = 0.012;
 
 constexpr std::array<double, 4> coarse_ways_m{0.05, 0.12, 0.25, 0.50};
@@ -28,7 +29,7 @@ constexpr std::array<double, 28> fine_ways_m = [] {
     return ways;
 }();
 
-/// Where the visitor looks from, along the table.
+/// The visitor's direction of view along the table.
 double azimuth_of_view(const GuidedState& tracked_state) {
     const glm::dvec3 way = tracked_state.table_from_prop.translation - tracked_state.eye_m;
     return std::hypot(way.x, way.y) > 1e-6 ? std::atan2(way.y, way.x) : 0.5 * std::numbers::pi;
@@ -40,20 +41,20 @@ void add_slides(std::span<const double> ways_m, int directions, const GuidanceSe
     const bool was_over = over_table(setup, tracked_state.table_from_prop);
     for (int k = 0; k < directions; ++k) {
         const double angle = view + 2.0 * std::numbers::pi * k / directions;
-        // Words name left, right, nearer and farther; the arrow names all others.
+        // Words name left, right, nearer and farther; the arrow shows all other directions.
         const double oblique = k % (directions / 4) == 0 ? 0.0 : 0.15;
         for (const double way_m : ways_m) {
             Move move{Action::Slide};
             move.by_m = {way_m * std::cos(angle), way_m * std::sin(angle), 0.0};
             if (was_over && !over_table(setup, after(move, setup, tracked_state).table_from_prop)) {
-                break; // and farther is farther off
+                break; // farther ways leave the table too
             }
             candidates.add(move, 0.6 + oblique + way_m / 0.15);
         }
     }
 }
 
-/// Places all over the table: a zone that is a narrow strip lies between directions and ways.
+/// Places all over the table: a zone that is a narrow strip lies between the sampled directions and ways.
 template <typename Add>
 void for_each_place(const GuidanceSetup& setup, const GuidedState& tracked_state, Add add) {
     constexpr int columns = 16;
@@ -116,7 +117,7 @@ void add_standing(const GuidanceSetup& setup, const GuidedState& tracked_state, 
     }
 }
 
-/// The prop is in the hand already: it can be stood anywhere in one go.
+/// The prop is already in the hand: it can be stood anywhere in one move.
 void add_standing_elsewhere(const GuidanceSetup& setup, const GuidedState& tracked_state,
                             Candidates& candidates) {
     const Action action = candidates.all().front().move.action;

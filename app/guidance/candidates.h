@@ -1,6 +1,6 @@
-/// The moves that guidance chooses from, in the visitor's own directions, each with the effort that it asks for.
+/// The moves that guidance chooses from, in the visitor's own directions, each with its effort.
 ///
-/// Effort   about 1 for what is done with one calm movement of the hand.
+/// Effort   about 1 for one calm movement of the hand.
 /// Threads  pure; any. Allocates nothing: the lists are of a fixed size.
 #pragma once
 
@@ -39,8 +39,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Only: directions and amounts are fine. Last of a sequence: places all over the table. Inner: coarse, enough to find
-/// which moves follow one another.
+/// Only: directions and amounts are fine. Last of a sequence: places all over the table. Inner: coarse, sufficient to
+/// find which moves follow one another.
 enum class MoveSet { Only, Last, Inner };
 [[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedState& tracked_state,
                                     MoveSet set);

@@ -11,10 +11,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// A point this near to the eye or behind it is taken as this near, in shares of the distance to the prop's middle.
+/// A point closer to the eye than this, or behind it, is moved to this distance, as a fraction of that to the prop's
+/// middle.
 constexpr double nearest_share = 0.01;
 
-/// A pinhole at the eye looks at the prop's middle.
+/// The direction from the eye to the prop's middle.
 glm::dvec3 forward_from(const glm::dvec3& eye, const PropShape& prop) {
     const glm::dvec3 way = prop.middle - eye;
     return way / std::fmax(glm::length(way), 1e-9);
@@ -34,7 +35,7 @@ bool sees(const glm::dvec3& point, const PropFace& face, double min_sine) {
     return height * height >= min_sine * min_sine * farthest;
 }
 
-/// Where the eye and the projector are, seen from the prop.
+/// The eye and the projector in the prop's frame.
 struct Views {
     glm::dvec3 eye;
     glm::dvec3 lens;
@@ -62,7 +63,7 @@ struct Views {
                           pixel->y <= pinhole.height;
                });
     }
-    /// Calls `visit` with parts that together are all of the face that is not lit, and do not overlap, until it returns false.
+    /// Calls `visit` with disjoint parts that together are the face's unlit area, until it returns false.
     template <typename Visit>
     bool for_each_unlit(const PropFace& face, const GuidanceSetup& setup, const std::array<Plane, 4>& picture,
                         const Visit& visit) const {

@@ -1,10 +1,12 @@
-/// Which of the prop's faces a visitor sees, which of them the projector lights, and whether the artifact is seen whole.
+/// The prop's faces that a visitor sees, those that the projector lights, and whether the artifact is seen whole.
 ///
 /// Seen     the eye is in front of the face's plane by a sine of at least `min_sine_of_sight` at every corner.
-/// Lit      so is the projector by `min_sine_of_light`, and all corners lie in its picture.
+/// Lit      the projector is in front of the plane by `min_sine_of_light` at every corner, and all corners lie in
+///          its picture.
 /// Valid    every seen face is lit. The prop is convex, so no face hides or shades another.
-/// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is in front of
-///          the face by that sine, and the place in its picture. Where no artifact is known: valid.
+/// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is
+///          in front of the face by `min_sine_of_light`, and the place lies in its picture. Without a known
+///          artifact: as Valid.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any. Allocates nothing.
@@ -26,16 +28,16 @@
 
 namespace frustumscreen {
 
-/// What a visitor can be guided in: the prop, its light and its room.
+/// The environment of guidance: the prop, its light and its room to move.
 struct GuidanceSetup {
     PropShape prop;
     Pinhole projector;
     RigidTransform table_from_projector;
     double min_sine_of_light = 0.035;
-    bool in_hand = false; ///< else it stands on the table, and the table's edge ends its way
+    bool in_hand = false; ///< false: the prop stands on the table, whose edges limit its way
     glm::dvec2 half_table_m{0.4, 0.25};
-    bool head_tracked = true; ///< else nobody is asked to walk
-    /// The artifact in the prop, by the corners of its hull, prop frame, 1024 at most; empty: none is known.
+    bool head_tracked = true; ///< false: visitors are not asked to walk
+    /// The corners of the hull of the artifact in the prop, prop frame, at most 1024; empty: unknown.
     std::vector<glm::dvec3> hull{};
 };
 
@@ -62,31 +64,31 @@ public:
     explicit FaceReader(GuidanceSetup setup);
 
     [[nodiscard]] const GuidanceSetup& setup() const { return setup_; }
-    /// Another artifact, in place of the set-up's. Its corners are the caller's, who keeps them.
+    /// Replaces the set-up's artifact. The caller keeps the corners.
     void show(std::span<const glm::dvec3> hull) { shown_ = hull; }
     [[nodiscard]] std::span<const glm::dvec3> shown() const {
         return shown_.value_or(std::span<const glm::dvec3>(setup_.hull));
     }
 
     [[nodiscard]] FaceSets read(const GuidedState& tracked_state) const;
-    /// The same as `read(situation).valid()`, in a part of the time.
+    /// As `read(situation).valid()`, but faster.
     [[nodiscard]] bool valid(const GuidedState& tracked_state) const;
     [[nodiscard]] bool whole(const GuidedState& tracked_state) const;
-    /// Whole, and there is a picture: a prop of the table that lies so that the visitor sees none of its faces shows nothing.
-    /// `faces`: of the situation.
+    /// True if the artifact is whole and there is a picture: a prop lying on the table with none of its faces seen
+    /// shows nothing. `faces`: of the situation.
     [[nodiscard]] bool shows_whole(const GuidedState& tracked_state, const FaceSets& faces) const {
         return (faces.valid() || (!shown().empty() && whole(tracked_state))) &&
                (faces.seen != 0 || setup_.in_hand);
     }
-    /// Area of these faces in the picture of a pinhole at the eye that looks at the prop's middle, square pixels.
+    /// Area of these faces, in square pixels, in the picture of a pinhole at the eye that looks at the prop's middle.
     [[nodiscard]] double area_px(const GuidedState& tracked_state, std::uint32_t faces) const;
-    /// Area of the seen and unlit faces.
+    /// Area of the seen faces that are not lit.
     [[nodiscard]] double unlit_px(const GuidedState& tracked_state) const {
         return area_px(tracked_state, read(tracked_state).unlit());
     }
-    /// Area of the places that keep it from being whole.
+    /// Area of the places that prevent `whole`.
     [[nodiscard]] double lost_px(const GuidedState& tracked_state) const;
-    /// The face with the largest area of these, as a set; 0 of none.
+    /// The face of the set with the largest area, as a set; 0 for the empty set.
     [[nodiscard]] std::uint32_t largest_of(const GuidedState& tracked_state, std::uint32_t faces) const;
 
 private:

@@ -12,9 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double metres_per_radian = 0.15; ///< a turn and a slide that take about as long
+constexpr double metres_per_radian = 0.15; ///< a slide that takes about as long as a turn of one radian
 
-/// What is left to do, in metres.
+/// The effort left, in metres.
 double effort_left(const Move& move) {
     switch (move.action) {
     case Action::Slide:
@@ -28,7 +28,7 @@ double effort_left(const Move& move) {
     }
 }
 
-/// Far enough for another advice, or for another amount.
+/// True if the situation has changed enough for another advice or another amount.
 bool has_moved(const GuidedState& now, const GuidedState& then) {
     constexpr double moved_m = 0.004;
     constexpr double turned_rad = 0.03;
@@ -58,7 +58,7 @@ void Guide::take(MonotonicTime now, const GuidedState& tracked_state, Sensing se
                            !advisor_.reader().whole(tracked_state);
     const double left = effort_left(guidance_.move);
     if (guidance_.stage == GuidanceStage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
-        // Another advice begins as a picture, however far the one before had come.
+        // A different advice begins as a picture, whatever the stage of the previous one.
         guidance_.stage = GuidanceStage::Picture;
         guidance_.since = now;
         stage_since_ = now;
@@ -68,7 +68,7 @@ void Guide::take(MonotonicTime now, const GuidedState& tracked_state, Sensing se
     constexpr double nearer_m = 0.01;
     if (left < nearest_effort_ - nearer_m) {
         nearest_effort_ = left;
-        stage_since_ = now; // it is being followed
+        stage_since_ = now; // the visitor follows the advice
     }
 }
 
@@ -97,14 +97,14 @@ void Guide::rest(MonotonicTime now) {
     needed_for_ = Nanoseconds(0);
     next_look_.reset();
     looks_at_.reset();
-    // Who managed for as long as a long pause is as new.
+    // After a long success, reset the repeat interval.
     if (spoken_ && now - *spoken_ > longest_pause) {
         spoken_.reset();
         pause_ = first_pause;
     }
 }
 
-/// What is being said already is not said again.
+/// Gives the answer in all forms. A sentence that is being spoken is not repeated.
 void Guide::answer(MonotonicTime now, bool may_speak) {
     asked_ = false;
     guidance_.stage = GuidanceStage::Voice;
@@ -113,15 +113,15 @@ void Guide::answer(MonotonicTime now, bool may_speak) {
     spoken_ = may_speak ? now : spoken_;
 }
 
-/// A hand that trembles at the border of the light makes no sign blink: while the picture is whole, need goes twice as fast as
-/// it came.
+/// Prevents a trembling hand at the border of the light from making the sign blink: while the picture is whole, need
+/// decreases twice as fast as it grew.
 void Guide::note_need(MonotonicTime now, bool needed) {
     const Nanoseconds gone = last_ ? now - *last_ : Nanoseconds(0);
     last_ = now;
     needed_for_ = std::clamp(needed_for_ + (needed ? gone : -2 * gone), Nanoseconds(0), patience);
 }
 
-/// For what may last only a moment.
+/// True while the need may still be a momentary one.
 bool Guide::waits(MonotonicTime now) const {
     const bool again = guided_ && now - *guided_ < again_within;
     return guidance_.stage == GuidanceStage::Quiet && !asked_ &&
@@ -165,7 +165,7 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedState& tracked_state,
     return guidance_;
 }
 
-/// Looks for another advice where something has moved, a piece at each step.
+/// Searches for another advice when something has moved, a piece in each step.
 void Guide::look(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing) {
     if (sensing != Sensing::Good) {
         looks_at_.reset();
@@ -182,7 +182,7 @@ void Guide::look(MonotonicTime now, const GuidedState& tracked_state, Sensing se
         advisor_.begin(tracked_state);
         next_look_ = now + looks_every;
     }
-    // A look through the artifact's hull takes longer than one at the faces.
+    // An examination through the artifact's hull takes longer than one of the faces.
     const int share = advisor_.reader().shown().empty() ? 1 : 3;
     if (looks_at_ && advisor_.advance((asked_ ? looks_a_step_asked : looks_a_step) / share)) {
         take(now, *looks_at_, sensing);
@@ -227,7 +227,7 @@ std::string_view turn_key(const Guidance& guidance) {
                : (little ? "turn_clockwise_a_little" : "turn_clockwise");
 }
 
-/// The way round the table is the shorter one, seen from where the visitor stands.
+/// The key for the shorter way round the table, from where the visitor stands.
 std::string_view walk_key(const Guidance& guidance) {
     if (guidance.move.side == Side::Front) {
         return "come_to_front";

@@ -1,12 +1,13 @@
-/// Guides one visitor: when an advice is given, how it is given, and when it is quiet.
+/// Guides one visitor: when an advice is given, in which form, and when guidance is quiet.
 ///
-/// One advice at a time. First it is a picture on the table, then a text beside it, then it is spoken. It goes on
-/// to the next of these only while the visitor does not follow it, and what is spoken is said again after pauses that grow.
-/// It ends as soon as the visitor sees the whole artifact. It does not begin for what lasts only a moment.
+/// One advice at a time. It begins as a picture on the table; then a text appears beside it; then the text is spoken.
+/// Each of these follows only while the visitor does not act on the advice, and speech is repeated after increasing
+/// pauses. The advice ends as soon as the visitor sees the whole artifact. A need that lasts only a moment brings no
+/// advice.
 ///
 /// Frames   table T, metres.
-/// Time     `now` never goes back; the rhythm of the steps does not matter, but for how often the advice is looked for.
-/// Threads  values; one caller. Allocates nothing. A step takes about a millisecond while it looks for an advice, else
+/// Time     `now` never goes back; the rhythm of the steps matters only for how often an advice is searched.
+/// Threads  values; one caller. Allocates nothing. A step takes about a millisecond during a search, otherwise
 ///          microseconds.
 #pragma once
 
@@ -20,12 +21,12 @@
 
 namespace frustumscreen {
 
-/// How well the tracker knows the prop and the visitor. Without the prop nothing else can be said; a lost head and metal are
-/// spoken of where every seen face is lit.
+/// How well the tracker knows the prop and the visitor. A lost prop takes priority over everything else; a lost head
+/// and metal are reported only when every seen face is lit.
 enum class Sensing : std::uint8_t {
     Good,
-    PropLost,    ///< it is covered or out of reach
-    TrackerAway, ///< the tracker itself does not answer
+    PropLost,    ///< covered or out of reach
+    TrackerAway, ///< the tracker itself does not respond
     HeadLost,
     MetalNear
 };
@@ -34,51 +35,51 @@ enum class GuidanceStage : std::uint8_t { Quiet, Picture, Text, Voice };
 
 struct Guidance {
     GuidanceStage stage = GuidanceStage::Quiet;
-    Move move; ///< of what is advised; Wait if only `sensing` says why
+    Move move; ///< the advised move; Wait if only `sensing` gives the reason
     int steps = 0;
     Sensing sensing = Sensing::Good;
-    bool left_light = false;   ///< a prop of the table was lost where it was not lit
-    bool speak = false;        ///< at this step the sentence begins to be spoken
+    bool left_light = false;   ///< a prop on the table was lost where it was not lit
+    bool speak = false;        ///< the sentence's speech begins in this step
     MonotonicTime since;       ///< when the picture appeared
-    GuidedState tracked_state; ///< that the advice was found for
+    GuidedState tracked_state; ///< for which the advice was found
 };
 
 class Guide {
 public:
     static constexpr Nanoseconds patience = std::chrono::milliseconds(400);
-    /// Who has just been guided is still at it: what they lose by going too far is shown sooner.
+    /// A visitor who has just been guided is still moving the prop, so a loss from going too far is shown sooner.
     static constexpr Nanoseconds patience_again = std::chrono::milliseconds(100);
-    static constexpr Nanoseconds again_within = std::chrono::milliseconds(1500); ///< of the latest advice
-    static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);   ///< from the picture on
-    static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000);  ///< from the text on
+    static constexpr Nanoseconds again_within = std::chrono::milliseconds(1500); ///< since the latest advice
+    static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);   ///< since the picture
+    static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000);  ///< since the text
     static constexpr Nanoseconds first_pause = std::chrono::seconds(8);
     static constexpr Nanoseconds longest_pause = std::chrono::seconds(60);
-    /// At most; what rests needs no other look.
+    /// Largest rate of searches; at rest no other search is needed.
     static constexpr Nanoseconds looks_every = std::chrono::milliseconds(250);
 
-    /// About a millisecond's.
+    /// About a millisecond of search.
     static constexpr int looks_a_step = 2000;
-    static constexpr int looks_a_step_asked = 4 * looks_a_step; ///< somebody waits
+    static constexpr int looks_a_step_asked = 4 * looks_a_step; ///< while a visitor waits
 
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
 
-    /// The artifact that is in the prop from the next step on: the corners of its hull, prop frame, which are kept by the caller;
-    /// empty: none is known, and every seen face counts.
+    /// Sets the artifact in the prop from the next step on: the corners of its hull, prop frame, which the caller
+    /// keeps; empty: unknown, and every seen face counts.
     void show(std::span<const glm::dvec3> hull);
 
-    /// `tracked_state`: of a lost prop the latest that was known. `may_speak`: false while something else is being said, or the
-    /// words do not lie on the table.
+    /// `tracked_state`: for a lost prop, the latest known one. `may_speak`: false while something else is spoken, or
+    /// while the words are not visible on the table.
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
-    /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
+    /// No advice is needed now, whatever the visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
-    /// Somebody asks what to do: where there is advice, the next steps find it and give all of it at once.
+    /// Call when a visitor asks for help: the next steps search for an advice and give it in all forms at once.
     void ask() { asked_ = true; }
-    /// Somebody has asked, and the answer is being looked for.
+    /// True while the answer to `ask` is being searched.
     [[nodiscard]] bool answers() const { return asked_; }
-    /// The visitor has gone: the next one is told everything anew.
+    /// Forgets the visitor, who has gone: the next one is told everything anew.
     void forget();
-    /// The faces of the latest step.
+    /// The faces seen and lit in the latest step.
     [[nodiscard]] const FaceSets& faces() const { return faces_; }
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
 
@@ -93,19 +94,19 @@ private:
     Advisor advisor_;
     FaceSets faces_;
     Guidance guidance_;
-    std::optional<MonotonicTime> last_;   ///< the step before
-    Nanoseconds needed_for_{0};           ///< lately
-    std::optional<MonotonicTime> guided_; ///< when an advice was there last
+    std::optional<MonotonicTime> last_;   ///< the previous step
+    Nanoseconds needed_for_{0};           ///< need accumulated lately
+    std::optional<MonotonicTime> guided_; ///< time of the latest advice
     std::optional<MonotonicTime> next_look_;
-    std::optional<GuidedState> looks_at_; ///< while an advice is looked for
-    MonotonicTime stage_since_;           ///< or since the visitor last came nearer
-    double nearest_effort_ = 0.0;         ///< what was left to do, at its least
-    std::optional<MonotonicTime> spoken_; ///< when it was last said
+    std::optional<GuidedState> looks_at_; ///< while an advice is searched
+    MonotonicTime stage_since_;           ///< or since the visitor last made progress
+    double nearest_effort_ = 0.0;         ///< the least effort left so far
+    std::optional<MonotonicTime> spoken_; ///< when the advice was last spoken
     Nanoseconds pause_ = first_pause;
     bool asked_ = false;
 };
 
-/// The sentence's key in the exhibit's own words (assets_baked/texts/words), in the visitor's own directions.
+/// Key of the sentence in the exhibit's own texts (assets_baked/texts/words), in the visitor's own directions.
 [[nodiscard]] std::string_view words_key(const Guidance& guidance);
 
 } // namespace frustumscreen

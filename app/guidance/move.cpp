@@ -67,7 +67,7 @@ RigidTransform standing(const Move& move, const GuidanceSetup& setup, const Rigi
         held.translation += way_of(move, execution);
         return held;
     }
-    // The arm that strays aside turns the prop with it.
+    // An arm that moves sideways turns the prop with it.
     const glm::dvec2 place(table_from_prop.translation + way_of(move, execution));
     return {turn * table_from_prop.rotation, {place, 0.0}};
 }
@@ -91,7 +91,7 @@ bool alike(const Move& a, const Move& b) {
     }
     switch (a.action) {
     case Action::Slide:
-        // Up to 30 degrees apart.
+        // Directions up to 30 degrees apart.
         return glm::dot(a.by_m, b.by_m) >= 0.86 * glm::length(a.by_m) * glm::length(b.by_m);
     case Action::Turn:
         return (a.turn_rad > 0.0) == (b.turn_rad > 0.0);

@@ -7,10 +7,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Cones that overlap by less than this angle do not meet: rounding.
+/// An overlap of cones smaller than this angle is rounding and does not count.
 constexpr double touching_rad = 1e-9;
 
-/// Lies everything of `directions` on the side of the plane to which `normal` points, or in it?
+/// True if all of `directions` lie in the plane or on the side to which `normal` points.
 template <typename Directions>
 bool lies_before(const glm::dvec3& normal, const Directions& directions, const glm::dvec3& eye) {
     return std::all_of(directions.begin(), directions.end(), [&](const glm::dvec3& point) {
@@ -20,8 +20,8 @@ bool lies_before(const glm::dvec3& normal, const Directions& directions, const g
     });
 }
 
-/// The plane through the eye and `corner` that touches the hull and has all of it behind: its unit normal, or zero if the hull is
-/// there on both sides. `side`: 1 or -1, on which side of the corner it touches.
+/// The plane through the eye and `corner` that touches the hull and has all of it behind: its unit normal, or zero if
+/// the hull lies on both sides. `side`: 1 or -1, the side of the corner on which it touches.
 glm::dvec3 touching_plane(const glm::dvec3& eye, const glm::dvec3& corner, std::span<const glm::dvec3> hull,
                           double side) {
     const glm::dvec3 way = corner - eye;
@@ -38,7 +38,8 @@ glm::dvec3 touching_plane(const glm::dvec3& eye, const glm::dvec3& corner, std::
 
 enum class Meeting { Meet, Apart, Unclear };
 
-/// What most often decides: a corner of the hull is seen through the part, or one of the part's edges has all of the hull behind it.
+/// Decides the usual cases: a corner of the hull is seen through the part, or one of the part's edges has all of the
+/// hull behind it.
 Meeting meeting_at_edges(const glm::dvec3& eye, const FacePart& part, std::span<const glm::dvec3> hull) {
     const std::span<const glm::dvec3> corners = part.corners();
     glm::dvec3 middle(0.0);
@@ -69,14 +70,14 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// A pinhole's picture, one away.
+/// The picture plane of a pinhole at distance 1.
 struct View {
     View(const glm::dvec3& at, const glm::dvec3& along) : eye(at), forward(along) {
         const glm::dvec3 helper = std::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
         right = glm::normalize(glm::cross(along, helper));
         up = glm::cross(right, along);
     }
-    /// A point next to the eye or behind it is taken as a little before it.
+    /// A point beside or behind the eye is moved to a little in front of it.
     [[nodiscard]] glm::dvec2 seen(const glm::dvec3& point) const {
         constexpr double nearest_m = 1e-3;
         const glm::dvec3 way = point - eye;
@@ -176,7 +177,7 @@ double SeenOutline::area_through(const FacePart& part) const {
         twice += cross(window.at(k), window.at((k + 1) % sides));
     }
     const double turn = twice < 0.0 ? -1.0 : 1.0;
-    // Both are convex: the part's few edges clip the outline, to and fro between two arrays.
+    // Both are convex: the part's few edges clip the outline, alternating between two arrays.
     std::array<std::array<glm::dvec2, 2 * max_corners>, 2>
         chains; // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::copy_n(outline_.begin(), count_, chains[0].begin());

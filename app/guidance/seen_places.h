@@ -1,12 +1,15 @@
-/// The places of a prop's face through which an eye sees an artifact, and whether a part of the face holds any of them.
+/// The places of a prop's face through which an eye sees an artifact, and a test whether a part of the face contains
+/// one.
 ///
-/// The artifact is given by the corners of its convex hull, the part of the face is a convex polygon. A place is seen through
-/// where the ray from the eye through it meets the hull: the question is whether two cones with their apex in the eye meet. They
-/// do not where a plane through the eye lies between them, and then there is one that goes through a corner of the polygon
-/// and touches the hull: so all such planes are tried, and the answer is exact.
+/// The artifact is given by the corners of its convex hull; the part of the face is a convex polygon. The artifact is
+/// seen through a place if the ray from the eye through it meets the hull. The test is whether two cones with their
+/// apex in the eye meet. They do not if a plane through the eye separates them; then there is also a separating plane
+/// that passes through a corner of the polygon and touches the hull. All these planes are tried, so the answer is
+/// exact.
 ///
-/// Frame    one for all, the prop's for instance.
-/// Cost     mostly one pass over the hull, as far as the first corner that is seen; else two for each corner of the polygon.
+/// Frame    any, the same for all arguments.
+/// Cost     mostly one pass over the hull, up to the first corner that is seen; otherwise two for each corner of the
+///          polygon.
 /// Threads  pure; any. Allocates nothing.
 #pragma once
 
@@ -18,7 +21,7 @@
 
 namespace frustumscreen {
 
-/// A part of a face: the face clipped by a few planes. Its corners are in order; fewer than 3 are nothing.
+/// A part of a face: the face clipped by several planes. Its corners are in order; fewer than 3 make it empty.
 class FacePart {
 public:
     FacePart() = default;
@@ -27,7 +30,7 @@ public:
             add(corner);
         }
     }
-    /// The points with dot(inward, point) >= offset.
+    /// The part with dot(inward, point) >= offset.
     [[nodiscard]] FacePart clipped(const glm::dvec3& inward, double offset) const;
     [[nodiscard]] bool empty() const { return count_ < 3; }
     [[nodiscard]] std::span<const glm::dvec3> corners() const { return std::span(corners_).first(count_); }
@@ -42,23 +45,24 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Whether the eye sees any of the hull through the part. The eye is before the face and outside the hull.
+/// True if the eye sees any of the hull through the part. The eye must be in front of the face and outside the hull.
 [[nodiscard]] bool sees_through(const glm::dvec3& eye, const FacePart& part,
                                 std::span<const glm::dvec3> hull);
 
-/// The hull in the picture of a pinhole at the eye that looks along `forward` (unit); its plane is one away.
+/// The hull in the picture of a pinhole at the eye that looks along `forward` (unit); the picture plane is at
+/// distance 1.
 class SeenOutline {
 public:
-    static constexpr std::size_t max_corners = 1024; ///< of the hull; of more nothing is seen
+    static constexpr std::size_t max_corners = 1024; ///< of the hull; a larger hull counts as invisible
 
     SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::span<const glm::dvec3> hull);
-    /// The area in that picture of what is seen through a part of a face.
+    /// Area in that picture of what is seen through a part of a face.
     [[nodiscard]] double area_through(const FacePart& part) const;
 
 private:
     glm::dvec3 eye_;
     glm::dvec3 forward_;
-    std::array<glm::dvec2, 2 * max_corners> outline_; ///< convex, counter-clockwise; as many as `count_`
+    std::array<glm::dvec2, 2 * max_corners> outline_; ///< convex, counter-clockwise; `count_` points
     std::size_t count_ = 0;
 };
 

@@ -1,5 +1,5 @@
-/// How well a whole picture bears what a visitor does next: people turn the prop to see its other sides, push it a little, lean
-/// it in the hand. Advice that ends at the edge of what is lit is soon needed again.
+/// How well a whole picture bears the visitor's next movements: people turn the prop to see its other sides, push it
+/// a little, or lean it in the hand. An advice that ends at the edge of the light is soon needed again.
 ///
 /// Threads  pure; any. Allocates nothing.
 #pragma once
@@ -8,7 +8,8 @@
 
 namespace frustumscreen {
 
-/// The share of these small movements after which the picture is still whole. `looks`: the situations looked at are added to it.
+/// Fraction of these small movements after which the picture is still whole. `looks`: incremented by the number of
+/// situations examined.
 [[nodiscard]] double steadiness(const FaceReader& reader, const GuidedState& tracked_state, int& looks);
 
 } // namespace frustumscreen

@@ -43,8 +43,8 @@ void CopyStage::add(std::uint64_t bytes) {
 Outcome CopyStage::copy(StickPack& pack, const PackTrust& trust) {
     if (in_vain_.is_hopeless(pack.pack.manifest_sha256)) {
         refuse(pack.told, {ImportRefusal::Altered,
-                           "it was not tried, as other copies of this pack on the stick are damaged; put one "
-                           "whole copy on the stick",
+                           "it was not tried, because other copies of this pack on the stick are damaged; "
+                           "put one whole copy on the stick",
                            false});
         return {};
     }

@@ -64,19 +64,20 @@ void read_attract(TableReader& table, ExhibitFile& file) {
 
 void read_key(TableReader& table, CarriedKey& key) {
     table.any_text("name", key.name);
-    table.require("exhibit_file.key_name",
-                  !key.name.empty() && key.name == printable(key.name, max_key_name_bytes), "name",
-                  fmt::format("is missing or no name; allowed is one line of 1 to {} bytes, such as \"2031\"",
-                              max_key_name_bytes));
+    table.require(
+        "exhibit_file.key_name", !key.name.empty() && key.name == printable(key.name, max_key_name_bytes),
+        "name",
+        fmt::format("is missing or not a name; allowed is one line of 1 to {} bytes, such as \"2031\"",
+                    max_key_name_bytes));
     table.any_text("public_key", key.public_key);
     const Result<PublicKey> parsed = parse_public_key(key.public_key);
     table.require("exhibit_file.public_key", parsed.has_value(), "public_key",
-                  "is missing or no public key; allowed is the second line of a file that "
+                  "is missing or not a public key; allowed is the second line of a file that "
                   "frustumscreen-pack keygen or minisign made, RW...");
     key.public_key = parsed ? public_key_line(*parsed) : std::string();
     table.any_text("until", key.until);
     table.require("exhibit_file.until", key.until.empty() || parse_day(key.until), "until",
-                  "is no day; allowed is the key's last day as a text, \"2031-12-31\"");
+                  "is not a day; allowed is the key's last day as a text, \"2031-12-31\"");
 }
 
 void read_all(TableReader& table, ExhibitFile& file) {
@@ -102,7 +103,7 @@ Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
         read_all(keys, file);
         keys.finish(); // a misspelt key is reported before a missing one
         keys.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
-                     "would remove every pack, since no order names any; write order = [\"id\", ...]");
+                     "would remove every pack, because order names none; write order = [\"id\", ...]");
     });
     if (state.error) {
         return tl::unexpected<Error>(*std::move(state.error));

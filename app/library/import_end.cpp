@@ -40,7 +40,7 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
     if (service_result == "timeout" || service_result == "oom-kill" || service_result == "resources") {
         report.refusal = ImportRefusal::TooMuch;
         report.reason =
-            "the stick takes more time or memory than it may; put fewer files on it, or try another one";
+            "the stick needs more time or memory than is allowed; put fewer files on it, or try another one";
     }
     for (ImportedPack& pack : report.packs) { // the set was not switched
         if (pack.outcome == ImportOutcome::Pending || pack.outcome == ImportOutcome::Taken) {

@@ -34,7 +34,7 @@ ImportFailure stick_failure(std::string_view path, FileFault fault) {
                 path.empty()};
     }
     if (fault.number == EINVAL || fault.number == ELOOP) {
-        return {ImportRefusal::NotAPack, name + ": it is no ordinary file", false};
+        return {ImportRefusal::NotAPack, name + ": it is not a regular file", false};
     }
     return {ImportRefusal::Unreadable,
             fmt::format("{}: it cannot be read ({}); the stick was pulled out or is damaged: put it in again",
@@ -79,11 +79,10 @@ ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t ma
 }
 
 ImportFailure unsure_switch() {
-    return {
-        ImportRefusal::Unwritable,
-        "the new set is shown, but a power cut may bring the old one back, as the kiosk's disk fails; call "
-        "a technician",
-        true};
+    return {ImportRefusal::Unwritable,
+            "the new set is shown, but a power cut may bring the old one back, because the kiosk's disk "
+            "fails; call a technician",
+            true};
 }
 
 ImportFailure too_slow() {

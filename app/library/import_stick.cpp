@@ -211,8 +211,8 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
         refuse(refused.told, pack.error());
         in_vain_.add_look(outside_.work() - before);
         if (in_vain_.is_too_much()) {
-            return failed(too_much("the stick holds many files that look like packs and are none; put only "
-                                   "packs on it"));
+            return failed(too_much(
+                "the stick holds many files that look like packs and are not packs; put only packs on it"));
         }
     }
     return {};
@@ -319,11 +319,10 @@ std::string Import::of_ended_keys(const InstalledSet& set) {
         return {};
     }
     const std::vector<std::string> packs = packs_of_ended_keys(library_, set, keys_, today());
-    return packs.empty()
-               ? std::string()
-               : fmt::format("packs of a key that does not count any more stay: {}; take them out with "
-                             "remove, or sign them with another key",
-                             names_in_words(packs));
+    return packs.empty() ? std::string()
+                         : fmt::format("packs of a key that is no longer trusted stay: {}; take them out "
+                                       "with remove, or sign them with another key",
+                                       names_in_words(packs));
 }
 
 /// Serials and keys are kept even if the set stays as it is.

@@ -96,7 +96,7 @@ Result<SetFile> parse_set_file(std::string_view text) {
     const InstalledSet none;
     if (!names_are_hashes(file.choice.set) || !names_are_hashes(file.choice.last_good.value_or(none)) ||
         !names_are_hashes(file.before.value_or(none))) {
-        return bad_input("set.wrong_name", "it names a file that is not called by its hash; it is damaged");
+        return bad_input("set.wrong_name", "it names a file whose name is not its hash; it is damaged");
     }
     return file;
 }

@@ -52,7 +52,7 @@ tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const Signe
     if (!file.signature) {
         return tl::unexpected<ImportFailure>(
             ImportFailure{ImportRefusal::Unsigned,
-                          fmt::format("{}: it is not signed, as no {}{} lies beside it; sign it with "
+                          fmt::format("{}: it is not signed: no {}{} lies beside it; sign it with "
                                       "frustumscreen-pack sign, and put both on the stick",
                                       name, name, signature_ending),
                           false});

@@ -60,9 +60,8 @@ Outcome<Own> read_own(WritableTree& folder) {
         keys = keys_named_by(read_text(folder, settings_before_name, max_stick_settings_bytes).value_or(""));
     }
     if (!keys) {
-        return failed(ImportRefusal::Unwritable,
-                      "the kiosk's own settings are damaged, so it does not know whom to believe; write the "
-                      "image onto its disk anew");
+        return failed(ImportRefusal::Unwritable, "the kiosk's own settings are damaged, so it does not know "
+                                                 "which keys to trust; write the image onto its disk anew");
     }
     own.keys = *std::move(keys);
     const FileResult<std::string> serial = read_text(folder, settings_serial_name, max_serial_bytes);
@@ -105,9 +104,19 @@ FileResult<void> keep_serial(WritableTree& folder, std::uint64_t serial, const O
     });
 }
 
+/// Keeps what the kiosk goes back to. Settings that were not proved yet do not replace those that were: two bad
+/// sticks in a row lead back to the last good settings.
 FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     if (!own.sound) {
         return {}; // damaged settings are nothing to go back to
+    }
+    const auto text_of = [&](std::string_view name) {
+        return read_text(folder, name, max_stick_settings_bytes).value_or("");
+    };
+    const bool is_proved = text_of(settings_proved_name) == own.text;
+    const bool has_before = keys_named_by(text_of(settings_before_name)).has_value();
+    if (has_before && !is_proved) {
+        return {};
     }
     return replace_text(folder, settings_before_name, next_name, own.text).and_then([&] {
         return folder.sync_folder("");
@@ -122,10 +131,9 @@ std::optional<std::string> fault_of_copy(const SignedText& file) {
         return fmt::format("{}: it is empty; copy it to the stick again", settings_file_name);
     }
     if (!file.signature && !text.ends_with('\n')) {
-        return fmt::format(
-            "{}: its last line has no end, as after a copy that was cut off; look at it, press Enter behind "
-            "the last line, and copy it again",
-            settings_file_name);
+        return fmt::format("{}: its last line has no end, as after a copy that was cut off; look at it, "
+                           "press Enter after the last line, and copy it again",
+                           settings_file_name);
     }
     return std::nullopt;
 }
@@ -160,8 +168,8 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
     }
     if (!folder.sync_folder("")) {
         return failed(ImportRefusal::Unwritable,
-                      "the new settings are there, but a power cut may bring the "
-                      "old ones back, as the kiosk's disk fails; call a technician");
+                      "the new settings are there, but a power cut may bring the old ones back, because the "
+                      "kiosk's disk fails; call a technician");
     }
     return ImportOutcome::Taken;
 }

@@ -85,7 +85,7 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
             found_.packs.push_back(path);
         } else {
             refuse(path, {ImportRefusal::NotAPack,
-                          "it is a link or a device, no file; put the pack itself on the stick", false});
+                          "it is a link or a device, not a file; put the pack itself on the stick", false});
         }
     } else if (folder.empty() && entry.name == exhibit_file_name) {
         found_.has_exhibit_file = true;
@@ -156,12 +156,11 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
                                        exhibit_file_name, exhibit_signature_name)};
     }
     if (!misnamed_settings_.empty() && !has_settings_) {
-        found_.misnamed_settings = {printable(misnamed_settings_), "", ImportOutcome::Refused,
-                                    ImportRefusal::NotAPack,
-                                    fmt::format("it is not looked at; a kiosk's settings are called {} and "
-                                                "lie in the stick's root: rename it, and "
-                                                "look that no .txt is hidden behind the name",
-                                                settings_file_name)};
+        found_.misnamed_settings = {
+            printable(misnamed_settings_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+            fmt::format("it is not looked at; a kiosk's settings are called {} and lie in the stick's root: "
+                        "rename it, and check that no .txt is hidden after the name",
+                        settings_file_name)};
     }
     if (!misnamed_request_.empty() && !has_request_) {
         found_.misnamed_request = {

@@ -134,12 +134,11 @@ std::vector<std::string> missing_in(const PackDescription& pack, const ScanRight
         !pack.captions.empty() && std::none_of(pack.captions.begin(), pack.captions.end(),
                                                [](const PackCaption& each) { return each.credit.empty(); });
     if (rights.licence.empty()) {
-        missing.emplace_back(
-            "the licence: nothing names one; bake it with --licence, or with licence = \"...\" in "
-            "artifact.toml, even if it is \"all rights reserved\"");
+        missing.emplace_back("the licence: none is stated; bake it with --licence, or with licence = \"...\" "
+                             "in artifact.toml, even if it is \"all rights reserved\"");
     } else if (asks_for_author(rights.licence) && rights.author.empty() && !has_credit) {
         missing.push_back("the author: the licence " + rights.licence +
-                          " asks for the name, and nothing says it; bake it with --author, or with author = "
+                          " asks for the name, and none is stated; bake it with --author, or with author = "
                           "\"...\" in artifact.toml");
     }
     if (pack.id.empty()) {

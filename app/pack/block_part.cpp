@@ -196,14 +196,14 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
         return std::abs(number(block)) <= max_texels_along;
     }; // false for NaN
     if (!std::all_of(numbers.begin(), numbers.end(), sound)) {
-        return bad_input("blocks.not_finite", "block {} has a number that is not finite or beyond {}", k,
+        return bad_input("blocks.not_finite", "block {} has a number that is not finite or is beyond {}", k,
                          max_texels_along);
     }
     if (block.residual_step <= 0.0F || block.gradient_u.x > block.gradient_u.y ||
         block.gradient_v.x > block.gradient_v.y || block.mask == 0 || (block.cut & ~block.mask) != 0) {
         return bad_input("blocks.step",
-                         "block {} has a step of 0 or less, a gradient's range upside down, no cell, or "
-                         "cuts one that is not there",
+                         "block {} has a step of 0 or less, a gradient's range whose end is below its "
+                         "beginning, no cell, or a cut in a cell that is not there",
                          k);
     }
     // A grid extends some cells beyond the box.

@@ -67,7 +67,8 @@ Result<void> check_sections(const PackDescription& pack) {
                              printable(section.name, 40));
         }
         if (!is_object(section.data)) {
-            return bad_input("sections.data", "the data of the section {} are no JSON object", section.name);
+            return bad_input("sections.data", "the data of the section {} are not a JSON object",
+                             section.name);
         }
     }
     if (names.size() > max_sections || parts > max_section_parts) {

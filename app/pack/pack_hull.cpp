@@ -71,11 +71,10 @@ Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack) {
         return tl::unexpected<Error>(*std::move(refusal.error));
     }
     if (corners.empty() || !std::all_of(corners.begin(), corners.end(), is_near_box)) {
-        return bad_input(
-            "hull.corners",
-            "sections.hull.data.corners has none, or one that is farther than {} from the box's foot; "
-            "bake the pack again",
-            farthest_box);
+        return bad_input("hull.corners",
+                         "sections.hull.data.corners has no corner, or one that is farther than {} from the "
+                         "box's foot; bake the pack again",
+                         farthest_box);
     }
     return corners;
 }

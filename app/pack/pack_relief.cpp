@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view section_name = "relief_blocks";
 
-void cast_relief_fields(auto& fields, auto& relief) {
+void rasterize_relief_fields(auto& fields, auto& relief) {
     fields.whole("texels", relief.texels, max_relief_texels);
     fields.whole("blocks", relief.blocks, max_relief_blocks);
     fields.whole("bytes", relief.bytes, max_part_bytes);
@@ -30,7 +30,7 @@ void cast_relief_fields(auto& fields, auto& relief) {
 
 void reliefs_fields(auto& fields, auto& reliefs) {
     fields.objects("reliefs", reliefs, max_reliefs,
-                   [](auto& item, auto& relief) { cast_relief_fields(item, relief); });
+                   [](auto& item, auto& relief) { rasterize_relief_fields(item, relief); });
 }
 
 std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
@@ -42,17 +42,16 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
         if (reliefs[k].texels <= last || !measured(error.mean_box, max_error_box) ||
             !measured(error.p95_box, max_error_box) || !measured(error.max_box, max_error_box) ||
             !measured(error.colour_rmse, max_colour_rmse)) {
-            return fmt::format(
-                "has a relief of {} texels that is no finer than the one before, or whose error "
-                "is no measurement; bake the pack again",
-                reliefs[k].texels);
+            return fmt::format("has a relief of {} texels that is not finer than the one before, or whose "
+                               "error is not a measured one; bake the pack again",
+                               reliefs[k].texels);
         }
         last = reliefs[k].texels;
     }
     const bool same = std::equal(reliefs.begin(), reliefs.end(), parts.begin(), parts.end(),
                                  [](const ReliefOutline& a, const std::string& b) { return a.part == b; });
     return same ? std::nullopt
-                : std::optional<std::string>("names other parts than it has; bake the pack again");
+                : std::optional<std::string>("does not name exactly its own parts; bake the pack again");
 }
 
 /// Decodes a relief and checks it against the manifest.
@@ -117,7 +116,7 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
         load_section_parts(file, [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
             TRY(const std::vector<ReliefOutline> there, reliefs_of(pack));
             if (std::find(there.begin(), there.end(), relief) == there.end()) {
-                return bad_input("pack.relief_gone", "it has no such relief of {} texels any more",
+                return bad_input("pack.relief_gone", "it no longer has this relief of {} texels",
                                  relief.texels);
             }
             return std::vector{relief.part};

@@ -91,8 +91,14 @@ std::optional<std::string> fault_of(const std::vector<Entry>& entries, std::vect
     std::set<std::string_view> languages;
     std::vector<std::string> named;
     for (const Entry& entry : entries) {
-        if (!languages.insert(entry.language).second || !has_good_keys(entry)) {
-            return fmt::format("names '{}' twice, or a key that is none", printable(entry.language, 40));
+        const std::string language = printable(entry.language, 40);
+        if (!languages.insert(entry.language).second) {
+            return fmt::format("names the language '{}' twice; bake the pack again", language);
+        }
+        if (!has_good_keys(entry)) {
+            return fmt::format(
+                "has a sound in '{}' whose key is not valid, or is named twice; bake the pack again",
+                language);
         }
         for (std::string& part : parts_of(entry)) {
             named.push_back(std::move(part));
@@ -100,8 +106,9 @@ std::optional<std::string> fault_of(const std::vector<Entry>& entries, std::vect
     }
     std::sort(named.begin(), named.end());
     std::sort(parts.begin(), parts.end());
-    return named == parts ? std::nullopt
-                          : std::optional<std::string>("names other parts than it has; bake the pack again");
+    return named == parts
+               ? std::nullopt
+               : std::optional<std::string>("does not name exactly its own parts; bake the pack again");
 }
 
 const PackSection* find_section(const PackDescription& pack, std::string_view name) {
@@ -174,7 +181,7 @@ Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, By
 Result<void> check_sound(const std::string& name, const Bytes& bytes) {
     return as_text(bytes).starts_with(ogg_magic)
                ? Result<void>()
-               : bad_input("pack.not_ogg", "{} is no Ogg recording; bake the pack again", name);
+               : bad_input("pack.not_ogg", "{} is not an Ogg recording; bake the pack again", name);
 }
 
 } // namespace

@@ -63,10 +63,10 @@ Result<void> add_section_parts(const Pack& pack, std::vector<Part>& parts) {
         for (const std::string& name : section.parts) {
             const auto bytes = pack.section_parts.find(name);
             if (!is_part_name(name) || bytes == pack.section_parts.end()) {
-                return bad_input("pack.section_part",
-                                 "the section {} names the part '{}', which is not there or is no "
-                                 "name of a part",
-                                 section.name, printable(name, 40));
+                return bad_input(
+                    "pack.section_part",
+                    "the section {} names the part '{}', which is missing or is not a valid name",
+                    section.name, printable(name, 40));
             }
             parts.push_back({name, bytes->second, packing_of(name)});
         }

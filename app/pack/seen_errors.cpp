@@ -158,8 +158,7 @@ Result<void> check(const SeenErrors& seen, std::size_t levels) {
                         seen.levels.size(), seen.eyes.size(), levels));
     }
     if (!std::all_of(seen.eyes.begin(), seen.eyes.end(), [](const SeenEye& eye) { return is_sound(eye); })) {
-        return refused(
-            "has an eye that is not of length 1, or patches that are not shares of places in the box");
+        return refused("has an eye whose direction, steepness or patches are out of range");
     }
     for (const std::vector<std::vector<SeenError>>& surfaces : {seen.levels, seen.reliefs}) {
         for (const std::vector<SeenError>& each : surfaces) {

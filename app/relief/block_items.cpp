@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t bins = 64;
 
-GridView grid_view(const ReliefGrid& grid, double texel_box, const CastFace& face,
+GridView grid_view(const ReliefGrid& grid, double texel_box, const RasterFace& face,
                    const glm::dvec3& eye_box) {
     GridView view;
     const glm::dvec3 signs(1.0, 1.0, grid.sign);
@@ -87,7 +87,7 @@ struct Bounds {
 };
 
 /// Bounds of the eight corners of the block's slab, in pixels.
-FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face,
+FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const RasterFace& face,
                                       const PixelLens& lens) {
     const float i0 = block.cells[0];
     const float i1 = block.cells[1];
@@ -128,7 +128,7 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
 
 enum class Place { Outside, Across, Inside };
 
-FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) {
+FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const RasterFace& face) {
     if (!bounds.in_front) {
         return bounds.outside ? Place::Outside : Place::Across;
     }
@@ -174,7 +174,7 @@ struct Range {
     float near = 0.0F, bins_per_texel = 0.0F;
 };
 
-Range range_of(const CastView& view, double texel_box) {
+Range range_of(const RasterView& view, double texel_box) {
     const double middle = glm::distance(view.eye_box, glm::dvec3(0.0, 0.0, 0.5));
     constexpr double radius_box = 1.0; // the longest edge is 1, so no corner is farther from the middle
     const double near = std::max(middle - radius_box, 0.0);
@@ -191,7 +191,7 @@ FRUSTUMSCREEN_INLINE std::uint8_t bin_of(const ReliefBlock& block, const glm::ve
 
 /// Lists one block, in the pixels of every face that may show it.
 FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockItems& items,
-                                     const CastView& view, const ReliefBlock& block, BlockItem item) {
+                                     const RasterView& view, const ReliefBlock& block, BlockItem item) {
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
         const Bounds bounds = bounds_of(block, items.grids[f][item.direction], view.faces[f], items.lens);
         const Place place = place_of(bounds, view.faces[f]);
@@ -238,7 +238,7 @@ void sort_into_bands(BlockItems& items) {
 
 constexpr std::size_t blocks_of_part = 1024;
 
-FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, const CastView& view,
+FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, const RasterView& view,
                                std::size_t part) {
     std::vector<BlockItem>& list = items.parts[part];
     list.clear();
@@ -267,7 +267,7 @@ FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, con
 
 } // namespace
 
-void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
+void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view) {
     items.lens = PixelLens(view.projector);
     items.grids.resize(view.faces.size());
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
@@ -279,7 +279,7 @@ void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& vi
     items.parts.resize((relief.blocks.size() + blocks_of_part - 1) / blocks_of_part);
 }
 
-void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
+void list_part(BlockItems& items, const BlockRelief& relief, const RasterView& view, std::size_t part,
                Instructions instructions) {
     run_with<list>(instructions, items, relief, view, part);
 }
@@ -304,7 +304,7 @@ void end_list(BlockItems& items) {
     sort_into_bands(items);
 }
 
-void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
+void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView& view,
                  Instructions instructions) {
     begin_list(items, relief, view);
     for (std::size_t part = 0; part < items.parts.size(); ++part) {

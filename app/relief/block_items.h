@@ -1,16 +1,16 @@
 /// The blocks that a frame rasterizes, and their pixels: culled by their gradients, projected through each
 /// face's collineation, sorted front to back.
 ///
-/// Frames   a direction's grid (block_relief.h), texels; pixels as in cast_view.h. The matrices are computed
+/// Frames   a direction's grid (block_relief.h), texels; pixels as in raster_view.h. The matrices are computed
 ///          in 64 bits, everything after them in 32.
 /// Threads  pure; any.
-/// SIMD     as cast_blocks.h; every instruction set makes equal lists.
+/// SIMD     as rasterize_blocks.h; every instruction set makes equal lists.
 #pragma once
 
 #include "app/relief/block_relief.h"
-#include "app/relief/cast_view.h"
 #include "app/relief/instructions.h"
 #include "app/relief/pixel_lens.h"
+#include "app/relief/raster_view.h"
 
 #include <array>
 #include <cstdint>
@@ -24,7 +24,7 @@ inline constexpr int rows_of_band = 64; ///< rows of pixels; small, so that the 
 /// Maps one direction's grid to a face's pixels.
 struct GridView {
     /// (x t, y t, t) from the grid's (u, v, w, 1): the ideal pixel that lights a point, and the length of its
-    /// ray (cast_view.h).
+    /// ray (raster_view.h).
     std::array<glm::vec4, 3> pixel{};
     glm::vec3 eye{0.0F};
 };
@@ -58,13 +58,13 @@ struct BlockItems {
 
 /// Makes a list in three steps. `list_part` may run for several parts at once; `begin_list` sets their
 /// number.
-void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view);
-void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
+void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view);
+void list_part(BlockItems& items, const BlockRelief& relief, const RasterView& view, std::size_t part,
                Instructions instructions = best_instructions());
 void end_list(BlockItems& items);
 
 /// All three steps, for `relief` as seen in `view`.
-void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
+void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView& view,
                  Instructions instructions = best_instructions());
 
 } // namespace frustumscreen

@@ -5,7 +5,7 @@
 /// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested
 ///          at the pixels around it, eight cells at once, one per lane. Position and nearness are linear over
 ///          a triangle: perspective is negligible within a cell.
-/// Threads  pure; any. Inlined into one function for each instruction set; only cast_blocks.cpp uses it.
+/// Threads  pure; any. Inlined into one function for each instruction set; only rasterize_blocks.cpp uses it.
 #pragma once
 
 #include "app/relief/block_items.h"

@@ -30,8 +30,8 @@ glm::dvec3 ideal_pixel(const Pinhole& projector, int x, int y) {
 }
 
 /// The face that an ideal pixel lights: the one whose nearest edge is farthest away.
-const CastFace& face_at(const CastView& view, const glm::dvec3& pixel) {
-    const auto depth = [&pixel](const CastFace& face) {
+const RasterFace& face_at(const RasterView& view, const glm::dvec3& pixel) {
+    const auto depth = [&pixel](const RasterFace& face) {
         double least = std::numeric_limits<double>::infinity();
         for (const glm::dvec3& edge : face.edges) {
             least = std::min(least, glm::dot(edge, pixel));
@@ -39,36 +39,37 @@ const CastFace& face_at(const CastView& view, const glm::dvec3& pixel) {
         return least;
     };
     return *std::max_element(view.faces.begin(), view.faces.end(),
-                             [&](const CastFace& a, const CastFace& b) { return depth(a) < depth(b); });
+                             [&](const RasterFace& a, const RasterFace& b) { return depth(a) < depth(b); });
 }
 
 } // namespace
 
 ReliefPainter::ReliefPainter(int threads) : samples_(static_cast<std::size_t>(threads)), workers_(threads) {}
 
-void ReliefPainter::list(const BlockRelief& relief, const CastView& view) {
+void ReliefPainter::list(const BlockRelief& relief, const RasterView& view) {
     begin_list(items_, relief, view);
     workers_.share(static_cast<int>(items_.parts.size()),
                    [&](int k, int) { list_part(items_, relief, view, static_cast<std::size_t>(k)); });
     end_list(items_);
 }
 
-PixelRectangle ReliefPainter::lit_part(const CastSamples& samples, int top, int bottom) {
+PixelRectangle ReliefPainter::lit_part(const RasterSamples& samples, int top, int bottom) {
     const PixelRectangle& pixels = samples.pixels();
     PixelRectangle part;
     for (int y = std::max(top, pixels.y); y < std::min(bottom, pixels.y + pixels.height); ++y) {
-        const CastSamples::Extent& extent = samples.extent(y);
+        const RasterSamples::Extent& extent = samples.extent(y);
         part = united(part, {extent.first, y, extent.end - extent.first, 1});
     }
     return part;
 }
 
-void ReliefPainter::resolve(const CastSamples& samples, const BlockRelief& relief, const PixelRectangle& part,
-                            const PictureSpan<glm::u8vec4>& picture, const RowLight* light) const {
+void ReliefPainter::resolve(const RasterSamples& samples, const BlockRelief& relief,
+                            const PixelRectangle& part, const PictureSpan<glm::u8vec4>& picture,
+                            const RowLight* light) const {
     for (int y = part.y; y < part.y + part.height; ++y) {
         glm::u8vec4* const row = &picture.at(0, y);
         std::fill_n(row + part.x, part.width, glm::u8vec4(0));
-        const CastSamples::Extent& extent = samples.extent(y);
+        const RasterSamples::Extent& extent = samples.extent(y);
         if (extent.first >= extent.end) {
             continue;
         }
@@ -80,7 +81,7 @@ void ReliefPainter::resolve(const CastSamples& samples, const BlockRelief& relie
     }
 }
 
-std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, const CastView& view,
+std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, const RasterView& view,
                                                      int samples, const PictureSpan<glm::u8vec4>& picture,
                                                      const RowLight* light) {
     assert(samples == 1 || samples == 2 || samples == 4 || samples == 8 || samples == 16);
@@ -89,15 +90,15 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
         return {};
     }
     list(relief, view);
-    for (CastSamples& each : samples_) { // any thread may get the widest band
+    for (RasterSamples& each : samples_) { // any thread may get the widest band
         each.make_room(view.lit.width, rows_of_band, samples);
     }
     painted_.resize(static_cast<std::size_t>(bands_of(view.lit) * strips_of_band));
     workers_.share(bands_of(view.lit), [&](int k, int worker) {
-        CastSamples& band = samples_[static_cast<std::size_t>(worker)];
+        RasterSamples& band = samples_[static_cast<std::size_t>(worker)];
         const PixelRectangle rows = band_of(view.lit, k);
         band.begin(rows, samples);
-        cast(band, relief, view, items_);
+        rasterize(band, relief, view, items_);
         for (int strip = 0; strip < strips_of_band; ++strip) {
             const int top = (rows.y / rows_of_band * strips_of_band + strip) * rows_of_strip;
             const PixelRectangle part = lit_part(band, top, top + rows_of_strip);
@@ -109,7 +110,7 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
     return painted_;
 }
 
-void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
+void ReliefPainter::hit_points(const BlockRelief& relief, const RasterView& view,
                                const PictureSpan<glm::vec3>& points) {
     for (int y = 0; y < points.height; ++y) {
         std::fill_n(&points.at(0, y), points.width, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
@@ -119,9 +120,9 @@ void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
         return;
     }
     list(relief, view);
-    CastSamples& centres = samples_[0];
+    RasterSamples& centres = samples_[0];
     centres.begin(lit, 1);
-    cast(centres, relief, view, items_);
+    rasterize(centres, relief, view, items_);
     for (int y = lit.y; y < lit.y + lit.height; ++y) {
         for (int x = lit.x; x < lit.x + lit.width; ++x) {
             const auto nearness = static_cast<double>(centres.nearness[centres.at(x, y)]);

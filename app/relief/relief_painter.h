@@ -10,9 +10,9 @@
 ///          been painted.
 #pragma once
 
-#include "app/relief/cast_blocks.h"
 #include "app/relief/frame_workers.h"
 #include "app/relief/picture_span.h"
+#include "app/relief/rasterize_blocks.h"
 #include "app/relief/sample_light.h"
 
 #include <span>
@@ -35,23 +35,23 @@ public:
     /// Paints `relief` as seen in `view`, with `samples` (1, 2, 4, 8 or 16) a pixel, in `light` or unlit.
     /// Writes every pixel of the returned rectangles, which lie one below the other, and none outside. They
     /// are valid until the next call.
-    std::span<const PixelRectangle> paint(const BlockRelief& relief, const CastView& view, int samples,
+    std::span<const PixelRectangle> paint(const BlockRelief& relief, const RasterView& view, int samples,
                                           const PictureSpan<glm::u8vec4>& picture,
                                           const RowLight* light = nullptr);
 
     /// The position of each pixel's first hit, box frame; NaN without a hit. Writes the whole picture.
-    void hit_points(const BlockRelief& relief, const CastView& view, const PictureSpan<glm::vec3>& points);
+    void hit_points(const BlockRelief& relief, const RasterView& view, const PictureSpan<glm::vec3>& points);
 
 private:
-    void list(const BlockRelief& relief, const CastView& view);
+    void list(const BlockRelief& relief, const RasterView& view);
     /// The part of these rows of `samples` that may be lit.
-    [[nodiscard]] static PixelRectangle lit_part(const CastSamples& samples, int top, int bottom);
+    [[nodiscard]] static PixelRectangle lit_part(const RasterSamples& samples, int top, int bottom);
     /// Writes the pixels of a part of `samples`, as codes.
-    void resolve(const CastSamples& samples, const BlockRelief& relief, const PixelRectangle& part,
+    void resolve(const RasterSamples& samples, const BlockRelief& relief, const PixelRectangle& part,
                  const PictureSpan<glm::u8vec4>& picture, const RowLight* light) const;
 
     BlockItems items_;
-    std::vector<CastSamples> samples_; ///< one per thread, each for one band at a time
+    std::vector<RasterSamples> samples_; ///< one per thread, each for one band at a time
     std::vector<PixelRectangle> painted_;
     SampleLight light_;
     FrameWorkers workers_; ///< last: its threads use the other members

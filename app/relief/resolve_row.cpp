@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::int32_t unit = CastSamples::places_per_cell;
+constexpr std::int32_t unit = RasterSamples::places_per_cell;
 using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
 
 /// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 -
@@ -67,7 +67,7 @@ struct Met {
 };
 
 template <std::size_t count>
-FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, int x, int y, Ints pixels) {
+FRUSTUMSCREEN_INLINE Met met_by(const RasterSamples& samples, int x, int y, Ints pixels) {
     const auto words = [](const std::uint32_t* from) FRUSTUMSCREEN_INLINED {
         Ints value;
         std::memcpy(&value, from, sizeof value);
@@ -105,7 +105,7 @@ FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, int x, int y, Ints p
 template <std::size_t count> class Several {
 public:
     FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == max_pixels; }
-    FRUSTUMSCREEN_INLINE void add(const CastSamples& samples, int x, int y, glm::u8vec4& code) {
+    FRUSTUMSCREEN_INLINE void add(const RasterSamples& samples, int x, int y, glm::u8vec4& code) {
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t at = samples.at(x, y, k);
             block_[shown_] = samples.block[at];
@@ -148,7 +148,7 @@ private:
 };
 
 template <std::size_t count>
-FRUSTUMSCREEN_INLINE void resolve_samples(const CastSamples& samples, const BlockRelief& relief,
+FRUSTUMSCREEN_INLINE void resolve_samples(const RasterSamples& samples, const BlockRelief& relief,
                                           const SampleLight& light, int y, int first,
                                           std::span<glm::u8vec4> codes) {
     Several<count> several;
@@ -173,7 +173,7 @@ FRUSTUMSCREEN_INLINE void resolve_samples(const CastSamples& samples, const Bloc
     several.resolve(relief, light);
 }
 
-FRUSTUMSCREEN_INLINE void resolve(const CastSamples& samples, const BlockRelief& relief,
+FRUSTUMSCREEN_INLINE void resolve(const RasterSamples& samples, const BlockRelief& relief,
                                   const SampleLight& light, int y, int first, std::span<glm::u8vec4> codes) {
     switch (samples.places().size()) {
     case 1:
@@ -185,13 +185,13 @@ FRUSTUMSCREEN_INLINE void resolve(const CastSamples& samples, const BlockRelief&
     case 8:
         return resolve_samples<8>(samples, relief, light, y, first, codes);
     default:
-        return resolve_samples<CastSamples::most>(samples, relief, light, y, first, codes);
+        return resolve_samples<RasterSamples::most>(samples, relief, light, y, first, codes);
     }
 }
 
 } // namespace
 
-void resolve_row(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
+void resolve_row(const RasterSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
                  int first, std::span<glm::u8vec4> codes, Instructions instructions) {
     run_with<resolve>(instructions, samples, relief, light, y, first, codes);
 }

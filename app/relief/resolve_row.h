@@ -4,10 +4,10 @@
 ///          of one block; otherwise once for each, averaged in linear light, where a sample without a hit
 ///          counts as black.
 /// Threads  pure; any.
-/// SIMD     as cast_blocks.h; every instruction set makes equal codes.
+/// SIMD     as rasterize_blocks.h; every instruction set makes equal codes.
 #pragma once
 
-#include "app/relief/cast_blocks.h"
+#include "app/relief/rasterize_blocks.h"
 #include "app/relief/sample_light.h"
 
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@
 namespace frustumscreen {
 
 /// For row `y`, from pixel `first` on; alpha 0 without a hit.
-void resolve_row(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
+void resolve_row(const RasterSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
                  int first, std::span<glm::u8vec4> codes, Instructions instructions = best_instructions());
 
 } // namespace frustumscreen

@@ -57,8 +57,8 @@ BlockInstances::BlockInstances() {
 void BlockInstances::list(const FramePlan& plan, const GpuStore& store) {
     instances_.clear();
     runs_.clear();
-    for (std::size_t cast = 0; cast < plan.cast_count; ++cast) {
-        const CastPlan& planned = plan.casts[cast];
+    for (std::size_t relief_draw = 0; relief_draw < plan.relief_draw_count; ++relief_draw) {
+        const ReliefDraw& planned = plan.relief_draws[relief_draw];
         const BlockRelief* const relief = planned.on_gpu ? store.find_relief(planned.relief) : nullptr;
         if (relief == nullptr) {
             continue;
@@ -71,7 +71,7 @@ void BlockInstances::list(const FramePlan& plan, const GpuStore& store) {
                     instances_.emplace_back(item.block, item.direction);
                 }
             }
-            runs_.push_back({cast, planned.view.faces[face].face, first, instances_.size() - first});
+            runs_.push_back({relief_draw, planned.view.faces[face].face, first, instances_.size() - first});
         }
     }
     if (!runs_.empty()) {
@@ -85,12 +85,12 @@ void BlockInstances::draw(const FramePlan& plan, const Draw& draw, const GpuStor
                           const Shader& shader) const {
     const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
     const auto run = std::find_if(runs_.begin(), runs_.end(), [&](const Run& each) {
-        return each.cast == draw.cast && each.face == face;
+        return each.relief_draw == draw.relief_draw && each.face == face;
     });
     if (run == runs_.end() || run->count == 0) {
         return;
     }
-    set_grids(*blocks.relief, draw, plan.casts[draw.cast].metres_per_box, shader);
+    set_grids(*blocks.relief, draw, plan.relief_draws[draw.relief_draw].metres_per_box, shader);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, blocks.numbers.get());
     glActiveTexture(GL_TEXTURE2);

@@ -32,8 +32,8 @@ public:
 
 private:
     struct Run {
-        std::size_t cast = 0; ///< index into FramePlan::casts
-        int face = 0;         ///< index into the prop's faces
+        std::size_t relief_draw = 0; ///< index into FramePlan::relief_draws
+        int face = 0;                ///< index into the prop's faces
         std::size_t first = 0, count = 0;
     };
     BlockItems items_;

@@ -54,13 +54,13 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) 
         image.texels[k] =
             read[k].a > 0.5F ? glm::vec3(read[k]) : glm::vec3(std::numeric_limits<float>::quiet_NaN());
     }
-    add_casts(plan, store, image);
+    add_rasters(plan, store, image);
     return image;
 }
 
-void HitPointRenderer::add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points) {
-    for (std::size_t cast = 0; cast < plan.cast_count; ++cast) {
-        const CastPlan& planned = plan.casts[cast];
+void HitPointRenderer::add_rasters(const FramePlan& plan, const GpuStore& store, ImageFloat& points) {
+    for (std::size_t relief_draw = 0; relief_draw < plan.relief_draw_count; ++relief_draw) {
+        const ReliefDraw& planned = plan.relief_draws[relief_draw];
         const BlockRelief* const relief = planned.on_gpu ? nullptr : store.find_relief(planned.relief);
         if (relief == nullptr) {
             continue;

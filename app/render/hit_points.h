@@ -25,7 +25,7 @@ public:
 
 private:
     /// Adds the rasterized reliefs where the meshes show nothing.
-    void add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points);
+    void add_rasters(const FramePlan& plan, const GpuStore& store, ImageFloat& points);
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 
     int width_;

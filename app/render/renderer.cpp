@@ -51,7 +51,7 @@ Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& need
 Result<void> Renderer::prepare(const RenderNeeds& needs) {
     const RenderNeeds all = united(needs_, needs);
     TRY_VOID(shaders_.prepare(shaders_of(all), all.bent_by));
-    TRY_VOID(casts_.prepare(all.casts, width_, height_));
+    TRY_VOID(raster_pass_.prepare(all.relief_draws, width_, height_));
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
         const PixelSize picture{width_, height_};
         TRY(sample_grid_, SampleGrid::create(picture, all.outline.value_or(picture), all.samples));
@@ -61,7 +61,7 @@ Result<void> Renderer::prepare(const RenderNeeds& needs) {
 }
 
 std::uint64_t Renderer::bytes() const {
-    return store_.bytes() + casts_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
+    return store_.bytes() + raster_pass_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
 }
 
 bool Renderer::Picture::lies(const OnTable& draw) const {
@@ -137,7 +137,7 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
     const bool smooth = raster.fragments != glm::ivec2(1);
     const bool meshes = repaint.prop && !smooth && FacePass::draws(plan);
     if (repaint.prop) {
-        casts_.paint(plan, store_);
+        raster_pass_.paint(plan, store_);
     }
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
@@ -160,7 +160,7 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
         result.draw_calls += faces_.draw(plan, store_, shaders_);
     }
     if (repaint.prop) {
-        result.draw_calls += casts_.show(plan, shaders_);
+        result.draw_calls += raster_pass_.show(plan, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }

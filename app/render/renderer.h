@@ -6,9 +6,9 @@
 /// Errors   on creation, preparation or upload: shaders, buffers or textures that the driver refuses.
 #pragma once
 
-#include "app/render/cast_pass.h"
 #include "app/render/face_pass.h"
 #include "app/render/gpu_store.h"
+#include "app/render/raster_pass.h"
 #include "app/render/sample_grid.h"
 #include "app/render/shader_cache.h"
 #include "app/render/table_pass.h"
@@ -106,7 +106,7 @@ private:
     RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;
-    CastPass casts_;
+    RasterPass raster_pass_;
     FacePass faces_;
     TablePass table_;
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample a pixel

@@ -215,7 +215,7 @@ void main() {
 }
 )";
 // Pixels of a rasterized relief, at their positions.
-constexpr std::string_view cast_fragment = R"(
+constexpr std::string_view rasterize_fragment = R"(
 uniform sampler2D image;
 out vec4 result;
 void main() {
@@ -291,8 +291,8 @@ ShaderSource source_of(const ShaderKey& key, bool bends) {
                 key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
                            : fmt::format("{}{}", bent_vertex, surface_vertex),
                 fmt::format("{}{}{}{}", dither, block_bits, block_cover, surface_fragment)};
-    case ShaderKey::Pass::Cast:
-        return {tiles_defines, tiles, fading(cast_fragment)};
+    case ShaderKey::Pass::Raster:
+        return {tiles_defines, tiles, fading(rasterize_fragment)};
     case ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case ShaderKey::Pass::TablePicture:

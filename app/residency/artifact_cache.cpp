@@ -241,7 +241,7 @@ bool ArtifactCache::arrives(std::size_t item) const {
     return loaded_[item] && !std::visit([](const auto& each) { return each.ready(); }, *loaded_[item]);
 }
 
-/// Uploads the most urgent item that is prepared but not ready; items no longer wanted come last.
+/// Uploads the most urgent item that is prepared but not ready; unwanted items come last.
 void ArtifactCache::upload(GpuStore& store, std::span<const std::size_t> needed,
                            std::span<const std::size_t> wanted) {
     const auto first_of = [&](std::span<const std::size_t> items) {

@@ -37,9 +37,9 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     return request;
 }
 
-/// What of the prop the artifact is seen through, and where it is seen whole.
+/// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
 Result<void> find_whole_zone(const Settings& settings, KnownArtifact& artifact) {
-    // As many corners as a frame can look through; by 64 a ball is held with 3 % to spare.
+    // As many corners as a frame has time for; 64 hold a ball with 3 % to spare.
     constexpr std::size_t max_corners = 64;
     CatalogueEntry& entry = artifact.texts.entry;
     TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), max_corners));
@@ -180,13 +180,13 @@ RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool relief
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        needs.draws.insert(cast_shader(dithered));
+        needs.draws.insert(raster_shader(dithered));
         if (reliefs_on_gpu) {
             key.blocks = true;
             needs.draws.insert(key);
         }
     }
-    needs.casts = 2; // in a fade
+    needs.relief_draws = 2; // in a fade
     needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({ShaderKey::Pass::TablePicture});
     return with_cut_outs(needs);

@@ -1,5 +1,5 @@
 /// Opens packs for the show: reads each pack's manifest, plans its scene and lays out its texts. Levels,
-/// textures and pictures of texts follow later (residents.h), except for the levels of the first usable pack.
+/// textures and pictures of texts follow later (artifact_cache.h), except for the levels of the first usable pack.
 ///
 /// Threads  any, never in a frame; needs no context.
 /// Errors   as load_pack, as far as manifest and texts are concerned; a technique that the pack does not
@@ -25,7 +25,7 @@ namespace frustumscreen {
 [[nodiscard]] Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
 
 struct OpenerOptions {
-    std::string technique = "auto"; ///< `technique`, `samples`, `cull kinds`: as ArtifactShowOptions
+    std::string technique = "auto"; ///< `technique`, `samples`, `cull_kinds`: as ArtifactShowOptions
     int samples = 1;
     unsigned cull_kinds = AllCullKinds;
     bool other_languages = false; ///< a visitor can change the language

@@ -26,7 +26,7 @@ namespace frustumscreen {
 class ArtifactReader {
 public:
     using Prepared = std::variant<TextPictures, PreparedArtifact>;
-    /// True if the item is no longer wanted: `prepare` should then return soon, with any result.
+    /// True if the item is not wanted any more: `prepare` should then return soon, with any result.
     using GivenUp = std::function<bool()>;
     using Prepare = std::function<Result<Prepared>(std::size_t item, const GivenUp& given_up)>;
     struct Answer {

@@ -29,7 +29,7 @@ std::vector<std::string> told_portions(const PackCaption& caption) {
     return portions.size() <= max_text_portions ? portions : std::vector<std::string>();
 }
 
-/// The caption with the attribution below it, and without, for where that finds no room.
+/// The caption with the attribution below it, and without, for places where both do not fit.
 std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption& caption,
                                      std::span<const SetLanguage> set) {
     const TableText bare = caption_text(caption);
@@ -42,7 +42,7 @@ std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption
     return {whole, bare};
 }
 
-/// What is told of an artifact, portion by portion.
+/// The narration of an artifact, by portion.
 struct ToldTexts {
     std::vector<TableText> portions;
     bool ends_with_attribution = false;
@@ -68,7 +68,7 @@ Nanoseconds reading_time(const TableText& text) {
     return time;
 }
 
-/// Whether its lines begin at the right.
+/// True if the text's lines begin at the right.
 bool is_flush_right(const TableText& text, const SetLanguage* set) {
     return set != nullptr && std::any_of(text.pieces.begin(), text.pieces.end(), [&](const TextPiece& piece) {
                const GlyphText* const glyphs = set->runs.find(piece.key);
@@ -283,9 +283,9 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     };
     if (!std::equal(drawing.pictures.begin(), drawing.pictures.end(), sizes.begin(), sizes.end(),
                     as_laid_out)) {
-        return at(source.file.string(), Error{ErrorKind::BadInput, "show.texts_changed",
-                                              "the texts are others than when the exhibit was "
-                                              "started; start it again"});
+        return at(source.file.string(),
+                  Error{ErrorKind::BadInput, "show.texts_changed",
+                        "the texts have changed since the exhibit was started; start it again"});
     }
     return std::move(drawing.pictures);
 }

@@ -44,8 +44,8 @@ struct ArtifactTexts {
 enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
 inline constexpr std::size_t text_parts = 2;
 
-/// The part's pictures: of a caption by width, and by width again without its attribution, where there is one; of what is told by
-/// portion and width, the attribution as the last portion, then the hotspots' labels.
+/// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one; of the
+/// narration, by portion and width, with the attribution as the last portion, then the hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Null if the bake could not set a part of the text: then all of it is set in the kiosk's typeface.
+/// Null if the bake could not set a part of the text: then the whole text is set in the kiosk's typeface.
 const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& text) {
     const SetLanguage* const found = find_language(set, text.language);
     if (found == nullptr) {

@@ -25,13 +25,13 @@ struct TextStyle {
     double texels_per_m = 2400.0;
 };
 
-/// A part of what is set as one picture.
+/// A part of a text that is set as one picture.
 struct TextPiece {
     CaptionRole role = CaptionRole::Text;
     std::string key; ///< among the glyph runs (pack_texts.h)
     std::string text;
 };
-/// What is set as one picture.
+/// A text that is set as one picture.
 struct TableText {
     std::string language; ///< BCP 47
     std::vector<TextPiece> pieces;
@@ -41,12 +41,12 @@ struct TableText {
 [[nodiscard]] TableText portion_text(const PackCaption& caption, std::size_t portion,
                                      const std::string& text);
 
-/// Whose the artifact and its scan are (attribution.h); none: nothing is known. Packs that were baked before the attribution was
-/// set as one text have its lines apart, in `set`.
+/// The attribution of the artifact and its scan (attribution.h); empty: nothing is known. Packs baked before the
+/// attribution was one text have its lines separately, in `set`.
 [[nodiscard]] std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const ScanRights& rights,
                                                         std::span<const SetLanguage> set, CaptionRole role);
 
-/// Null if there is none in this language.
+/// Null if the language is missing.
 [[nodiscard]] const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language);
 
 class CaptionSetter {

@@ -18,7 +18,7 @@ Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level)
     return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
         if (outline != known.outline) {
             return bad_input("show.pack_changed",
-                             "the pack is another one than when the exhibit was started; start it again");
+                             "the pack has changed since the exhibit was started; start it again");
         }
         return std::vector<std::uint32_t>{level};
     });

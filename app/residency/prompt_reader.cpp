@@ -23,7 +23,7 @@ Result<Prompt> decode(const PromptRecording& recording) {
     }
     TRY(const Bytes opus, load_sound(recording.pack, recording.language, recording.key));
     if (opus.empty()) {
-        return bad_input("show.no_sound", "{} has no sound of it any more; bake the pack again",
+        return bad_input("show.no_sound", "{} no longer has its sound; bake the pack again",
                          recording.pack.string());
     }
     return read_opus(opus);
@@ -84,7 +84,7 @@ SharedRecording PromptReader::next() const {
     return nullptr;
 }
 
-/// The worker frees the replaced entry, and also a recording that is no longer wanted.
+/// The worker frees the replaced entry, and also a recording that is not wanted any more.
 void PromptReader::keep(const SharedRecording& recording, SharedReading reading) {
     Kept old{recording, std::move(reading), 0};
     const std::scoped_lock lock(mutex_);

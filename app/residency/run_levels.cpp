@@ -30,7 +30,7 @@ constexpr double longest_measurement_ms = 50.0;
 /// The bake's resolutions, for both ways of drawing; other resolutions are named without a number here.
 struct ReliefName {
     std::uint32_t texels;
-    std::string_view cast, on_gpu;
+    std::string_view raster, on_gpu;
 };
 constexpr std::array relief_names{
     ReliefName{96, "relief96", "relief96-gpu"},       ReliefName{192, "relief192", "relief192-gpu"},
@@ -47,7 +47,7 @@ std::string_view literal_of(const QualityLevel& quality_level) {
     if (found == relief_names.end()) {
         return quality_level.on_gpu ? "relief-gpu" : "relief";
     }
-    return quality_level.on_gpu ? found->on_gpu : found->cast;
+    return quality_level.on_gpu ? found->on_gpu : found->raster;
 }
 
 } // namespace
@@ -183,8 +183,8 @@ FrameWork RunLevels::work(const QualityLevel& quality_level) const {
     if (quality_level.relief) {
         const BlockRelief& relief = *levels_[slot_of(quality_level)].placed.relief;
         return {static_cast<double>(relief.blocks.size()), quality_level.on_gpu ? more(plan_.samples)
-                                                           : plan_.cast_count > 0
-                                                               ? more(plan_.casts[0].samples)
+                                                           : plan_.relief_draw_count > 0
+                                                               ? more(plan_.relief_draws[0].samples)
                                                                : pixels};
     }
     return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
@@ -230,12 +230,12 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     // The driver compiles its own programs at the first draw with a shader. Draw with each now, rather than
     // in the middle of a fade or at the first artifact with cut-out texels.
     for (const ShaderKey& key : renderer.shaders()) {
-        const bool casts = key.pass == ShaderKey::Pass::Cast;
+        const bool is_raster = key.pass == ShaderKey::Pass::Raster;
         const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& one) {
-            return one.shows.relief == (casts || key.blocks) && one.shows.on_gpu == key.blocks;
+            return one.shows.relief == (is_raster || key.blocks) && one.shows.on_gpu == key.blocks;
         });
-        if ((casts || key.pass == ShaderKey::Pass::Surface) && !key.places &&
-            (casts || key.even_light == view.light.has_value()) && level != levels_.end()) {
+        if ((is_raster || key.pass == ShaderKey::Pass::Surface) && !key.places &&
+            (is_raster || key.even_light == view.light.has_value()) && level != levels_.end()) {
             PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {

@@ -92,7 +92,7 @@ public:
     /// On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
                                                   std::string technique, double deadline_ms, GpuStore& store);
-    /// Removes all given levels from the store; drawing is no longer possible.
+    /// Removes all given levels from the store; drawing is then impossible.
     void release(GpuStore& store);
 
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
@@ -115,13 +115,13 @@ public:
     /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
 
-    /// The artifact comes on while the GPU is under `load` (see Governor).
+    /// Call when the artifact comes on show while the GPU is under `load` (see Governor).
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
     [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
                                   Renderer& renderer, const RenderTarget& target, Redraw redraw);
-    /// The latest `draw` took `ms` until its picture was complete.
+    /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 
     [[nodiscard]] LevelState state() const;

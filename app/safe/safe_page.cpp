@@ -1,6 +1,7 @@
 #include "app/safe/safe_page.h"
 
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -185,7 +186,7 @@ double set_page(SafePage& page, double top_px, const Sizes& sizes, const SafeTex
     column.add(fitting(languages.front()->for_staff, width_px, em_px), em_px, staff_grey);
     column.leave(0.5 * em_px);
     const std::string machine = fmt::format("FrustumScreen {}, {} since the computer was started",
-                                            FRUSTUMSCREEN_VERSION, in_hours(text.since_boot));
+                                            project_version(), in_hours(text.since_boot));
     for (const std::u32string& line : broken_into_lines(shown_reason(machine), width)) {
         column.add(line, em_px, machine_grey);
     }

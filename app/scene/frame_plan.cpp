@@ -126,9 +126,9 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
             draw.shader.blocks = true;
             draw.clip_from_box = clip_from_box;
         } else {
-            draw.shader = cast_shader(part.dither.has_value());
+            draw.shader = raster_shader(part.dither.has_value());
         }
-        draw.cast = plan.cast_count - 1;
+        draw.relief_draw = plan.relief_draw_count - 1;
         draw.bounds = through.bounds;
         plan.lit.light(draw.bounds);
         return draw;
@@ -142,17 +142,17 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
 }
 
 /// Returns false if the plan has no room for it.
-bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
-    if (plan.cast_count == plan.casts.size()) {
+bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
+    if (plan.relief_draw_count == plan.relief_draws.size()) {
         return false;
     }
-    CastPlan& cast = plan.casts[plan.cast_count++];
-    cast.relief = level.drawable.mesh;
-    cast.on_gpu = level.on_gpu;
-    cast.metres_per_box = level.metres_per_box;
-    cast.samples = level.samples;
-    cast.even_light = shared.view.light.has_value();
-    CastScene scene;
+    ReliefDraw& relief_draw = plan.relief_draws[plan.relief_draw_count++];
+    relief_draw.relief = level.drawable.mesh;
+    relief_draw.on_gpu = level.on_gpu;
+    relief_draw.metres_per_box = level.metres_per_box;
+    relief_draw.samples = level.samples;
+    relief_draw.even_light = shared.view.light.has_value();
+    RasterScene scene;
     for (int axis = 0; axis < 3; ++axis) {
         scene.prop_from_box[axis][axis] = level.metres_per_box;
     }
@@ -161,7 +161,7 @@ bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) 
     scene.prop_from_projector =
         (shared.view.table_from_projector.inverse() * shared.view.table_from_prop).inverse();
     scene.eye_m = shared.eye(0);
-    set_up(cast.view, shared.prop, scene);
+    set_up(relief_draw.view, shared.prop, scene);
     return true;
 }
 
@@ -174,7 +174,7 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
         through[face] = look_through(face, shared);
     }
     for (const Part& part : parts) {
-        if (part.level.is_empty() || (part.level.relief && !plan_cast(part.level, shared, plan))) {
+        if (part.level.is_empty() || (part.level.relief && !plan_relief_draw(part.level, shared, plan))) {
             continue;
         }
         for (std::size_t face = 0; face < faces; ++face) {
@@ -327,9 +327,9 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     // A triangle may show on every face. Reserved memory costs nothing until it is written.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
-    plan.casts.resize(parts);
-    for (CastPlan& cast : plan.casts) {
-        cast.view.faces.reserve(faces);
+    plan.relief_draws.resize(parts);
+    for (ReliefDraw& relief_draw : plan.relief_draws) {
+        relief_draw.view.faces.reserve(faces);
     }
     return plan;
 }
@@ -342,7 +342,7 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.feathers.clear();
     plan.indices.clear();
     plan.front.forget();
-    plan.cast_count = 0;
+    plan.relief_draw_count = 0;
     plan.lit.begin(view.projector.width, view.projector.height);
     plan.prop_bounds = prop_bounds(prop, view.projector, shared.clip_from_prop);
     plan_table(shared, plan);
@@ -352,8 +352,8 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.lit.finish();
     const double density = pixel_density(shared, plan);
     plan.samples = samples_at(density, samples_on_gpu(parts));
-    for (std::size_t k = 0; k < plan.cast_count; ++k) {
-        plan.casts[k].samples = samples_at(density, std::max(plan.casts[k].samples, 1));
+    for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
+        plan.relief_draws[k].samples = samples_at(density, std::max(plan.relief_draws[k].samples, 1));
     }
     if (view.light) {
         compensate(shared, *view.light, plan);

@@ -16,7 +16,7 @@
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
 #include "app/relief/block_relief.h"
-#include "app/relief/cast_view.h"
+#include "app/relief/raster_view.h"
 #include "app/scene/drawable.h"
 #include "app/scene/edge_feather.h"
 #include "app/scene/light.h"
@@ -115,10 +115,10 @@ struct FacePlan {
 };
 
 /// A relief as the frame's eye sees it, to be rasterized into a picture in main memory or drawn by the GPU.
-struct CastPlan {
+struct ReliefDraw {
     MeshId relief = MeshId::None; ///< in the renderer's store
     bool on_gpu = false;
-    CastView view;
+    RasterView view;
     double metres_per_box = 1.0;
     int samples = 1;         ///< a pixel
     bool even_light = false; ///< evens out the projector's light
@@ -142,7 +142,7 @@ struct Draw {
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
     Dither dither;               ///< used if the shader dithers
-    std::size_t cast = 0;        ///< for a relief: index into FramePlan::casts
+    std::size_t relief_draw = 0; ///< for a relief: index into FramePlan::relief_draws
 };
 
 struct FramePlan {
@@ -160,9 +160,9 @@ struct FramePlan {
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
     std::uint64_t prop_hash = 0;        ///< as `hash`, only for the draws in the prop
     FrontTriangles front;               ///< of the part and the eye planned last; not drawn
-    std::vector<CastPlan>
-        casts; ///< one per part that may be a relief; the first `cast_count` belong to the frame
-    std::size_t cast_count = 0;
+    std::vector<ReliefDraw>
+        relief_draws; ///< one per part that may be a relief; the first `relief_draw_count` belong to the frame
+    std::size_t relief_draw_count = 0;
 };
 
 /// A plan with room for every face of `parts` parts that have `indices` indices together.

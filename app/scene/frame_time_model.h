@@ -43,7 +43,7 @@ struct QualityLevelTime {
     FrameWork work;
     double ms = 0.0;     ///< median of some frames; not a time if never measured: infinite until the first
                          ///< observation
-    bool relief = false; ///< `relief`, `on_gpu`: as in Rung
+    bool relief = false; ///< `relief`, `on_gpu`: as in QualityLevel
     bool on_gpu = false;
 };
 
@@ -58,9 +58,9 @@ struct QualityLevelCost {
 /// Meshes, reliefs rasterized on the processor and reliefs drawn by the GPU are drawn in different ways, with
 /// separate costs.
 struct FrameCost {
-    QualityLevelCost mesh, cast, on_gpu;
+    QualityLevelCost mesh, raster, on_gpu;
     [[nodiscard]] const QualityLevelCost& of(const QualityLevelTime& quality_level) const {
-        return quality_level.on_gpu ? on_gpu : quality_level.relief ? cast : mesh;
+        return quality_level.on_gpu ? on_gpu : quality_level.relief ? raster : mesh;
     }
     /// For the level's work and samples.
     [[nodiscard]] double ms(const QualityLevelTime& quality_level) const;

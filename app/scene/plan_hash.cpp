@@ -70,8 +70,8 @@ std::uint64_t hash_of_prop(const FramePlan& plan) {
             hash_draw(draw, hash);
         }
     }
-    for (std::size_t k = 0; k < plan.cast_count; ++k) {
-        hash.add(static_cast<std::uint64_t>(plan.casts[k].samples));
+    for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
+        hash.add(static_cast<std::uint64_t>(plan.relief_draws[k].samples));
     }
     for (const FacePlan& face : plan.faces) {
         hash.add(static_cast<std::uint64_t>(face.face));

@@ -216,7 +216,7 @@ std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     const std::uint64_t samples =
         needs.samples > 1 ? static_cast<std::uint64_t>(needs.samples) * area(needs.outline.value_or(picture))
                           : 0;
-    return bytes_per_texel * needs.casts * area(picture) + bytes_per_sample * samples;
+    return bytes_per_texel * needs.relief_draws * area(picture) + bytes_per_sample * samples;
 }
 
 std::uint64_t caption_gpu_bytes(int width, int height) {

@@ -177,7 +177,7 @@ void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades,
     const auto any = [&](const auto& is) {
         return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(), is);
     };
-    const bool casts =
+    const bool is_raster =
         any([](const QualityLevel& quality_level) { return quality_level.relief && !quality_level.on_gpu; });
     const bool blocks = any([](const QualityLevel& quality_level) { return quality_level.on_gpu; });
     std::vector<ShaderKey> keys;
@@ -191,8 +191,8 @@ void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades,
         if (even_light) {
             keys.push_back({.dithered = dithered, .even_light = true});
         }
-        if (casts) {
-            plan.needs.draws.insert(cast_shader(dithered));
+        if (is_raster) {
+            plan.needs.draws.insert(raster_shader(dithered));
         }
     }
     for (ShaderKey key : keys) {
@@ -204,7 +204,8 @@ void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades,
             plan.needs.draws.insert(key);
         }
     }
-    plan.needs.casts = casts ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
+    plan.needs.relief_draws =
+        is_raster ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
 }
 
 /// Samples a pixel of the picture that the GPU draws into. A relief rasterized on the processor takes its
@@ -341,9 +342,10 @@ Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view 
     if (texels && relief_of(reliefs, *texels)) {
         return QualityLevel{*texels, 1, false, true, of != technique};
     }
-    return bad_input(
-        "scene.no_technique", "technique '{}'; this pack has {}{}", technique, techniques_of(pack, reliefs),
-        technique.starts_with(relief_prefix) && reliefs.empty() ? "; bake it again for relief" : "");
+    return bad_input("scene.no_technique", "technique '{}' is not in this pack; it has {}{}", technique,
+                     techniques_of(pack, reliefs),
+                     technique.starts_with(relief_prefix) && reliefs.empty() ? "; bake it again for relief"
+                                                                             : "");
 }
 
 bool is_technique(std::string_view name) {

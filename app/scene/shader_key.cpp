@@ -28,7 +28,7 @@ std::string name_of(const ShaderKey& key) {
         return "outline of a face";
     case ShaderKey::Pass::Surface:
         return name_of_surface(key);
-    case ShaderKey::Pass::Cast:
+    case ShaderKey::Pass::Raster:
         return key.dithered ? "fading cast relief" : "cast relief";
     case ShaderKey::Pass::EdgeFeather:
         return "edges between faces";
@@ -56,8 +56,8 @@ ShaderKey places_of(ShaderKey key) {
     return key;
 }
 
-ShaderKey cast_shader(bool dithered) {
-    ShaderKey key{ShaderKey::Pass::Cast};
+ShaderKey raster_shader(bool dithered) {
+    ShaderKey key{ShaderKey::Pass::Raster};
     key.dithered = dithered;
     return key;
 }
@@ -67,7 +67,7 @@ std::optional<Pinhole> if_it_bends(const Pinhole& projector) {
 }
 
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
-    RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.casts, b.casts)};
+    RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.relief_draws, b.relief_draws)};
     if (a.samples <= 1 || b.samples <= 1) { // one sample needs no room
         both.outline = a.samples > 1 ? a.outline : b.outline;
     } else if (a.outline && b.outline) {

@@ -19,7 +19,7 @@ struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,         ///< marks a face of the prop
         Surface,         ///< draws a mesh, or a relief's blocks
-        Cast,            ///< shows a relief that was rasterized into memory
+        Raster,          ///< shows a relief that was rasterized into memory
         EdgeFeather,     ///< dims a strip of a face
         TablePicture,    ///< draws a flat picture on the table
         TileClear,       ///< blackens tiles of the larger picture that holds several samples a pixel
@@ -44,13 +44,13 @@ struct ShaderKey {
 [[nodiscard]] ShaderKey places_of(ShaderKey key);
 
 /// The shader for reliefs that are rasterized on the processor.
-[[nodiscard]] ShaderKey cast_shader(bool dithered);
+[[nodiscard]] ShaderKey raster_shader(bool dithered);
 
 /// Capabilities and memory that a renderer must provide.
 struct RenderNeeds {
-    int samples = 1;           ///< samples a pixel that the target must hold wherever the prop stands
-    std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
-    std::size_t casts = 0;     ///< pictures that one plan may rasterize into memory
+    int samples = 1;              ///< samples a pixel that the target must hold wherever the prop stands
+    std::set<ShaderKey> draws;    ///< the shaders that the draws of its plans name
+    std::size_t relief_draws = 0; ///< pictures that one plan may rasterize into memory
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<Pinhole> bent_by =

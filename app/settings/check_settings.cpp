@@ -98,11 +98,11 @@ void check_picture(const Settings& settings, Fitness& fitness) {
         0.5 * table.depth_m);
     fitness.require("settings.picture_beside_table", !picture_on_table(settings, 0.0).empty(),
                     position_key(fitness), "throws its picture beside the table: " + there);
-    fitness.require("settings.prop_outside_picture",
-                    !picture_on_table(settings, 0.0, 0.5 * settings.prop.base_m).empty(),
-                    position_key(fitness),
-                    fmt::format("throws its picture so that the prop, {} m wide, nowhere stands in it: {}",
-                                settings.prop.base_m, there));
+    fitness.require(
+        "settings.prop_outside_picture", !picture_on_table(settings, 0.0, 0.5 * settings.prop.base_m).empty(),
+        position_key(fitness),
+        fmt::format("throws its picture so that the prop, {} m wide, cannot stand in it anywhere: {}",
+                    settings.prop.base_m, there));
 }
 
 /// The lens must not fold the picture: up to 1.1 times the corners' r^2, each direction has a place of its own.
@@ -111,11 +111,10 @@ void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) 
     const double corner = pinhole.ideal().farthest_r2();
     const double fold = pinhole.lens.fold_r2();
     const bool folds = !pinhole.lens.undistort({std::sqrt(margin * corner), 0.0}).has_value();
-    fitness.require(
-        "settings.lens_folds", !folds, key,
-        fmt::format("and k2 fold the picture at {:.2f} focal lengths from its optical axis, and its corners "
-                    "lie at {:.2f}; allowed are values that fold it nowhere",
-                    std::sqrt(fold), std::sqrt(corner)));
+    fitness.require("settings.lens_folds", !folds, key,
+                    fmt::format("and k2 fold the picture at {:.2f} focal lengths from its optical axis, and "
+                                "its corners lie at {:.2f}; allowed are values that do not fold the picture",
+                                std::sqrt(fold), std::sqrt(corner)));
 }
 
 void check_projector(const Settings& settings, Fitness& fitness) {
@@ -176,7 +175,7 @@ void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
     };
     require_once(used_twice(panel.lines), "panel.lines", "give each button a line of its own");
     require_once(used_twice(panel.lamps, panel.lines), "panel.lamps",
-                 "give each lamp a line of its own, that is none of panel.lines");
+                 "give each lamp a line of its own that is not in panel.lines");
     require_once(used_twice(panel.keys), "panel.keys", "give each button a key of its own");
 }
 

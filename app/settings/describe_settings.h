@@ -70,7 +70,7 @@ template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
     fields.integer("height", pinhole.height, 64, 8192, "rows of the picture; the projector's own");
     double throw_ratio = usual.fx / usual.width;
     fields.input("throw_ratio", throw_ratio, {0.1, 20.0, "(distance over the picture's width)"},
-                 "how wide the picture is; fx and fy say the same");
+                 "how wide the picture is; set this, or fx and fy");
     if constexpr (Fields::reads) {
         fields.one_way("throw_ratio", {"fx", "fy"}, "fx or fy");
         pinhole.fx = throw_ratio * pinhole.width;
@@ -105,7 +105,7 @@ template <typename Fields> void projector_pose_settings(Fields& fields, auto& po
         }
     }
     fields.rigid("table_from_projector", pose, near_the_table,
-                 "a measured pose, in place of the three above: 16 numbers, column by column");
+                 "a measured pose, used instead of the three above: 16 numbers, column by column");
     if constexpr (Fields::reads) {
         if (!fields.has("table_from_projector")) {
             const auto looking = looking_at(position, aim, roll_deg);
@@ -135,19 +135,17 @@ void display_settings(auto& fields, auto& display) {
                   "kms; \"preferred\": the picture's own size at refresh_hz, if the projector has that, else "
                   "the projector's own choice. In another size the picture stands as large as it fits");
     fields.flag("force", display.force,
-                "kms: the mode even where a bad EDID does not name it; with a connector named, also where "
-                "that says that nothing is connected");
+                "kms: the mode is set even where a bad EDID does not name it; where connector names one, "
+                "also while it reports that nothing is connected");
 }
 
 void render_settings(auto& fields, auto& render) {
-    fields.number(
-        "error_tolerance_px", render.error_tolerance_px, {0.01, 20.0, "pixels"},
-        "of the projector, where one is smallest on the prop: the cheapest level within it is drawn, if it "
-        "keeps refresh_hz");
-    fields.integer(
-        "highlight_code", render.highlight_code, 0, 255,
-        "sRGB code that 98 % of an artifact's surface stay below where the prop gets the least light; "
-        "0: the pack's own colours");
+    fields.number("error_tolerance_px", render.error_tolerance_px, {0.01, 20.0, "pixels"},
+                  "allowed picture error, in projector pixels where they are smallest on the prop: the "
+                  "cheapest level within it is drawn, if it keeps refresh_hz");
+    fields.integer("highlight_code", render.highlight_code, 0, 255,
+                   "sRGB code below which 98 % of an artifact's surface stays where the prop gets the least "
+                   "light; 0: the pack's own colours");
 }
 
 template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
@@ -183,21 +181,24 @@ void eye_settings(auto& fields, auto& eye) {
     fields.vector("default_m", eye.default_m, near_the_table,
                   "where a visitor's eyes are while no head is tracked");
     fields.number("lowest_elevation_deg", eye.lowest_elevation_deg, {1.0, 89.0, "degrees"},
-                  "of all visitors' eyes, above the table, seen from the prop");
-    fields.number("nearest_m", eye.nearest_m, {0.05, 10.0, "metres"}, "of all visitors' eyes to the prop");
-    fields.number("farthest_m", eye.farthest_m, {0.1, 20.0, "metres"}, "of all visitors' eyes from the prop");
-    fields.flag("tracked", eye.tracked, "false: a fixed viewer, at default_m whatever a tracker says");
+                  "lowest angle of visitors' eyes above the table, seen from the prop");
+    fields.number("nearest_m", eye.nearest_m, {0.05, 10.0, "metres"},
+                  "smallest distance of visitors' eyes to the prop");
+    fields.number("farthest_m", eye.farthest_m, {0.1, 20.0, "metres"},
+                  "largest distance of visitors' eyes from the prop");
+    fields.flag("tracked", eye.tracked,
+                "false: a fixed viewer at default_m, even if a tracker reports a head");
 }
 
 void registration_settings(auto& fields, auto& registration) {
     constexpr Range in_the_hand{-1.0, 1.0, "metres"};
     fields.rigid("table_from_tracker", registration.table_from_tracker, near_the_table,
                  "registration of a device that reports in its own frame: 16 numbers, column by column");
-    fields.rigid(
-        "sensor_from_prop", registration.sensor_from_prop, near_the_table,
-        "of such a device: where the prop is, in the axes of the sensor in it; 16 numbers, column by column");
+    fields.rigid("sensor_from_prop", registration.sensor_from_prop, near_the_table,
+                 "for such a device: where the prop is, in the axes of the sensor in it; 16 numbers, column "
+                 "by column");
     fields.vector("eye_in_sensor_m", registration.eye_in_sensor_m, in_the_hand,
-                  "of such a device: the point between the eyes, in the axes of the sensor on the head");
+                  "for such a device: the point between the eyes, in the axes of the sensor on the head");
 }
 
 template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) {
@@ -205,45 +206,47 @@ template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) 
     fields.choice("kind", tracker.kind, tracker_names,
                   "usb: a Polhemus VIPER, PATRIOT or LIBERTY, or a HID tracker, whichever is connected; "
                   "spacemouse: a 3Dconnexion SpaceMouse; none: the prop stands at the table's centre");
-    fields.integer("seed", tracker.seed, "simulated: another seed, another visitor");
+    fields.integer("seed", tracker.seed, "simulated: each seed gives another visitor");
     fields.path("poses", tracker.poses, "replay: a pose file or a recording of packets");
     if constexpr (Fields::reads) {
         tracker.poses_key = tracker.poses.empty() ? "" : fields.place("poses");
     }
     fields.number("replay_speed", tracker.replay_speed, {0.01, 100.0, "times as fast as recorded"}, "replay");
     fields.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""},
-                  "usb: from the tracker's source to the half space in which the prop moves, in its axes");
+                  "usb: direction from the tracker's source to the half space in which the prop moves, in "
+                  "the source's axes");
     fields.require("settings.hemisphere", glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
                    "gives no direction; allowed are three numbers of which one is not 0");
     registration_settings(fields, tracker.registration);
     fields.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"},
-                  "from the flip of a picture until it is lit; poses are predicted to then");
+                  "time from a page flip until its picture is lit; poses are predicted to that time");
 }
 
 void calibration_settings(auto& fields, auto& calibration) {
     fields.path("folder", calibration.folder,
-                "where frustumscreen-calibrate keeps what it measured; the newest one takes the place of the "
-                "lens and "
-                "pose in [projector] and the registration in [tracker]");
-    fields.flag(
-        "by_buttons", calibration.by_buttons,
-        "the staff may begin one on the page Place of their picture, which stays as long as none is kept");
+                "where frustumscreen-calibrate keeps its calibrations; the newest replaces the lens and pose "
+                "in [projector] and the registration in [tracker]");
+    fields.flag("by_buttons", calibration.by_buttons,
+                "the staff may begin a calibration on the page Place of their picture; the picture stays "
+                "while none is kept");
     fields.number("sensor_height_m", calibration.sensor_height_m, {-2.0, 2.0, "metres"},
-                  "of the sensor above the prop's bottom, by a ruler; 0: as tracker.sensor_from_prop has it");
+                  "height of the sensor above the prop's bottom, measured with a ruler; 0: as in "
+                  "tracker.sensor_from_prop");
     fields.integer("touches", calibration.touches, 6, 30, "how many crosses the prop is laid on");
     fields.number("block_m", calibration.block_m, {0.02, 0.5, "metres"},
-                  "how high boards or a block raise the prop, for half of them; as high as the prop is best");
+                  "how high boards raise the prop for half of the touches; best is the prop's height");
 }
 
 void press_settings(auto& fields, auto& press) {
-    fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "after the script's beginning");
+    fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "time after the script begins");
     fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
                    "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help");
 }
 
 void panel_settings(auto& fields, auto& panel) {
     fields.choice("kind", panel.kind, panel_names,
-                  "a script of presses; buttons at a GPIO chip; keys of a keyboard of its own, for a bench");
+                  "scripted: a script of presses; gpio: buttons at a GPIO chip; keys: keys of a separate "
+                  "keyboard, for a bench");
     fields.tables(
         "script", panel.script, max_presses, [](auto& item, auto& press) { press_settings(item, press); },
         "scripted: presses, in the order of their times");
@@ -259,16 +262,16 @@ void panel_settings(auto& fields, auto& panel) {
     fields.text("device", panel.device, "keys: path or name of the keyboard's event device");
     fields.texts("keys", panel.keys, button_commands.size(), "keys: KEY_... of buttons 0, 1, ...");
     fields.number("debounce_ms", panel.debounce_ms, {1.0, 500.0, "milliseconds"},
-                  "gpio, keys: a level must stand so long");
+                  "gpio, keys: how long a level must stay to count");
     fields.number("stuck_s", panel.stuck_s, {5.0, 3600.0, "seconds"},
-                  "gpio, keys: a button that is down for longer is ignored until it comes up");
+                  "gpio, keys: a button that is down for longer is ignored until it is released");
 }
 
 void tag_settings(auto& fields, auto& tag) {
-    fields.integer("id", tag.id, 0, 586, "of the family 36h11");
+    fields.integer("id", tag.id, 0, 586, "number in the family 36h11");
     fields.number("size_m", tag.size_m, {0.005, 0.5, "metres"}, "side of the black square");
     fields.vector("centre_m", tag.centre_m, {-1.0, 1.0, "metres"},
-                  "its middle, from the middle of the prop's foot");
+                  "its middle, from the middle of the prop's bottom");
     fields.number("turn_deg", tag.turn_deg, {-360.0, 360.0, "degrees"},
                   "0: its top looks to the prop's +Y; counter-clockwise seen from above");
     fields.number("lean_deg", tag.lean_deg, {-180.0, 180.0, "degrees"},
@@ -304,28 +307,25 @@ void camera_settings(auto& fields, auto& camera) {
                 "\"any\": the first that can be read; or a path such as \"/dev/video0\"; or the name that "
                 "frustumscreen camera says");
     fields.integer("width", camera.width, 16, 8192,
-                   "columns; of what the camera offers, the size next to it");
+                   "columns; the nearest size that the camera offers is used");
     fields.integer("height", camera.height, 16, 8192, "rows");
     fields.number("rate_hz", camera.rate_hz, {1.0, 240.0, "hertz"}, "frames a second");
     fields.number(
         "exposure_ms", camera.exposure_ms, {0.0, 1000.0, "milliseconds"},
-        "0: the camera's own; locked in any case, so that the picture on the table does not change it");
+        "0: the camera's own; it is always locked, so that the picture on the table does not change it");
     fields.integer("gain", camera.gain, -1, 65535, "in the camera's own steps; -1: the camera's own");
     fields.integer("white_balance_k", camera.white_balance_k, 0, 10000, "kelvin; 0: the camera's own");
     fields.number("rolling_shutter_ms", camera.rolling_shutter_ms, {0.0, 1000.0, "milliseconds"},
-                  "from the first row that it reads to the last, of its data sheet; tags on a prop that "
-                  "moves are seen right "
-                  "by it. 0: it reads all at once (a global shutter)");
-    fields.flag(
-        "tags", camera.tags,
-        "the prop's second tracker: tags on it, which take over while the tracker is lost or metal is near");
-    fields.flag(
-        "visitor", camera.visitor,
-        "the visitor's eye, with nothing on the head: while no sensor says where the head is, the picture "
-        "turns to whoever stands nearest to the prop");
+                  "time from the first row that it reads to the last, from its data sheet; corrects the tags "
+                  "of a prop that moves. 0: it reads all rows at once (a global shutter)");
+    fields.flag("tags", camera.tags,
+                "reads tags on the prop, which take over while the tracker is lost or metal is near");
+    fields.flag("visitor", camera.visitor,
+                "finds the visitor's eye, with nothing on the head: while no sensor reports the head, the "
+                "picture turns to the person nearest to the prop");
     fields.flag(
         "drift", camera.drift,
-        "looks whether the picture lies where it was calibrated, by marks of light while nobody is there");
+        "checks with drift marks whether the picture lies where it was calibrated, while nobody is there");
     camera_lens_settings(fields, camera);
     fields.tables(
         "tag", camera.tag, max_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },
@@ -333,7 +333,7 @@ void camera_settings(auto& fields, auto& camera) {
 }
 
 template <typename Fields> void key_settings(Fields& fields, auto& key) {
-    fields.text("name", key.name, "whose it is, for messages");
+    fields.text("name", key.name, "whose key it is, for messages");
     fields.parsed(
         "public_key", key.key,
         [](const PublicKey& value) { return value == PublicKey{} ? std::string() : public_key_line(value); },
@@ -351,7 +351,7 @@ template <typename Fields> void key_settings(Fields& fields, auto& key) {
             }
             return std::make_optional<std::optional<std::chrono::sys_days>>(day); // left out, it does not end
         },
-        allowed_last_days, "its last day, by the kiosk's clock; left out: it does not end");
+        allowed_last_days, "the key's last day, by the kiosk's clock; left out: it has no end");
     fields.require("settings.key_name", !key.name.empty(), "name",
                    "is left out; allowed is a text that names whose key it is");
 }
@@ -362,17 +362,17 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
         exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
     }
     fields.path("library", exhibit.library,
-                "where packs from sticks are installed; a set there goes before `packs`");
+                "where packs from sticks are installed; a set there is shown instead of `packs`");
     fields.path("counts", exhibit.counts,
                 "where numbers of visits are kept ([counts.md](counts.md)); a folder that is not there, such "
                 "as `off`: nothing is counted");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
-                  "of the captions, at first");
-    fields.flag("captions", exhibit.captions, "on the table, beside the prop");
+                  "first language of the captions");
+    fields.flag("captions", exhibit.captions, "captions stand on the table beside the prop");
     fields.number("caption_height_m", exhibit.caption_height_m, {0.002, 0.2, "metres"},
-                  "of a letter's em on the table; 24 pt are 0.0085 m");
+                  "height of a letter's em on the table; 24 pt are 0.0085 m");
     fields.number("caption_brightness", exhibit.caption_brightness, {0.01, 1.0, "of the projector's light"},
-                  "the artifact should be the brightest thing on the table");
+                  "brightness of captions; the artifact should be the brightest thing on the table");
     fields.flag("zone_frame", exhibit.zone_frame,
                 "a frame of light on the table shows where the prop is lit, when it leaves these places or "
                 "is lifted");
@@ -382,24 +382,25 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                 "the exhibit's own words, from frustumscreen-bake --words; left out: signs without words");
     fields.flag("table_pictures", exhibit.table_pictures,
                 "the artifacts lie on the table as small pictures, to choose from");
-    fields.number("rest_s", exhibit.rest_s, {10.0, 3600.0, "seconds"},
-                  "after so long without a visitor the artifacts come in turn, in the first language");
+    fields.number(
+        "rest_s", exhibit.rest_s, {10.0, 3600.0, "seconds"},
+        "time without a visitor after which the artifacts are shown in turn, in the first language");
     fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
-                   "10^6 bytes that loaded artifacts may take; what was shown least recently goes first");
+                   "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first");
     fields.tables(
         "keys", exhibit.keys, max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
-        "the museum's public keys: what comes on a stick is signed with one of them");
+        "the museum's public keys: what comes on a stick must be signed with one of them");
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
-        "packs on a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
+        "packs from a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
     fields.path(
         "import_report", exhibit.import_report,
-        "the file in which frustumscreen-import says what it does with a stick; it is told on the table");
+        "the file in which frustumscreen-import reports what it does with a stick; the table shows it");
 }
 
 void hour_settings(auto& fields, auto& hour) {
-    fields.number("from_h", hour.from_h, {0.0, 23.99, "hours"}, "of the local day");
-    fields.number("gain_db", hour.gain_db, sound_gain, "on top of the volume, until the next row's hour");
+    fields.number("from_h", hour.from_h, {0.0, 23.99, "hours"}, "first hour of the local day for this row");
+    fields.number("gain_db", hour.gain_db, sound_gain, "added to the volume until the next row's hour");
 }
 
 void sound_settings(auto& fields, auto& sound) {
@@ -408,7 +409,8 @@ void sound_settings(auto& fields, auto& sound) {
     fields.number("gain_db", sound.gain_db, sound_gain, "volume; 0: as the words were recorded");
     fields.tables(
         "hours", sound.hours, max_hours, [](auto& item, auto& hour) { hour_settings(item, hour); },
-        "quieter at night: in the order of their hours; the last one holds over midnight");
+        "volume by the hour, such as quieter at night; in the order of the hours, and the last row holds "
+        "over midnight");
 }
 
 void hours_settings(auto& fields, auto& hours) {
@@ -417,12 +419,12 @@ void hours_settings(auto& fields, auto& hours) {
                            allowed_spans,
                            day == 0 ? "when the exhibit is awake; []: not at all" : "the same");
     }
-    fields.parsed_list("exceptions", hours.exceptions, max_exceptions, text_of_exception,
-                       parse_hours_exception, allowed_exceptions,
-                       "days on which other times hold, in place of the weekday's; several of one day count "
-                       "together");
+    fields.parsed_list(
+        "exceptions", hours.exceptions, max_exceptions, text_of_exception, parse_hours_exception,
+        allowed_exceptions,
+        "days with other times than the weekday's; several entries for one day count together");
     fields.parsed("time_zone", hours.time_zone, std::identity(), parse_time_zone, allowed_time_zones,
-                  "whose times these are; left out: the machine's own");
+                  "time zone of these times; left out: the machine's own");
 }
 
 void all_settings(auto& file, auto& settings) {

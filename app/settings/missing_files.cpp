@@ -35,10 +35,9 @@ std::vector<std::string> missing_files(const Settings& settings) {
     }
     const std::string& zone = settings.hours.time_zone;
     if (!zone.empty() && !has_time_zone(zone)) {
-        lines.push_back(
-            fmt::format("hours.time_zone: this machine has no time zone \"{}\", its own is taken; "
-                        "timedatectl list-timezones lists what there is",
-                        zone));
+        lines.push_back(fmt::format("hours.time_zone: this machine has no time zone \"{}\", so its own is "
+                                    "used; timedatectl list-timezones lists those that it has",
+                                    zone));
     }
     lines.insert(lines.end(), settings.calibration.unused.begin(), settings.calibration.unused.end());
     return lines;

@@ -20,13 +20,14 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::string_view advice_prefix = "advice.";
-/// What else is shown of the exhibit's own words.
+/// Keys of the other texts that the exhibit shows.
 constexpr std::string_view attract_key = "attract_line";
 constexpr std::array<std::string_view, 2> other_keys{attract_key, "fault.no_artifact"};
-/// Widths that a sentence is wrapped to, in type sizes and in falling preference: all that words are set for.
+/// Widths that a sentence is wrapped to, in type sizes and in falling preference: all widths that the words are set
+/// for.
 constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
 
-/// Each language of the file that is the nearest one to some language that is shown.
+/// The languages of the file that are nearest to some shown language.
 std::set<std::string> nearest(const std::vector<WordsLanguage>& listed,
                               const std::vector<std::string>& shown) {
     std::vector<std::string> there;
@@ -48,7 +49,7 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key)
         fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}});
 }
 
-/// The key that the exhibit asks for; nothing: it asks for none.
+/// The exhibit's key of a word; nothing: the exhibit does not use it.
 std::optional<std::string> key_of(const PlainWord& word) {
     if (word.key.starts_with(advice_prefix)) {
         return word.key.substr(advice_prefix.size());
@@ -130,7 +131,7 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
     if (old != texts.end()) {
         AdviceWord& replaced = words.words[house][static_cast<std::size_t>(old - texts.begin())];
         for (std::size_t shape = 0; shape < old->sizes_m.size(); ++shape) {
-            words.pictures[replaced.first_picture + shape] = {}; // nobody sees it
+            words.pictures[replaced.first_picture + shape] = {}; // replaced, so not shown
         }
         replaced = word;
         *old = std::move(line);

@@ -1,9 +1,9 @@
-/// The exhibit's own words in the languages that it shows: pictures for the table, recordings for the loudspeaker.
+/// The exhibit's own texts in the languages that it shows: pictures for the table, recordings for the loudspeaker.
 ///
 /// Units    metres on the table.
-/// Threads  prepared on any, without a context; its pictures are uploaded by the render thread (LoadedTexts).
-/// Memory   its recordings stay as they are in the file; prompt_reader.h decodes what is spoken.
-/// Errors   the file cannot be read or is none of words.
+/// Threads  read on any thread, without a context; the render thread uploads the pictures (LoadedTexts).
+/// Memory   recordings stay encoded as in the file; prompt_reader.h decodes those that are spoken.
+/// Errors   the file cannot be read or is not a file of words.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -20,8 +20,8 @@ namespace frustumscreen {
 
 /// One sentence, wrapped to each of the captions' widths, and spoken.
 struct AdviceWord {
-    std::size_t first_picture = 0; ///< of AdviceWords::pictures: one for each of AdviceText::sizes_m
-    SharedRecording recording;     ///< none: it is silent
+    std::size_t first_picture = 0; ///< index into AdviceWords::pictures: one for each of AdviceText::sizes_m
+    SharedRecording recording;     ///< none: silent
 };
 
 struct AdviceWords {
@@ -32,7 +32,7 @@ struct AdviceWords {
 
 struct AdviceWordsRequest {
     std::filesystem::path file;
-    std::vector<std::string> languages; ///< that are shown; the nearest ones are read
+    std::vector<std::string> languages; ///< shown ones; the nearest of the file's are read
     double em_m = 0.010;
     double texels_per_m = 2400.0;
     bool spoken = false;
@@ -40,12 +40,13 @@ struct AdviceWordsRequest {
 
 [[nodiscard]] Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request);
 
-/// A set's own line in place of the exhibit's, while nobody is there. There need be no words of the exhibit's.
+/// A set's own invitation, in place of the exhibit's, while no visitor is present. The exhibit need not have texts of
+/// its own.
 struct AttractLine {
     std::string language; ///< BCP 47
     std::string text;
 };
-/// Sets the line that is nearest to the house's `language` in the kiosk's typeface, and leaves the others.
+/// Sets the line nearest to the house's `language` in the kiosk's typeface, and ignores the others.
 [[nodiscard]] Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
                                             const TextStyle& style, AdviceWords& words);
 

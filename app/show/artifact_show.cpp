@@ -102,8 +102,8 @@ void ArtifactShow::note_language(const Settings& settings) {
         fmt::join(languages, ", ")));
 }
 
-/// Measures at the middle of the table, seen by the default eye. What comes later is expected to cost what the first
-/// artifact does, triangle for triangle and sample for sample.
+/// Measures at the middle of the table, seen by the default eye. Later artifacts are expected to cost as much as the
+/// first one, triangle for triangle and sample for sample.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target, bool other_sets) {
     PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
     ArtifactCache& artifact_cache = *set_->artifact_cache;
@@ -120,8 +120,8 @@ void ArtifactShow::measure(const Settings& settings, const RenderTarget& target,
     artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
-/// Draws a whole picture and one that redraws what moved, each with one of all that lies on the table: drivers compile for what
-/// a frame does, and this should be done before the first frame.
+/// Draws a whole picture and one that redraws only what moved, each with one of every picture on the table: drivers
+/// compile on first use, and this should happen before the first frame.
 void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue().front().caption_sizes_m;
         !sizes.empty()) {

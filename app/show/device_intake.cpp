@@ -24,7 +24,7 @@ std::optional<Command> command_of(const PanelEvent& event) {
     }
 }
 
-/// The sentence is empty where there is none.
+/// The sentence is empty if there is no camera.
 DeviceState camera_state(const Inputs& inputs) {
     if (!inputs.camera) {
         return {};
@@ -40,7 +40,7 @@ DeviceState camera_state(const Inputs& inputs) {
     return {condition_of(state), Sentence(sentence_of(state))};
 }
 
-/// `device`: none: nothing is asked for.
+/// `device`: null if not configured.
 DeviceReport report_of(const auto& device) {
     return device ? DeviceReport(device->condition()) : DeviceReport{};
 }
@@ -125,7 +125,7 @@ TrackedState DeviceIntake::tracked_state_at(MonotonicTime lit) {
     tracked_state_.tracker_is(health);
     TrackedState tracked_state = tracked_state_.at(lit);
     tracked_state.prop_known = tracked_state.prop_known || (!inputs_.tracker && !inputs_.tags);
-    // Visitors do not meet the tracker while the tags stand in for it.
+    // The tags stand in for the tracker, so its failure does not concern visitors.
     tracked_state.tracker = tracked_state.by_tags ? TrackerHealth::Well : health;
     return tracked_state;
 }
@@ -164,7 +164,7 @@ void DeviceIntake::tell_of_camera(RunStatus& status) const {
         status.drifted = verdict.state == DriftState::Moved;
         status.drift_m = verdict.off_m;
     } else if (looks_for_drift_) {
-        status.drift = Sentence("no calibration is kept that marks could be held against; measure the table");
+        status.drift = Sentence("no calibration is kept to compare the marks with; measure the table");
     }
 }
 

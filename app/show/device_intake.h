@@ -1,9 +1,9 @@
-/// Polls the devices of a run once a frame: turns poses and heads into the situation, presses into commands.
+/// Polls the devices of a run once a frame: turns poses and heads into the situation, button presses into commands.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  the render thread. `poll` and `tracked_state_at` allocate nothing.
-/// Errors   a device that fails is counted, and asked again in the next frame.
+/// Errors   a failing device is counted, and polled again in the next frame.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -27,14 +27,14 @@ class DeviceIntake {
 public:
     DeviceIntake(const Settings& settings, Inputs& inputs);
 
-    /// Asks every device once.
+    /// Polls every device once.
     void poll(MonotonicTime now);
     /// The commands of this frame.
     [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
     void drop_commands() { commands_.clear(); }
     /// Prop, eye and tracker at the time at which the picture is lit.
     [[nodiscard]] TrackedState tracked_state_at(MonotonicTime lit);
-    /// How the tracker sees the prop's sensor, and the head's.
+    /// The tracker's signal of the prop's sensor and of the head's.
     [[nodiscard]] const SignalMeter& prop_signal() const { return prop_signal_; }
     [[nodiscard]] const SignalMeter& head_signal() const { return head_signal_; }
     /// The devices' part of the status. `shown`: the situation of the latest picture.
@@ -51,7 +51,7 @@ private:
     LiveTrackedState tracked_state_;
     SignalMeter prop_signal_, head_signal_;
     std::uint64_t errors_ = 0;
-    std::vector<PoseSample> samples_; ///< these four: of this frame
+    std::vector<PoseSample> samples_; ///< `samples_` to `events_`: of this frame
     std::vector<UncertainPose> tag_poses_;
     std::vector<SeenHead> heads_;
     std::vector<PanelEvent> events_;

@@ -18,7 +18,7 @@ ExhibitPlace exhibit_place(const Settings& settings) {
     if (guides_visitors(settings)) {
         place.guidance = guidance_setup(settings);
     }
-    // One that can be calibrated with the buttons, and is not yet.
+    // The exhibit can be calibrated with the buttons, and is not calibrated yet.
     place.staff_stays = settings.calibration.by_buttons && !settings.calibration.used &&
                         settings.tracker.kind != TrackerKind::None;
     place.table_pictures = chooses_on_table(settings);

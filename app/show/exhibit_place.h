@@ -1,6 +1,6 @@
-/// The exhibit's place as the settings have it: the projector, the prop, the table, the buttons, who is guided.
+/// The exhibit's place from the settings: projector, prop, table, buttons and guidance.
 ///
-/// Its zone's frame and its words are left empty: they are what a show has (artifact_show.h).
+/// The zone's frame and the texts are left empty: a show has them (artifact_show.h).
 ///
 /// Threads  pure; any. Takes some milliseconds.
 #pragma once

@@ -1,7 +1,7 @@
-/// The exhibit's own words in the house's language, or in the one nearest to it that the file has.
+/// The exhibit's own texts in the house's language, or in the nearest one in the file.
 ///
-/// Errors   one line that names the file: it cannot be read, or is older than the words that are wanted.
-/// Threads  any; it reads a file.
+/// Errors   one line that names the file: it cannot be read, or is too old to have the requested texts.
+/// Threads  any; reads a file.
 #pragma once
 
 #include "app/pack/words_file.h"
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `key`: one of the words that are wanted.
+/// `key`: one of the requested texts.
 [[nodiscard]] Result<LanguageWords> read_house_words(const Settings& settings, std::string_view key);
 
 } // namespace frustumscreen

@@ -68,7 +68,7 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
     }
     const bool goes_on = noted_ && noted_->report.import_id == import->report.import_id;
     if (!goes_on && noted_ && is_over(noted_->report) && packs_ < noted_->report.packs.size()) {
-        note_packs(write); // the one before comes to its end first
+        note_packs(write); // the previous import's packs come first
         return;
     }
     if (noted_ != import) {

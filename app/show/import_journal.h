@@ -1,7 +1,8 @@
-/// What the importer says of a stick, line by line for the journal: each stage, and in the end each pack.
+/// The importer's progress as lines for the journal: each stage, and at the end each pack.
 ///
 /// Fields   DEVICE=stick; STATE is the line's text.
-/// Threads  one caller, the render thread; a call writes `max_lines` at most, so that 500 packs cost no frame. Allocates nothing.
+/// Threads  one caller, the render thread; a call writes at most `max_lines`, so that 500 packs do not delay a
+///          frame. Allocates nothing.
 /// Errors   none.
 #pragma once
 
@@ -19,15 +20,15 @@ public:
     static constexpr std::size_t max_lines = 16;
     using Write = std::function<void(LogPriority priority, const Sentence& line)>;
 
-    /// Call once a second. What was over long before the exhibit began is not said again. An import that comes while the one before
-    /// still has lines waits for them.
+    /// Call once a second. An import that was over long before the exhibit began is not logged again. A new import
+    /// waits until the previous one's lines have been written.
     void note(const SharedImport& import, const Write& write);
 
 private:
     void note_packs(const Write& write);
 
     SharedImport noted_;
-    std::size_t packs_ = 0; ///< of its packs, how many were said
+    std::size_t packs_ = 0; ///< number of the import's packs already logged
 };
 
 } // namespace frustumscreen

@@ -15,10 +15,10 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::uintmax_t max_report_bytes = 8U << 20U;
-constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, may be taken out, over
-constexpr std::size_t lines_of_counts = 3; ///< where all of them may find no room
+constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, may be removed, over
+constexpr std::size_t lines_of_counts = 3; ///< if all lines may not fit
 
-/// By the wall's clock, as the file's times are.
+/// Age by the wall clock, in which the file's times are given.
 Nanoseconds age_of(const struct stat& file) {
     const auto changed = std::chrono::seconds(file.st_mtim.tv_sec) + Nanoseconds(file.st_mtim.tv_nsec);
     return std::chrono::system_clock::now().time_since_epoch() - changed;
@@ -57,7 +57,7 @@ Result<ImportReport> ImportWatch::read() const {
     return at(file_.string(), parse_import_report(as_text(bytes)));
 }
 
-/// Another file is read at once; one that could not be read, some seconds later.
+/// Reads a new file at once, and again some seconds after a failed read.
 void ImportWatch::look(MonotonicTime now) {
     struct stat file {};
     if (::stat(file_.c_str(), &file) != 0) {
@@ -93,7 +93,8 @@ void ImportWatch::look(MonotonicTime now) {
     found_ = std::move(seen);
 }
 
-/// While a stick is copied, its report changes and its words do not.
+/// The notice's picture; kept ones are reused, since the report changes while a stick is copied but its text does
+/// not.
 SharedNotice ImportWatch::drawn(const NoticeText& text, const NoticeText& counts) {
     const auto kept = std::find_if(drawn_.begin(), drawn_.end(),
                                    [&](const SharedNotice& notice) { return notice->text == text; });

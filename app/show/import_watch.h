@@ -1,11 +1,12 @@
-/// Reads what the importer says of a stick, as often as it is said anew, and draws it for the table, on a thread of its own.
+/// Reads the importer's report of a stick whenever it changes, and draws the notice for the table, on its own thread.
 ///
-/// Four times a second it looks whether the file is another one. The render thread takes the latest and never waits.
+/// Checks four times a second whether the file has been replaced. The render thread takes the latest result and never
+/// waits.
 ///
-/// Threads  one caller, the render thread; one worker of low priority, which alone reads the file and draws. It makes no promise to
-///          be heard of again: a report that cannot be read is no reason to end the exhibit.
-/// Errors   a file that is not there says nothing. One that is no report is left out, and one line on standard error says why;
-///          it is read again some seconds later.
+/// Threads  one caller, the render thread; one worker of low priority, which alone reads the file and draws. It has
+///          no heartbeat: an unreadable report is no reason to end the exhibit.
+/// Errors   without a file there is no report. A file that is not a report is ignored, with one line on standard
+///          error, and read again some seconds later.
 #pragma once
 
 #include "app/exhibit/notice_place.h"
@@ -26,36 +27,35 @@ namespace frustumscreen {
 
 struct SeenImport {
     ImportReport report;
-    bool is_old =
-        false; ///< it was there when the watch began, and nothing had been said of it for `is_news_for`
-    SharedNotice notice;  ///< none: there are no words to draw it with
-    SharedNotice stopped; ///< that nothing comes any more
+    bool is_old = false;  ///< the file existed when the watch began, and was older than `is_news_for`
+    SharedNotice notice;  ///< none: there are no texts to draw it with
+    SharedNotice stopped; ///< says that the copy has stopped
 };
 using SharedImport = std::shared_ptr<const SeenImport>;
-/// None where nothing was seen.
+/// The report; null if there is none.
 [[nodiscard]] inline std::shared_ptr<const ImportReport> report_of(const SharedImport& import) {
     return import ? std::shared_ptr<const ImportReport>(import, &import->report) : nullptr;
 }
 
 class ImportWatch {
 public:
-    /// Always: the file is read by who asks, at most four times a second of the time that is given. For runs on a clock that is
-    /// not the wall's.
+    /// Always: the caller reads the file, at most four times a second of the given time. For runs on a simulated
+    /// clock.
     enum class Answer : std::uint8_t { WhenReady, Always };
-    /// `counts`: as draw_notice. It may return none.
+    /// `counts`: as draw_notice. May return null.
     using Draw = std::function<SharedNotice(const NoticeText& text, const NoticeText& counts)>;
     static constexpr Nanoseconds between_looks = std::chrono::milliseconds(250);
-    static constexpr Nanoseconds between_tries = std::chrono::seconds(5); ///< of what could not be read
-    /// By the wall's clock, which may be wrong: a report from the future is news.
+    static constexpr Nanoseconds between_tries = std::chrono::seconds(5); ///< after a failed read
+    /// Compared with the wall clock, which may be wrong: a report from the future counts as news.
     static constexpr Nanoseconds is_news_for = std::chrono::minutes(2);
 
     ImportWatch(std::filesystem::path file, Draw draw, Answer answer);
 
-    /// The latest; none: nothing was said yet. Allocates nothing while nothing new is said.
+    /// The latest report; null: there is none yet. Allocates nothing while the report does not change.
     [[nodiscard]] const SharedImport& latest(MonotonicTime now);
 
 private:
-    /// What tells one file from another that was renamed over it.
+    /// Distinguishes a file from one that was renamed over it.
     struct FileMark {
         std::uint64_t device = 0, inode = 0, bytes = 0;
         std::int64_t changed_ns = 0;
@@ -69,16 +69,16 @@ private:
     std::filesystem::path file_;
     Draw draw_;
     Answer answer_;
-    // The worker's own, or the caller's where it answers always.
+    // Owned by the worker; with Answer::Always, by the caller.
     std::optional<FileMark> mark_;
-    bool first_ = true;                       ///< nothing was found out yet
-    std::optional<MonotonicTime> read_again_; ///< it could not be read
-    std::string said_;                        ///< the last line on standard error
+    bool first_ = true;                       ///< nothing has been read yet
+    std::optional<MonotonicTime> read_again_; ///< after a failed read
+    std::string said_;                        ///< last line on standard error
     std::vector<SharedNotice> drawn_;
 
-    std::mutex mutex_; ///< for found_; nothing is read or drawn under it
+    std::mutex mutex_; ///< guards found_; nothing is read or drawn under it
     SharedImport found_;
-    SharedImport latest_; ///< the caller's own
+    SharedImport latest_; ///< the caller's
     std::optional<MonotonicTime> looked_;
     std::jthread worker_; ///< last, so that it ends first
 };

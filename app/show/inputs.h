@@ -1,6 +1,7 @@
-/// What the live exhibit listens to and speaks through: a tracker, a camera, a panel, a sound, whichever they are.
+/// The devices of the live exhibit: tracker, camera, panel and sound, of any kind.
 ///
-/// Threads  the render thread's; a device's own thread is behind its interface. The camera's hands each frame to its uses, in turn.
+/// Threads  the render thread's; a device's own thread is hidden behind its interface. The camera's thread hands each
+///          frame to its uses, in turn.
 #pragma once
 
 #include "app/drift/drift_watch.h"
@@ -19,15 +20,15 @@ namespace frustumscreen {
 
 struct Inputs {
     std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
-    Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or nobody asked for it
+    Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or recording is off
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
     std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
-    std::unique_ptr<VisitorTracker> visitor;    ///< none: nobody is seen who wears no sensor
-    std::unique_ptr<DriftWatch> drift;          ///< none: nothing looks whether the picture moved
-    std::unique_ptr<Viewfinder> viewfinder;     ///< none: no camera is used, or nobody could hold buttons
-    std::unique_ptr<Camera> camera; ///< whose frames they use; it ends before them, so it stands after them
-    std::unique_ptr<Panel> panel;   ///< none: nothing is pressed
-    std::unique_ptr<Sound> sound;   ///< none: there is nothing to say
+    std::unique_ptr<VisitorTracker> visitor;    ///< none: only sensors tell where a head is
+    std::unique_ptr<DriftWatch> drift;          ///< none: drift is not measured
+    std::unique_ptr<Viewfinder> viewfinder;     ///< none: no camera is used, or there are no buttons to hold
+    std::unique_ptr<Camera> camera; ///< source of their frames; declared after them, so that it ends first
+    std::unique_ptr<Panel> panel;   ///< none: there are no buttons
+    std::unique_ptr<Sound> sound;   ///< none: there is nothing to play
 };
 
 } // namespace frustumscreen

@@ -37,10 +37,10 @@ InstalledShow show_installed_set(
     }
     std::optional<SetTrial>& trial = installed.start.trial;
     const std::optional<SetTrial> before = trial;
-    for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad one leads to the one before
+    for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad set leads to the previous one
         const InstalledSet target = trial->target();
         Result<std::unique_ptr<ArtifactShow>> show = create(options_for(target));
-        if (!show && target.packs.empty()) { // better the new set without what is wrong in it than nothing
+        if (!show && target.packs.empty()) { // the new set without its bad packs is better than nothing
             show = create(options_for(trial->choice().set));
         }
         const std::string fault = show ? fault_of((*show)->left_out(), false) : show.error().message;
@@ -53,7 +53,7 @@ InstalledShow show_installed_set(
         }
     }
     if (!installed.show) {
-        trial = before; // not even the one before can be shown: that may be the driver's fault
+        trial = before; // if the previous set cannot be shown either, the cause may be the driver
     }
     if (trial && trial->verdict() != before->verdict()) {
         const Result<void> kept = keep_verdict(library, trial->verdict());

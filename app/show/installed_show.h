@@ -1,10 +1,10 @@
-/// The set that the exhibit starts with, where one is installed.
+/// The installed set that the exhibit starts with.
 ///
-/// A set on trial of which a pack cannot be shown makes way for the one before, at once. Where that cannot be shown either, the
-/// verdict stays as it was.
+/// If a pack of a set on trial cannot be shown, the previous set is shown at once. If that cannot be shown either,
+/// the verdict stays unchanged.
 ///
 /// Threads  the render thread, before the first frame.
-/// Errors   no installed set can be shown: then there is no show, and the packs of the settings are to be tried.
+/// Errors   no installed set can be shown: then `show` is null, and the caller tries the packs of the settings.
 #pragma once
 
 #include "app/show/artifact_show.h"
@@ -17,14 +17,14 @@
 
 namespace frustumscreen {
 
-/// The settings name a folder that there is: a set is installed there, or may come to be.
+/// True if the folder that the settings name exists: a set is installed there, or may be later.
 [[nodiscard]] bool library_is_there(const Settings& settings);
 
 struct InstalledShow {
-    std::unique_ptr<ArtifactShow> show; ///< none: no set is installed, or none that can be shown
+    std::unique_ptr<ArtifactShow> show; ///< null: no set is installed, or none can be shown
     LibraryStart start;
 };
-/// `options`: what is the same for every set. `create`: ArtifactShow::create of these.
+/// `options`: those common to all sets. `create`: calls ArtifactShow::create with them.
 [[nodiscard]] InstalledShow show_installed_set(
     const Settings& settings, const ArtifactShowOptions& options, Trust trust,
     const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create);

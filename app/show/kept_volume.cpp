@@ -35,7 +35,7 @@ int read_kept_volume(const std::filesystem::path& file, double settings_gain_db)
 VolumeKeeper::VolumeKeeper(std::filesystem::path file, double settings_gain_db)
     : file_(std::move(file)), settings_gain_db_(settings_gain_db),
       kept_db_(read_kept_volume(file_, settings_gain_db)) {
-    // What was chosen over other settings shall not come back with them.
+    // A volume chosen over other settings must not return with them.
     std::error_code failed;
     if (kept_db_ == 0 && !file_.empty()) {
         std::filesystem::remove(file_, failed);

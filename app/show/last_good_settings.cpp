@@ -12,10 +12,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// More than the settings may have.
+/// More than the largest allowed size of the settings.
 constexpr std::uintmax_t max_bytes = 1U << 20U;
 
-/// `as`: whose folder relative paths begin at, and whose name messages bear.
+/// `as`: the file whose folder relative paths start from and whose name appears in messages.
 Result<UsedSettings> read_from(const std::filesystem::path& file, const std::filesystem::path& as) {
     const Result<Bytes> bytes = read_file(file, max_bytes);
     if (!bytes) {

@@ -1,10 +1,11 @@
-/// The settings that the exhibit was seen to be good with, kept for the day on which the kiosk's own are spoilt.
+/// The last settings with which the exhibit worked, kept as a fallback for invalid settings.
 ///
-/// Kept     a copy of the settings' text, once the exhibit has shown an artifact for `long_enough` in one piece with them.
-/// Fallback for a kiosk that must show something: the kept copy in place of settings that are wrong, else those that were shipped.
-///          Relative paths of the copy are those of the kiosk's own file.
+/// Kept     a copy of the settings' text, once the exhibit has shown an artifact with them for `long_enough` without
+///          interruption.
+/// Fallback for a kiosk that must show something: the kept copy in place of invalid settings, or else the shipped
+///          settings. Relative paths in the copy start from the folder of the kiosk's own file.
 /// Threads  `use_settings` any; the keeper has one caller, which writes files.
-/// Errors   as load_settings; the keeper says once that it cannot write.
+/// Errors   as load_settings; the keeper reports a failed write once.
 #pragma once
 
 #include "app/settings/settings.h"
@@ -19,15 +20,15 @@ namespace frustumscreen {
 
 struct UsedSettings {
     CheckedSettings settings;
-    std::string text; ///< of the file that they come from
+    std::string text; ///< of their file
     std::string
-        instead; ///< why they are not those of the kiosk's file, and which they are: a sentence; empty: they are those
+        instead; ///< why these are not the kiosk's own, and which they are, as a sentence; empty: its own
 };
-/// In place of settings that are wrong; an empty path: there are none.
+/// Replacements for invalid settings; an empty path: none.
 struct SettingsFallback {
     std::filesystem::path last_good, shipped;
 };
-/// Without a fallback, wrong settings are the error.
+/// Without a fallback, invalid settings are an error.
 [[nodiscard]] Result<UsedSettings> use_settings(const std::filesystem::path& file,
                                                 const std::optional<SettingsFallback>& fallback);
 
@@ -37,13 +38,13 @@ public:
     static constexpr Nanoseconds longest_silence = std::chrono::seconds(5);
 
     SettingsKeeper(std::filesystem::path file, std::string text);
-    /// About once a second. Writes once at most, and not if the file has this text already.
+    /// Call about once a second. Writes at most once, and not if the file already has this text.
     void note(const RunStatus& status);
 
 private:
     std::filesystem::path file_;
     std::string text_;
-    std::optional<MonotonicTime> since_; ///< an artifact has been shown well
+    std::optional<MonotonicTime> since_; ///< since when an artifact has been shown without a fault
     MonotonicTime latest_;
     bool is_done_ = false;
 };

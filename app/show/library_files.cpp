@@ -49,7 +49,7 @@ std::optional<SetVerdict> read_verdict(const std::filesystem::path& library) {
 
 Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict) {
     const std::filesystem::path path = library / verdict_file_name;
-    std::error_code failed; // then the file cannot be written either, and that says why
+    std::error_code failed; // if this fails, write_file fails too and reports why
     std::filesystem::create_directories(path.parent_path(), failed);
     return write_file(path, as_bytes(write_verdict(verdict)));
 }
@@ -62,7 +62,7 @@ std::string packs_of_ended_keys(const std::filesystem::path& library, const Inst
     }
     const tl::expected<SetFile, ImportFailure> file = read_set_file(**tree);
     if (!file) {
-        return {}; // told elsewhere
+        return {}; // reported elsewhere
     }
     return names_in_words(packs_of_ended_keys(**tree, set, trusted_keys(settings.exhibit.keys, file->keys),
                                               day_here(clock, file->latest_day)));

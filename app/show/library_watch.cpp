@@ -14,7 +14,7 @@ namespace {
 
 /// A disk that is busy with a stick's packs is slow.
 constexpr Nanoseconds look_patience = std::chrono::seconds(30);
-/// Of one pack, or of all small pictures of a set.
+/// Longest time for one pack, or for all small pictures of a set.
 constexpr Nanoseconds pack_patience = std::chrono::minutes(5);
 
 } // namespace
@@ -88,7 +88,7 @@ void LibraryWatch::take_what_comes() {
     }
 }
 
-/// It was offered and never shown: what is on show stays, and is not offered as if it were another.
+/// Handles a set that was offered and never shown: the shown set stays, and is not offered as another one.
 void LibraryWatch::refuse(const ShownSet& gone) {
     trial_->refuse(gone.number, gone.trouble);
     if (gone.number == offered_) {
@@ -98,7 +98,7 @@ void LibraryWatch::refuse(const ShownSet& gone) {
     }
 }
 
-/// Another file is read at once; one that could not be read, some seconds later.
+/// Reads a new file at once, and again some seconds after a failed read.
 void LibraryWatch::look() {
     const std::optional<FileStamp> stamp = stamp_of_set(set_up_.library);
     const MonotonicTime now = monotonic_now();
@@ -110,7 +110,7 @@ void LibraryWatch::look() {
     Result<std::optional<SetChoice>> choice = read_choice(set_up_.library);
     trouble_ = choice ? "" : choice.error().message;
     if (!choice || !*choice) {
-        stamp_ = choice ? std::nullopt : stamp_; // it was taken away meanwhile
+        stamp_ = choice ? std::nullopt : stamp_; // it was removed meanwhile
         return;
     }
     if (trial_) {
@@ -120,7 +120,8 @@ void LibraryWatch::look() {
     }
 }
 
-/// Before anything of the set is shown. Another verdict is written at once; one that could not be written, some seconds later.
+/// Runs before anything of the set is shown. Writes a new verdict at once, and again some seconds after a failed
+/// write.
 void LibraryWatch::keep() {
     const MonotonicTime now = monotonic_now();
     if (!trial_ || (kept_ == trial_->verdict() && (verdict_trouble_.empty() || now < keep_again_))) {
@@ -134,7 +135,7 @@ void LibraryWatch::keep() {
 }
 
 void LibraryWatch::follow_target(const std::stop_token& stop) {
-    // A set that turns out bad leads to the one before: two steps at most.
+    // A bad set leads to the previous one: two steps at most.
     for (int step = 0; step < 2 && trial_; ++step) {
         const InstalledSet& target = trial_->target();
         if (target.number == offered_ || target.number == failed_ || stop.stop_requested()) {
@@ -174,7 +175,7 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
     delete coming_.exchange(opened->release());
 }
 
-/// Anew for another set and another set.txt, and each hour: a key ends with its last day.
+/// Checks again for another set or set.txt, and each hour, because a key expires after its last day.
 void LibraryWatch::look_at_keys() {
     const MonotonicTime now = monotonic_now();
     const std::pair looked_at(on_show_, stamp_);

@@ -1,12 +1,13 @@
-/// Looks for another installed set of packs, opens it beside the exhibit, and keeps the verdict on the one that is shown.
+/// Watches for another installed set of packs, opens it while the exhibit runs, and keeps the verdict on the shown
+/// one.
 ///
 ///     set.txt -> SetTrial -> open_set -> take -> (SetSwitch shows it) -> report -> SetTrial -> verdict.json
 ///
-/// Looks    at set.txt a few times a second: a rename makes it another file.
-/// Bad      a set of which a pack cannot be opened is not shown at all where there is another to go back to.
-/// Threads  one of its own, of low priority, which alone reads and writes files. The render thread calls all of the below; none
-///          waits. Where it is destroyed, it waits for the pack that is being opened.
-/// Errors   none: what goes wrong stands in the status, and what is shown stays. What could not be read or written is tried again.
+/// Polls    set.txt a few times a second: a rename changes its identity.
+/// Bad      a set with a pack that cannot be opened is not shown if there is another set to return to.
+/// Threads  its own, of low priority, which alone reads and writes files. The render thread calls everything below
+///          and never waits, except in the destructor, which waits for the pack that is being opened.
+/// Errors   none: problems are in the status, and the shown set stays. Failed reads and writes are repeated.
 #pragma once
 
 #include "app/show/library_files.h"
@@ -21,7 +22,7 @@
 
 namespace frustumscreen {
 
-/// What the render thread shows.
+/// The render thread's report on the shown set, for the verdict.
 struct ShownReport {
     MonotonicTime now;
     std::uint64_t number = 0; ///< of the set
@@ -38,21 +39,22 @@ public:
         LibraryStart start;
         std::uint64_t shown = 0; ///< number of the set that the exhibit began with
         Nanoseconds between_looks = std::chrono::milliseconds(250);
-        Nanoseconds between_tries = std::chrono::seconds(5); ///< of what could not be read or written
+        Nanoseconds between_tries = std::chrono::seconds(5); ///< after a failed read or write
     };
-    /// `settings` outlive it.
+    /// `settings` must outlive this object.
     LibraryWatch(const Settings& settings, SetUp set_up);
     ~LibraryWatch();
     LibraryWatch(const LibraryWatch&) = delete;
     LibraryWatch& operator=(const LibraryWatch&) = delete;
 
-    /// A set to be shown, of which nothing is in the store; none: there is no other.
+    /// Returns a set to show, with nothing in the store yet; null: there is none.
     [[nodiscard]] std::unique_ptr<ShownSet> take();
-    /// Takes a set away of which nothing is in the store any more, to be destroyed; one with a `trouble` is bad. False: not now.
+    /// Takes over a set that has nothing left in the store, to destroy it; a set with a `trouble` is bad. False: not
+    /// possible yet.
     [[nodiscard]] bool give_back(std::unique_ptr<ShownSet>& set);
-    /// At least once a second.
+    /// Call at least once a second.
     void report(const ShownReport& report) { static_cast<void>(shown_.try_put(report)); }
-    /// False: there is no news.
+    /// Takes the status if it is new; false: it is not.
     [[nodiscard]] bool news(SharedSetStatus& status) { return status_.try_take(status); }
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
 
@@ -70,23 +72,24 @@ private:
     const Settings& settings_;
     SetUp set_up_;
     std::optional<SetTrial> trial_;  ///< none: no set was ever installed
-    std::string trouble_;            ///< with set.txt: it is read again
-    std::string verdict_trouble_;    ///< it is written again
-    std::optional<FileStamp> stamp_; ///< of the set.txt that was read, or could not be
-    std::optional<SetVerdict> kept_; ///< as it was written, or could not be
+    std::string trouble_;            ///< with set.txt, which is read again
+    std::string verdict_trouble_;    ///< with the verdict, which is written again
+    std::optional<FileStamp> stamp_; ///< of the set.txt read last, or not readable
+    std::optional<SetVerdict> kept_; ///< as written last, or not writable
     MonotonicTime read_again_, keep_again_;
-    std::uint64_t offered_ = 0;           ///< number of the latest set that was offered, or the first
-    std::optional<std::uint64_t> failed_; ///< the latest that could not be opened
+    std::uint64_t offered_ = 0;           ///< number of the latest set offered, or of the first set
+    std::optional<std::uint64_t> failed_; ///< the latest set that could not be opened
     InstalledSet offered_set_, shown_set_;
-    std::uint64_t on_show_ = 0; ///< as it was reported
+    std::uint64_t on_show_ = 0; ///< as reported
     std::string of_ended_keys_;
-    std::optional<std::pair<std::uint64_t, std::optional<FileStamp>>> keys_of_; ///< that it was looked up for
+    /// The set and the set.txt whose keys were checked last.
+    std::optional<std::pair<std::uint64_t, std::optional<FileStamp>>> keys_of_;
     MonotonicTime keys_again_;
     std::optional<SetStatus> posted_;
 
     Latest<ShownReport> shown_;
     Latest<SharedSetStatus> status_;
-    std::atomic<ShownSet*> coming_{nullptr}; ///< this and `gone_` are owned by who takes them out
+    std::atomic<ShownSet*> coming_{nullptr}; ///< `coming_`, `gone_`: owned by the thread that takes them
     std::atomic<ShownSet*> gone_{nullptr};
     Heartbeat heartbeat_;
     std::jthread thread_; ///< last: it uses the others

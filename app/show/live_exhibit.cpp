@@ -24,7 +24,7 @@ ToldText told_by(const Presentation& presentation) {
     return {presentation.advice ? ToldText::Kind::Words : ToldText::Kind::Nothing, 0};
 }
 
-/// Towards sleep all is dimmed alike.
+/// Dims all parts alike on the way to sleep.
 void dim(Presentation& presentation, double light) {
     if (light >= 1.0) {
         return;
@@ -38,7 +38,7 @@ void dim(Presentation& presentation, double light) {
         if (part && light > 0.0) {
             part->brightness *= light;
         } else {
-            part.reset(); // what is dark is not presented
+            part.reset(); // a dark part is not presented
         }
     };
     dim_part(presentation.placeholder);
@@ -77,13 +77,13 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
 void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) {
     const bool asleep = light_ <= 0.0;
     if (set_switch_ && !asleep && set_switch_->step(now, presentation_.state, exhibit_)) {
-        presentation_.artifact = exhibit_.chosen(); // what was presented is of a set that has gone
+        presentation_.artifact = exhibit_.chosen(); // the previous presentation belongs to the old set
         speaker_.forget();
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
-    if (set_switch_ && !asleep) { // a set that nobody could see is neither good nor bad
+    if (set_switch_ && !asleep) { // a set that was not visible is neither good nor bad
         set_switch_->report(now, presentation_.state);
     }
     notice_.step(now, on_table, presentation_);

@@ -1,8 +1,7 @@
-/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage. For the staff it shows their picture
+/// The exhibit for visitors: what `Exhibit` decides, drawn on the stage. For the staff it shows the staff picture
 /// (staff_show.h).
 ///
-/// Memory   the staff's picture is made when it is asked for and freed afterwards: it costs nothing the rest of the
-///          time.
+/// Memory   the staff picture is created on request and freed afterwards: it costs nothing the rest of the time.
 /// Threads  the render thread, with the display's context current.
 /// Errors   a typeface is missing: the exhibit goes on, and a line on standard error says so.
 #pragma once
@@ -28,11 +27,11 @@ namespace frustumscreen {
 class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
-    /// `answer`: of a clock that is not the wall's, always.
+    /// `answer`: Always on a simulated clock.
     LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage> stage, Exhibit exhibit,
                 std::string driver, PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
-    /// Other sets may come from here on; `artifacts` is the stage.
+    /// Accepts other sets from here on; `artifacts` is the stage.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
 
     void step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) override;
@@ -54,7 +53,7 @@ public:
     }
 
 private:
-    /// Those that a notice leaves to the exhibit.
+    /// The commands that a notice leaves to the exhibit.
     [[nodiscard]] std::span<const Command> left_by_notice(MonotonicTime now,
                                                           std::span<const Command> commands);
     void follow_staff_mode();
@@ -62,7 +61,7 @@ private:
     const Settings& settings_;
     std::unique_ptr<ExhibitStage> stage_;
     std::string driver_;
-    std::unique_ptr<SetSwitch> set_switch_; ///< none: this set is shown for good
+    std::unique_ptr<SetSwitch> set_switch_; ///< none: the set never changes
     Exhibit exhibit_;
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
@@ -70,11 +69,11 @@ private:
     Volume volume_;
     double light_ = 1.0;               ///< 0: asleep
     std::optional<ShownMark> mark_;    ///< wanted in this step
-    Viewfinder* viewfinder_ = nullptr; ///< none: nobody holds the staff's buttons
+    Viewfinder* viewfinder_ = nullptr; ///< none: the staff's buttons are not held
     TrackerSignal prop_signal_, head_signal_;
-    double gain_db_;                   ///< the settings' volume of this hour
-    std::unique_ptr<StaffShow> staff_; ///< while it is on
-    std::optional<int> presents_;      ///< since the other picture was last drawn; nothing = never
+    double gain_db_;                   ///< the settings' volume for this hour
+    std::unique_ptr<StaffShow> staff_; ///< while the staff picture is on
+    std::optional<int> presents_;      ///< since the other picture was last drawn; nothing: never
 };
 
 } // namespace frustumscreen

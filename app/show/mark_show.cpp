@@ -13,7 +13,7 @@ namespace {
 
 constexpr int texels = 32;
 
-/// Bright in the middle, dark at the rim, without an edge between: a centre of light is found best so.
+/// Bright in the middle, dark at the rim, without an edge: this gives the most accurate centre.
 Image<std::uint8_t> soft_disc() {
     Image<std::uint8_t> disc(texels, texels);
     for (int v = 0; v < texels; ++v) {

@@ -1,5 +1,5 @@
-/// A mark of light on the table, by which a camera tells whether the picture has moved (app/drift): small, soft, dim, and for half a
-/// second. It lies on nothing that visitors are shown.
+/// A drift mark on the table, by which a camera measures whether the picture has moved (app/drift): small, soft, dim,
+/// and shown for half a second. It overlaps nothing that visitors are shown.
 ///
 /// Frames   table T, metres.
 /// Threads  the render thread. Allocates nothing after `prepare`.
@@ -16,22 +16,22 @@
 namespace frustumscreen {
 
 inline constexpr double mark_size_m = 0.016;    ///< across
-inline constexpr double mark_brightness = 0.25; ///< share of the projector's light, in its middle
+inline constexpr double mark_brightness = 0.25; ///< fraction of the projector's light, in its middle
 
-/// Whether a mark lies beside the prop and all that is lit there. `prop_m`: how far the prop reaches from its axis.
+/// True if a mark is clear of the prop and of everything lit. `prop_m`: reach of the prop from its axis.
 [[nodiscard]] bool has_room_for_mark(const glm::dvec2& place_m, const Presentation& presentation,
                                      double prop_m);
 
 class MarkShow {
 public:
-    /// Before the first frame.
+    /// Call before the first frame.
     [[nodiscard]] Result<void> prepare(GpuStore& store);
     void place(const std::optional<ShownMark>& mark, OnTable& on_table) const;
     [[nodiscard]] TextureId texture() const { return texture_; }
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:
-    TextureId texture_ = TextureId::None; ///< none: no camera looks for marks
+    TextureId texture_ = TextureId::None; ///< none: no camera uses marks
 };
 
 } // namespace frustumscreen

@@ -22,7 +22,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double empty_ring_brightness = 0.2; ///< of a text's
+constexpr double empty_ring_brightness = 0.2; ///< relative to a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
 
@@ -35,7 +35,7 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key,
         fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}, gain_db});
 }
 
-/// None: nothing can be drawn, and a line says why.
+/// The function that draws notices; null: notices cannot be drawn, and a line says why.
 ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
     Result<Typesetter> opened = Typesetter::open();
     if (!opened) {
@@ -52,7 +52,7 @@ ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
     };
 }
 
-/// A rectangle along the axes around a sign, with room for its move.
+/// The axis-parallel rectangle around a sign, with a margin for its movement.
 TableRectangle around(const PlacedSign& sign) {
     constexpr double moves_m = 0.02;
     glm::dvec2 low = sign.corners_m[0];
@@ -64,7 +64,7 @@ TableRectangle around(const PlacedSign& sign) {
     return {0.5 * (low + high), high - low + 2.0 * moves_m, 0};
 }
 
-/// What visitors are shown beside the prop, but for the caption.
+/// The pictures for visitors beside the prop, except the caption.
 class Obstacles {
 public:
     explicit Obstacles(const Presentation& presentation) {
@@ -84,7 +84,7 @@ public:
         }
     }
     [[nodiscard]] std::span<const TableRectangle> lit() const { return lit_.all(); }
-    /// Places where nothing lies now.
+    /// Places without a picture.
     [[nodiscard]] std::span<const TableRectangle> empty() const { return empty_.all(); }
 
 private:
@@ -113,7 +113,7 @@ NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
         return;
     }
     ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
-    if (!tells_of_sticks(settings)) { // in the journal and the status alone
+    if (!tells_of_sticks(settings)) { // only in the journal and the status
         watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
         return;
     }
@@ -160,8 +160,7 @@ void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Pres
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
         presentation.settled = presentation.settled && presentation.notice->brightness >= 1.0;
     }
-    const bool between_two =
-        lies_there_ && notice != nullptr; // one text has gone, and the next is on its way
+    const bool between_two = lies_there_ && notice != nullptr; // between two notices
     lies_there_ = (presentation.notice || between_two) && !presentation.staff;
     due_.reset();
     if (shown && lies_there_ && presentation.notice && presentation.notice->picture == notice &&

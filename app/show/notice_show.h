@@ -1,13 +1,13 @@
-/// What is told of a stick, beside what visitors are shown: decided in each step, drawn from textures of its own.
+/// The notice about a stick beside what visitors are shown: decided in each step, drawn from its own textures.
 ///
 ///     ImportWatch -> StickNotice, NoticePlace -> Presentation::notice -> NoticeTextures -> OnTable
 ///
-/// It outlives the artifacts: a set that is taken in meanwhile changes nothing of it.
+/// It is independent of the set: a change of the set does not affect it.
 ///
-/// Language the house's; its words and its speech are those of the file of words.
-/// Threads  the render thread. `step` allocates nothing while nothing new is said of a stick.
-/// Errors   where the settings name no words, nothing is read. Words that cannot be read are a line on standard error; then the
-///          journal and the status alone have it.
+/// Language the house's; texts and speech are those of the file of words.
+/// Threads  the render thread. `step` allocates nothing while the report does not change.
+/// Errors   if the settings name no file of words, nothing is read. An unreadable file gives a line on standard
+///          error; then only the journal and the status report the import.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -29,21 +29,21 @@ namespace frustumscreen {
 
 class NoticeShow {
 public:
-    static constexpr double found_gain_db = -9.0; ///< nobody asked for it
+    static constexpr double found_gain_db = -9.0; ///< quieter, because it comes unasked
 
-    /// Reads the words. `answer`: of a clock that is not the wall's, always.
+    /// Reads the texts. `answer`: Always on a simulated clock.
     NoticeShow(const Settings& settings, ImportWatch::Answer answer);
 
-    /// Whether a press ends what is shown; then it does nothing else.
+    /// True if a press ends the notice; then the press has no other effect.
     [[nodiscard]] bool take_press(MonotonicTime now, std::span<const Command> commands);
-    /// Adds the notice to what the exhibit shows at this step.
+    /// Adds the notice to the presentation of this step.
     void step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation);
-    /// What is to be said now, if nothing else is; none: nothing. It stays until it was.
+    /// The recording to play when nothing else is heard; null: none. It stays until `announced`.
     [[nodiscard]] const SharedRecording& announcement() const { return announcement_; }
     void announced() { said_ = due_; }
 
     [[nodiscard]] bool speaks() const { return found_ || take_out_; }
-    /// None: nothing was said of any stick.
+    /// Null: there was no report of any stick.
     [[nodiscard]] const SharedImport& import() const { return import_; }
 
 private:
@@ -58,27 +58,29 @@ private:
     NoticePlace place_;
     VisitorSide side_;
     SharedImport import_;
-    /// A word that is said once for each import.
+    /// A text that is spoken once for each import.
     struct Said {
         std::uint64_t import = 0;
         std::string_view key;
         [[nodiscard]] bool operator==(const Said&) const = default;
     };
-    std::optional<Said> said_; ///< last
+    std::optional<Said> said_; ///< the last one
     std::optional<Said> due_;
     SharedRecording announcement_;
-    bool lies_there_ = false;          ///< at the step before: a press is for it
-    std::optional<ImportWatch> watch_; ///< none: no stick is told of
+    bool lies_there_ = false;          ///< in the previous step; a press then ends the notice
+    std::optional<ImportWatch> watch_; ///< none: notices are off
 };
 
-/// A notice's picture in the GPU's memory, in the shape that is shown, while it is.
+/// The shown notice's picture in the GPU's memory, in the shown shape.
 class NoticeTextures {
 public:
-    /// Before the first frame.
+    /// Call before the first frame.
     [[nodiscard]] Result<void> prepare(GpuStore& store);
-    /// Drawn once, they make the driver compile what notices need: it may tell textures by their sizes.
+    /// Textures to draw once before the first frame, so that the driver compiles for notices: it may distinguish
+    /// textures by size.
     [[nodiscard]] std::array<TextureId, 2> samples() const { return {white_, sample_}; }
-    /// Uploads what is new, and lets go of what is not shown. `brightness`: of texts, share of the projector's light.
+    /// Uploads a new picture and releases one that is not shown. `brightness`: of texts, fraction of the projector's
+    /// light.
     void place(const std::optional<PresentedNotice>& notice, double brightness, const Pinhole& projector,
                const RigidTransform& table_from_projector, std::span<const glm::dvec2> room, GpuStore& store,
                OnTable& on_table);
@@ -89,9 +91,9 @@ private:
 
     SharedNotice picture_;
     std::size_t shape_ = 0;
-    TextureId texture_ = TextureId::None; ///< none: the driver has no memory
-    TextureId white_ = TextureId::None;   ///< one texel: what the ring is drawn with
-    TextureId sample_ = TextureId::None;  ///< of a size like words': with mip levels, and no power of two
+    TextureId texture_ = TextureId::None; ///< None: the driver has no memory for it
+    TextureId white_ = TextureId::None;   ///< one texel, for drawing the ring
+    TextureId sample_ = TextureId::None;  ///< of a size like a text's: with mip levels, and no power of two
 };
 
 } // namespace frustumscreen

@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The finest level is chosen where the cost does not matter, so it gets the smoothest outlines too.
+/// The finest level is chosen where cost does not matter, so it gets the smoothest outlines too.
 int samples_of(const OfflineOptions& options, const PackDescription& pack) {
     const int usual = options.technique == "finest" ? finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> levels_to_read(const ScenePlan& plan) {
     return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
 }
 
-/// What is needed of a pack for the options.
+/// The scene plan of a pack for the options.
 Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pack) {
     const auto& [checked, options] = setup;
     Settings settings = *checked;

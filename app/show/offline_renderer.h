@@ -1,7 +1,7 @@
-/// Pictures of a pack without a screen: the same plan and renderer as the live exhibit.
+/// Pictures of a pack without a screen, with the same plan and renderer as the live exhibit.
 ///
-/// Frames   as situation.h: table T, metres.
-/// Threads  the one that made it: it holds a GL context.
+/// Frames   as tracked_state.h: table T, metres.
+/// Threads  the thread that created it, which holds its GL context.
 /// Errors   no EGL or OpenGL ES, an unknown technique, a pack that the driver cannot hold.
 #pragma once
 
@@ -30,7 +30,7 @@ struct OfflineOptions {
     int height = 0;
     bool light = true;
     bool hit_points = false;
-    int samples = 0; ///< a pixel; 0 = finest_samples for "finest", else what the pack asks for
+    int samples = 0; ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
     unsigned cull_kinds = AllCullKinds;
     /// All poses that will be drawn; empty: any pose may be drawn.
     std::vector<KnownView> views;
@@ -40,14 +40,14 @@ struct OfflineSetup {
     CheckedSettings settings;
     OfflineOptions options;
 };
-/// A pack's file, of which just what its pictures need was read.
+/// A pack's file, of which only what its pictures need was read.
 struct OfflineScene {
     OfflineSetup setup;
     ScenePlan plan;
     VerifiedPack pack;
-    std::shared_ptr<const BlockRelief> relief; ///< in the stead of a level
+    std::shared_ptr<const BlockRelief> relief; ///< in place of a level
 };
-/// `setup_of` says how it is drawn, from its outline.
+/// `setup_of` returns the set-up for a pack's outline.
 [[nodiscard]] Result<OfflineScene>
 load_offline(const std::filesystem::path& file,
              const std::function<Result<OfflineSetup>(const PackOutline&)>& setup_of);
@@ -55,25 +55,25 @@ load_offline(const std::filesystem::path& file,
 struct OfflinePicture {
     Image8 colour;
     std::optional<ImageFloat> hit_points; ///< prop frame, metres; NaN = no hit
-    std::optional<ErrorEstimate> error;   ///< nothing: it shows nothing of the artifact
-    double ms = 0.0;                      ///< plan, full redraw, until the GPU is done; no read-back
+    std::optional<ErrorEstimate> error;   ///< nothing: no part of the artifact is visible
+    double ms = 0.0; ///< of plan and full redraw until the GPU is done, without read-back
 };
 
 class OfflineRenderer {
 public:
-    /// The scene need not outlive the call.
+    /// `scene` need not outlive the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
 
     [[nodiscard]] OfflinePicture draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m);
 
     [[nodiscard]] const Pinhole& projector() const { return projector_; }
     [[nodiscard]] const PropShape& prop() const { return prop_; }
-    /// "level0", "relief96", ...: what "auto", "finest" or "relief" chose.
+    /// "level0", "relief96", ...: the choice of "auto", "finest" or "relief".
     [[nodiscard]] const std::string& technique() const { return technique_; }
 
 private:
     explicit OfflineRenderer(const ScenePlan& plan);
-    /// What is drawn, and a renderer for it.
+    /// Takes the level or relief to draw, and creates a renderer for it.
     [[nodiscard]] Result<void> take_level(const OfflineScene& scene);
     [[nodiscard]] Result<void> take_relief(const OfflineScene& scene);
     void draw_once(const PlanView& view);
@@ -87,7 +87,7 @@ private:
     SeenLevel seen_;
     PlacedLevel placed_;
     FramePlan plan_;
-    std::unique_ptr<SurfacelessDisplay> display_; ///< before everything that lives in its context
+    std::unique_ptr<SurfacelessDisplay> display_; ///< declared before everything that lives in its context
     std::optional<Renderer> renderer_;
     std::optional<HitPointRenderer> hit_points_;
     bool warm_ = false;

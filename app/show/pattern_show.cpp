@@ -29,7 +29,7 @@ void PatternShow::tell(const RunStatus& status) {
     }
 }
 
-/// Whether the framebuffer has another picture of the camera than it is to have.
+/// True if the framebuffer's camera picture is out of date.
 bool PatternShow::follow_camera(int buffer_age) {
     if (panel_ && viewfinder_ != nullptr) {
         return panel_->follow(*viewfinder_) || without_camera_ > 0;

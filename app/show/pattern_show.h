@@ -1,4 +1,5 @@
-/// The alignment pattern on the display, drawn on the CPU whenever the prop has moved; or another picture of the staff's.
+/// The alignment pattern on the display, drawn on the CPU whenever the prop has moved; or another picture for the
+/// staff.
 ///
 /// Threads  the render thread, with the display's context current.
 /// Errors   the typeface is missing.
@@ -19,21 +20,21 @@ namespace frustumscreen {
 
 class PatternShow final : public Show {
 public:
-    static constexpr int max_buffers = 16; ///< no display has more
+    static constexpr int max_buffers = 16; ///< more than any display has
 
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
-    /// What it says of the camera while the staff hold their buttons.
+    /// Updates the line about the camera, shown while the staff hold their buttons.
     void tell(const RunStatus& status) override;
     void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
-    /// Shows `picture` in the pattern's place, with the prop's edges on it or without.
+    /// Shows `picture` in place of the pattern. `with_edges`: with the prop's edges on top.
     void set_picture(Image8 picture, bool with_edges);
     [[nodiscard]] const PatternScene& scene() const { return scene_; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
                                   const RenderTarget& target, Redraw redraw) override;
-    /// The pattern stands in for artifacts that cannot be shown.
+    /// The pattern replaces artifacts that cannot be shown.
     void is_fault() { state_ = State::Fault; }
     [[nodiscard]] ShowState state() const override {
         ShowState state;
@@ -55,7 +56,7 @@ private:
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
     std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera
     Viewfinder* viewfinder_ = nullptr;
-    int without_camera_ = max_buffers; ///< pictures drawn since the last one with what the camera sees
+    int without_camera_ = max_buffers; ///< pictures drawn since the last one with the camera's picture
 };
 
 } // namespace frustumscreen

@@ -1,9 +1,9 @@
-/// A text as a QR code (ISO/IEC 18004), as a picture of its modules: dark on light, with the quiet zone of four modules around it.
+/// A text as a QR code (ISO/IEC 18004): a picture of its modules, dark on light, with the quiet zone of four modules.
 ///
-/// Text     bytes as they are; readers take them for UTF-8. At most `max_bytes`.
-/// Repair   level M: up to 15 % of the code may be unreadable, as where a cable lies on it.
+/// Text     raw bytes, which readers interpret as UTF-8. At most `max_qr_bytes`.
+/// Repair   level M: up to 15 % of the code may be unreadable, for example under a cable.
 /// Threads  pure; any.
-/// Errors   a text that is too long, or empty, is an empty picture.
+/// Errors   a text that is too long or empty gives an empty picture.
 /// Library  libqrencode 4.
 #pragma once
 

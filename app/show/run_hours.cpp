@@ -9,10 +9,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// The timetable is asked again after so long even if nothing is to change: another program may have set the zone.
+/// The timetable is also evaluated at this interval, because another program may have set the time zone.
 constexpr std::chrono::minutes between_looks{1};
 
-/// "Mon 2026-11-23 18:00", local.
+/// Local time, as "Mon 2026-11-23 18:00".
 Sentence words_of(std::chrono::sys_seconds time) {
     const std::chrono::sys_seconds local = time + local_offset_at(time);
     return format_sentence("{:%a %F %H:%M}", fmt::gmtime(std::chrono::system_clock::to_time_t(local)));
@@ -24,9 +24,9 @@ RunHours::RunHours(const HoursSettings& settings, OffsetAt offset_at, std::strin
     : timetable_(settings, std::move(offset_at)),
       zone_missing_(missing_zone.empty()
                         ? Sentence()
-                        : format_sentence("; this machine has no time zone \"{}\" of hours.time_zone, "
-                                          "its own is taken",
-                                          missing_zone)) {}
+                        : format_sentence(
+                              "; this machine has no time zone \"{}\" of hours.time_zone, so its own is used",
+                              missing_zone)) {}
 
 void RunHours::look_at_clock(MonotonicTime now, std::chrono::sys_seconds wall) {
     wall_ = wall;

@@ -1,10 +1,11 @@
-/// The exhibit's hours in a run: the timetable, the wall clock and what people do, as one light from 0 to 1.
+/// The exhibit's hours in a run: the timetable, the wall clock and the exhibit's use, as one factor on the light, 0
+/// to 1.
 ///
-/// Clock    one that was never set tells no hours: the exhibit stays awake. One that is set shifts the timetable and nothing else,
-///          which runs by the monotonic clock.
+/// Clock    if the wall clock was never set, the exhibit stays awake. Setting it shifts only the timetable;
+///          everything else runs by the monotonic clock.
 /// Time     two parameters: the monotonic `now`, and the wall clock.
-/// Threads  the render thread. Allocates nothing, but where the timetable is asked, once a minute and at its changes.
-/// Errors   none; the status has a sentence.
+/// Threads  the render thread. Allocates only where the timetable is evaluated: once a minute and at its changes.
+/// Errors   none; the status has a sentence about them.
 #pragma once
 
 #include "app/exhibit/hours.h"
@@ -17,7 +18,7 @@ namespace frustumscreen {
 
 class RunHours {
 public:
-    /// `missing_zone`: of the settings, where this machine has none of that name; empty: it has it.
+    /// `missing_zone`: the settings' time zone if this machine does not have it; else empty.
     RunHours(const HoursSettings& settings, OffsetAt offset_at, std::string_view missing_zone);
 
     struct Input {
@@ -29,9 +30,9 @@ public:
     void step(MonotonicTime now, const Input& input);
 
     [[nodiscard]] bool asleep() const { return sleep_.asleep(); }
-    /// Of the picture's light, 0..1.
+    /// The factor on the picture's light, 0..1.
     [[nodiscard]] double light() const { return sleep_.light(); }
-    /// Its sentence changes with what is the case, not with the time.
+    /// The sentence changes only with the state, not with the time.
     [[nodiscard]] HoursStatus status() const;
 
 private:

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t window_frames = 8192; ///< that the status' times are taken from
+constexpr std::size_t window_frames = 8192; ///< for the status's frame times
 constexpr std::size_t max_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
@@ -21,7 +21,7 @@ constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 /// The smallest light that still draws; 0 means asleep.
 constexpr double least_light = 1e-6;
 
-/// Of visits that wait to be taken; nobody takes them for as long only where its thread is stuck.
+/// Limit for visits that wait to be written; it is reached only if the writer's thread is stuck.
 constexpr std::size_t max_visit_pieces = 64;
 
 std::string_view shown_artifact(const ShowState& state) {
@@ -145,10 +145,10 @@ private:
 
     struct Drawn {
         bool presented = false;
-        bool changed = false; ///< the picture is another one than before
-        bool coded = false;   ///< it has its code for the watchdog
+        bool changed = false; ///< the picture differs from the previous one
+        bool coded = false;   ///< contains a code for the watchdog
     };
-    /// Draws what changed, or the same picture again where none was presented for a second.
+    /// Draws what changed, or the same picture again if none was presented for a second.
     [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const TrackedState& tracked_state) {
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
@@ -215,7 +215,7 @@ private:
         return inputs_.drift->step(now, attracts_ && !asleep_ && intake_.commands().empty() && is_seen);
     }
 
-    /// What the camera sees is for the staff alone, and only while they hold both of their buttons.
+    /// The camera's picture is only for the staff, and only while they hold both of their buttons.
     void follow_viewfinder(MonotonicTime now) {
         if (!inputs_.viewfinder) {
             return;
@@ -226,30 +226,30 @@ private:
         show_.set_viewfinder(shows_camera_ ? inputs_.viewfinder.get() : nullptr);
     }
 
-    /// What is pressed while it sleeps wakes it and does nothing else.
+    /// A press during sleep wakes the exhibit and has no other effect.
     void follow_hours(MonotonicTime now) {
         if (hours_ == nullptr) {
             return;
         }
         const bool was_dark = hours_->asleep();
         hours_->step(now, {std::chrono::system_clock::now(), !intake_.commands().empty(), used_,
-                           watch_.ready() && !staff_}); // who stands on a ladder is not left in the dark
+                           watch_.ready() && !staff_}); // staff on a ladder are not left in the dark
         if (was_dark) {
             intake_.drop_commands();
         }
-        asleep_ = was_dark && hours_->asleep(); // the last picture before is drawn, and black
+        asleep_ = was_dark && hours_->asleep(); // the last picture before sleep is drawn, and is black
         show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
     }
 
-    /// The projector is dark; the devices are read, and heard of by the watchdog.
+    /// Keeps the projector dark; devices are read and reported to the watchdog.
     [[nodiscard]] Result<void> sleep(MonotonicTime now, const TrackedState& tracked_state,
                                      MonotonicTime begin) {
         watch_.enters("waits for the display");
         TRY_VOID(display_.stay_dark());
         count_visits(now, show_.state());
-        presented_ = now - between_probes; // the first picture afterwards is presented in any case
+        presented_ = now - between_probes; // so that the first picture after sleep is presented
         fault_since_
-            .reset(); // nobody sees that there is nothing to show, and a new start would light the projector
+            .reset(); // a fault is not visible in the dark, and a restart of the exhibit would light the projector
         watch_.enters("reports its status");
         watch_.asleep(now);
         watch_.look(now, display_, inputs_);
@@ -340,7 +340,7 @@ private:
         return (options_.stop != nullptr && options_.stop->received()) || (options_.ends && options_.ends());
     }
 
-    /// Waits for it, unless the run is fast.
+    /// Waits for the next display time, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
         if (options_.fast) {
             return now + period_;
@@ -364,9 +364,9 @@ private:
     RunWatch& watch_;
     RunHours* hours_; ///< none: it never sleeps
     bool asleep_ = false;
-    bool attracts_ = false;     ///< in the frame before: nobody was there
-    bool staff_ = false;        ///< in the frame before: the staff's picture was shown
-    bool shows_camera_ = false; ///< the staff hold their buttons and see what the camera sees
+    bool attracts_ = false;     ///< in the previous frame no visitor was present
+    bool staff_ = false;        ///< in the previous frame the staff picture was shown
+    bool shows_camera_ = false; ///< the staff hold their buttons and see the camera's picture
     MonotonicTime start_;
     Nanoseconds period_;
     LightDelay light_delay_;
@@ -374,13 +374,13 @@ private:
     StillTaker stills_;
     TrackedState shown_; ///< of the latest frame, as it was drawn
     RecentFrameTimes times_;
-    MonotonicTime presented_; ///< when the picture on show was
-    Sentence artifact_;       ///< that is shown
+    MonotonicTime presented_; ///< when the shown picture was presented
+    Sentence artifact_;       ///< on show
     MonotonicTime artifact_since_;
-    std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
-    std::optional<MonotonicTime> used_;        ///< when somebody used the exhibit last
+    std::optional<MonotonicTime> fault_since_; ///< since when nothing can be shown
+    std::optional<MonotonicTime> used_;        ///< when the exhibit was last used
     VisitCounter visit_counter_;
-    std::vector<VisitPiece> visit_pieces_; ///< that were not taken yet
+    std::vector<VisitPiece> visit_pieces_; ///< not taken yet
     CountedVisits visits_;
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;

@@ -1,9 +1,9 @@
 /// The live loop: poll, decide, draw what changed, present, wait for the next display time.
 ///
-/// Time     every decision is made for one `now` a frame. In real time that is the monotonic clock; in a fast
-///          run it steps by one period, so that the run is repeatable and as quick as the machine allows.
+/// Time     every decision of a frame uses one `now`. In real time it is the monotonic clock; in a fast run it
+///          advances by one period, so that the run is repeatable and as fast as the machine allows.
 /// Threads  the render thread, with the display's context current. Allocates nothing of its own in a frame.
-/// Errors   the display stops; no artifact can be shown any more, for `longest_fault`. Devices that fail are counted and asked
+/// Errors   the display stops; no artifact could be shown for `longest_fault`. Failing devices are counted and polled
 ///          again.
 #pragma once
 
@@ -28,23 +28,23 @@
 
 namespace frustumscreen {
 
-/// Then the exhibit is to be started again, and looks for packs again.
+/// After this time without an artifact the run ends, so that a restart looks for packs again.
 inline constexpr Nanoseconds longest_fault = std::chrono::minutes(1);
 
 struct LoopOptions {
-    std::optional<Nanoseconds> length; ///< nothing = until told to stop
+    std::optional<Nanoseconds> length; ///< nothing: until stopped
     bool fast = false;
     Redraw redraw = Redraw::Changes;
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
-    std::string_view mode = "normal"; ///< this and the next for the status
+    std::string_view mode = "normal"; ///< `mode` and `settings` are for the status
     Sentence settings;
-    const StopSignals* stop = nullptr;    ///< one of them ends the loop
-    Screenshot* screenshot = nullptr;     ///< of the display's size; whoever asks it for a picture gets one
-    std::function<bool()> ends = {};      ///< asked in each frame: yes ends it too
-    std::function<void()> calibrate = {}; ///< the staff ask for the table's calibration; none: they cannot
-    VisitBook* visits = nullptr;          ///< where visits are counted; none: nowhere, like a fast run
-    RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
+    const StopSignals* stop = nullptr;    ///< a stop signal ends the loop
+    Screenshot* screenshot = nullptr;     ///< of the display's size; serves requests for a picture
+    std::function<bool()> ends = {};      ///< called in each frame; true ends the loop
+    std::function<void()> calibrate = {}; ///< starts the calibration for the staff; none: not available
+    VisitBook* visits = nullptr;          ///< counts visits; none: they are not counted, as in a fast run
+    RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern
 };
 
 struct LoopResult {

@@ -21,7 +21,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Quotes a text for CSV where it must be.
+/// Quotes a text for CSV if necessary.
 std::string csv_text(std::string_view text) {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
         return std::string(text);

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The interval of a policy without a service manager's watchdog.
+/// The interval of the policy if the service manager has no watchdog.
 constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
 
 Sentence what_is_shown(const RunStatus& status) {
@@ -65,7 +65,7 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
     }
 }
 
-/// A driver that never gave a code back cannot read what it shows; that is no reason to end the exhibit.
+/// A driver that never returned a code cannot read back what it shows; that is no reason to end the exhibit.
 std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
     std::array<std::byte, probe_bytes> corner{};
     if (display.read_shown(corner)) {
@@ -133,7 +133,7 @@ void RunWatch::note(const RunStatus& status) {
     if (status.visits && !status.visits->trouble.empty()) {
         note_device("visits", Sentence(status.visits->trouble), visits_);
     }
-    if (status.set && status.set != noted_set_) { // the sentence is made only where there is news
+    if (status.set && status.set != noted_set_) { // the sentence is made only for a new status
         noted_set_ = status.set;
         note_device("set", Sentence(sentence_of(*status.set)), set_);
     }
@@ -147,7 +147,7 @@ void RunWatch::note(const RunStatus& status) {
     imports_.note(status.seen_import, [this](LogPriority priority, const Sentence& line) {
         note_state(priority, "stick", line.view(), line);
     });
-    // What a technician looks for comes first: a long line is cut.
+    // Most important to a technician first, as a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
     manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
                                     comma(tracker_), panel_.view(), comma(panel_), sound_.view(),

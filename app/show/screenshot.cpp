@@ -21,7 +21,7 @@ void Screenshot::serve(const Display& display) {
         return;
     }
     read_colour_into(display.framebuffer(), picture_);
-    erase_probe(picture_); // the code is for a watchdog and no part of the picture
+    erase_probe(picture_); // the code is for the watchdog, not part of the picture
     turn_ = Turn::Done;
 }
 
@@ -40,7 +40,7 @@ Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
     return &picture_;
 }
 
-/// A copy that hung the last time may be done by now, and is old. One that still hangs is waited for.
+/// A copy that hung last time may be done by then, and is old. One that still hangs is waited for.
 void Screenshot::ask() {
     for (const Turn from : {Turn::Nobody, Turn::Done}) {
         Turn turn = from;
@@ -48,7 +48,7 @@ void Screenshot::ask() {
     }
 }
 
-/// False: the question was taken back, but for a copy that has begun.
+/// Waits for the picture. False: the request was withdrawn, unless a copy has begun.
 bool Screenshot::comes(MonotonicTime until, const std::stop_token& stop) {
     while (turn_.load() != Turn::Done) {
         if (stop.stop_requested() || monotonic_now() >= until) {

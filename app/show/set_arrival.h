@@ -1,8 +1,8 @@
-/// Looks whether another set of packs is installed than when a run began, for a run that has nothing to show.
+/// Detects that another set of packs was installed since a run began, for a run that has nothing to show.
 ///
-/// Threads  one of its own looks at the file, four times a second: a disk may hang. `came` is asked in each frame and waits for
-///          nothing. A thread that hangs ends with the process (end_within).
-/// Errors   none: what cannot be looked at has not come.
+/// Threads  its own thread checks the file four times a second, as a disk may hang. `came` is called in each frame
+///          and never waits. A hanging thread ends with the process (end_within).
+/// Errors   none: a file that cannot be checked counts as unchanged.
 #pragma once
 
 #include "app/show/library_files.h"
@@ -18,7 +18,7 @@ class SetArrival {
 public:
     static constexpr Nanoseconds between_looks = std::chrono::milliseconds(250);
 
-    /// `before`: stamp_of_set before the packs were looked for.
+    /// `before`: stamp_of_set before the packs were searched.
     SetArrival(std::filesystem::path library, const std::optional<FileStamp>& before);
     [[nodiscard]] bool came() const { return came_; }
 

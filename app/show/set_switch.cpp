@@ -13,7 +13,7 @@ bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
         const std::size_t first = goal(state, exhibit).value_or(0);
         std::optional<TableBrowser> browser = std::exchange(coming_->browser, std::nullopt);
         leaving_ = artifacts_.exchange(std::move(coming_));
-        // The one that the exhibit had goes where it is destroyed, as the set does.
+        // The exhibit's old catalogue is destroyed where the set is.
         leaving_->catalogue =
             exhibit.show_set(artifacts_.catalogue(), std::move(browser), artifacts_.words(), first, now);
         return true;
@@ -31,7 +31,7 @@ void SetSwitch::release_the_old() {
     }
 }
 
-/// A newer set takes the place of one that has not begun to be shown.
+/// A newer set replaces one that is not shown yet.
 void SetSwitch::take_the_new(Exhibit& exhibit) {
     if (leaving_ || exhibit.leaves_set()) {
         return;
@@ -52,7 +52,7 @@ std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) 
     const auto can_be_shown = [&](std::size_t artifact) {
         return states[artifact] != ArtifactState::LeftOut;
     };
-    if (state != State::Attract) { // there somebody looks at it
+    if (state != State::Attract) { // in other states a visitor is looking at it
         const std::vector<std::string>& names = coming_->names;
         const auto same = std::find(names.begin(), names.end(), artifacts_.set().names[exhibit.chosen()]);
         const auto artifact = static_cast<std::size_t>(same - names.begin());
@@ -86,7 +86,7 @@ void SetSwitch::bring(State state, Exhibit& exhibit) {
 
 void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
     if (exhibit.leaves_set()) {
-        return; // it is too late: what it shows is reported then
+        return; // too late: its fault is reported when it is shown
     }
     coming_->trouble = trouble;
     exhibit.await_no_set();

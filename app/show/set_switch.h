@@ -1,13 +1,14 @@
-/// Exchanges the set on show for another one while the exhibit goes on: the render thread's side of library_watch.h.
+/// Exchanges the shown set for another one while the exhibit runs: the render thread's side of library_watch.h.
 ///
-///     taken -> uploaded, some a frame -> the exhibit lets the old one fade out -> exchanged, in the dark -> the old one is
-///     released, some a frame -> given back, to be destroyed elsewhere
+///     taken -> uploaded, a part each frame -> the exhibit fades the old one out -> exchanged, in the dark
+///     -> the old one is released, a part each frame -> given back, to be destroyed on another thread
 ///
-/// Cost     a frame uploads one picture for the table or some titles, or a few megabytes of the first artifact, as of any that
-///          comes; what takes longer is done before, on the library's thread (open_set). Both sets are in memory meanwhile (shown_set.h). Another set waits until the one before is released.
-/// Threads  the render thread, with the display's context current, also where it is destroyed. Nothing is read or compiled in a
-///          frame. What there is to allocate for a set is allocated in the frames of its coming.
-/// Errors   a set that cannot be shown after all is given back with its trouble, and what is shown stays.
+/// Cost     a frame uploads one table picture or some titles, or a few megabytes of the first artifact, as for any
+///          artifact; slower work is done before, on the library's thread (open_set). Both sets are in memory
+///          meanwhile (shown_set.h). Another set waits until the previous one is released.
+/// Threads  the render thread, with the display's context current, including destruction. Nothing is read or compiled
+///          in a frame. Memory for a set is allocated in the frames before it is shown.
+/// Errors   a set that cannot be shown is given back with its trouble, and the shown set stays.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -25,27 +26,27 @@ namespace frustumscreen {
 
 class SetSwitch {
 public:
-    /// `artifacts`: made for other sets.
+    /// `artifacts`: created with `other_sets`.
     SetSwitch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library)
         : artifacts_(artifacts), library_(std::move(library)) {}
 
-    /// Before the exhibit's step; `state`: of the step before. True: another set is shown now.
+    /// Call before the exhibit's step; `state`: of the previous step. True: another set is shown from this step on.
     bool step(MonotonicTime now, State state, Exhibit& exhibit);
-    /// After it.
+    /// Call after the exhibit's step.
     void report(MonotonicTime now, State state);
 
     [[nodiscard]] const SharedSetStatus& status() const { return status_; }
-    /// At the latest step the library's thread was overdue. That is no reason to end a picture that is well.
+    /// True if, at the latest step, the library's thread was overdue. That is no reason to end a good picture.
     [[nodiscard]] bool library_hangs() const { return library_hangs_; }
 
 private:
-    /// Of words and small pictures in a frame: a picture for the table or some titles. Their mip levels are made at upload, which
-    /// takes longer than the upload itself.
+    /// Bytes of words and small pictures in a frame: one table picture or some titles. Making their mip levels at
+    /// upload takes longer than the upload itself.
     static constexpr std::uint64_t frame_bytes = std::uint64_t{256} << 10U;
 
     void release_the_old();
     void take_the_new(Exhibit& exhibit);
-    /// Which of its artifacts is shown first: the one that the visitor sees, if it has that. None: it can show none.
+    /// The artifact to show first: the one on show, if the new set has it. None: the set can show no artifact.
     [[nodiscard]] std::optional<std::size_t> goal(State state, const Exhibit& exhibit) const;
     void bring(State state, Exhibit& exhibit);
     void give_up(const std::string& trouble, Exhibit& exhibit);

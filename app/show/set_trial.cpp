@@ -31,7 +31,7 @@ void SetTrial::take(SetChoice choice) {
 
 void SetTrial::begin() {
     if (verdict_.state != TrialState::Trying || trust_ == Trust::Before) {
-        return; // it is not begun with
+        return; // the exhibit does not begin with it
     }
     if (choice_.last_good && verdict_.starts >= max_starts) {
         refuse(verdict_.number,

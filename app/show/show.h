@@ -1,4 +1,4 @@
-/// Something that the run loop can put on the display: the exhibit, or the alignment pattern alone.
+/// Anything that the run loop can put on the display: the exhibit, or the alignment pattern alone.
 ///
 /// Threads  the render thread.
 #pragma once
@@ -22,86 +22,86 @@
 
 namespace frustumscreen {
 
-/// What a frame shows, for the status and the report. The texts live as long as the show.
+/// The contents of a frame, for the status and the report. The texts live as long as the show.
 struct ShowState {
     std::string_view artifact; ///< title; empty for the pattern
     std::string_view language;
     LevelState levels;
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
-    /// The prop's pose that was drawn for, if it is not the known one.
+    /// The prop's pose drawn for, if it is not the known one.
     std::optional<RigidTransform> stands = {};
     PacksLeftOut left_out = {};
     SharedSetStatus set = {};
     bool library_hangs = false;     ///< as RunStatus
-    std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
+    std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
-    std::uint64_t loaded_bytes = 0; ///< that they take, and what is on its way
+    std::uint64_t loaded_bytes = 0; ///< of the loaded artifacts and those being loaded
     State state = State::Staff;
     ToldText told = {};
-    SharedImport import = {};               ///< what the importer says; none: nothing
-    std::optional<MonotonicTime> used = {}; ///< when somebody used it last; nothing: never
-    bool calibrate = false;                 ///< in this step the staff asked for the table's calibration
-    int louder_db = 0;                      ///< than the settings say, by the staff's buttons
+    SharedImport import = {};               ///< the importer's report; null: none
+    std::optional<MonotonicTime> used = {}; ///< when it was last used; nothing: never
+    bool calibrate = false;                 ///< the staff asked for the table's calibration in this step
+    int louder_db = 0;                      ///< relative to the settings, chosen with the staff's buttons
 };
 
 class Show {
 public:
     virtual ~Show() = default;
-    /// Decides what `draw` draws next. `commands`: those since the step before, in their order.
+    /// Decides what `draw` draws next. `commands`: those since the previous step, in order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
                       const TrackedState& /*on_table*/) {}
-    /// Whether it may be dark by the timetable; an alignment pattern may not.
+    /// True if it may be dark by the timetable; an alignment pattern may not.
     [[nodiscard]] virtual bool sleeps() const { return false; }
-    /// How much light all that is drawn has, 0..1, from the next step on. 0: it is asleep, silent and not drawn.
+    /// Sets the factor on all light, 0..1, from the next step on. 0: asleep, silent and not drawn.
     virtual void set_light(double /*light*/) {}
-    /// A mark of light that a camera looks for, from the next `step` on; nothing: none.
+    /// Sets the drift mark that a camera looks for, from the next `step` on; nothing: none.
     virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
-    /// What the camera sees, from the next `draw` on, where the alignment pattern is shown to the staff; none: they do not hold their
-    /// buttons, or no camera is used.
+    /// Sets the camera's picture, from the next `draw` on, for the alignment pattern shown to the staff; null: the
+    /// staff do not hold their buttons, or no camera is used.
     virtual void set_viewfinder(Viewfinder* /*viewfinder*/) {}
-    /// How the tracker sees the prop's and the head's sensor; while the staff's picture is shown, before each `step`.
+    /// Sets the tracker's signals of the prop's and the head's sensor; called before each `step` while the staff
+    /// picture is shown.
     virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
-    /// What is to be heard.
+    /// The sound to play.
     [[nodiscard]] virtual const SoundRequest& wish() const {
         static const SoundRequest silence;
         return silence;
     }
-    /// Whether it ever has something to say.
+    /// True if it may ever play a sound.
     [[nodiscard]] virtual bool speaks() const { return false; }
-    /// What is heard.
+    /// Takes the report of what is being played.
     virtual void hear(const SoundReport& /*report*/) {}
-    /// Tells how the run is: once a second, and when the staff ask.
+    /// Takes the run's status: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
-    /// Draws the picture for `now` where it differs from the one on the display; allocates nothing after the
-    /// start.
+    /// Draws the picture for `now` where it differs from the displayed one; allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const TrackedState& on_table,
                                           const RenderTarget& target, Redraw redraw) = 0;
-    /// Takes the time of the latest picture drawn, from the poll until it was done, without the wait for a
+    /// Takes the time of the latest picture, from the poll until the drawing was done, without the wait for a
     /// refresh.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state() const = 0;
 };
 
-/// Draws what a Presentation says.
+/// Draws a Presentation.
 class ExhibitStage {
 public:
     virtual ~ExhibitStage() = default;
-    /// `eye_m`: in table coordinates. Allocates nothing after the start.
+    /// `eye_m`: table frame. Allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                           const glm::dvec3& eye_m, const RenderTarget& target,
                                           Redraw redraw) = 0;
-    /// As in Show; it has room.
+    /// As in Show; the caller has checked that the mark has room.
     virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
     /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
-    /// Whether any word can be heard.
+    /// True if any text can be heard.
     [[nodiscard]] virtual bool speaks() const { return false; }
-    /// Of each artifact, whether it can be shown; none: all can.
+    /// State of each artifact; empty: all are ready.
     [[nodiscard]] virtual std::span<const ArtifactState> artifacts() const { return {}; }
-    /// What hides its hotspots; none while it is not there.
+    /// The triangles that hide an artifact's hotspots; none while it is not loaded.
     [[nodiscard]] virtual ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
-    /// None: it is silent.
+    /// Null: silent.
     [[nodiscard]] virtual SharedRecording recording(const WordIndex& /*word*/) const { return nullptr; }
     [[nodiscard]] virtual SharedRecording recording(const DescriptionIndex& /*description*/) const {
         return nullptr;

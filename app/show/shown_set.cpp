@@ -12,10 +12,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Type size of what a visitor should do, in those of a caption.
+/// Type size of advice relative to a caption's.
 constexpr double advice_em = 1.5;
 
-/// Without its words the exhibit shows signs alone, and a note says why.
+/// Without its texts the exhibit shows signs alone, and a note says why.
 AdviceWords read_words(const Settings& settings, const SetOptions& options, const SetRequest& request,
                        ShownSet& set) {
     TextStyle style = text_style(settings);
@@ -109,7 +109,7 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
     return set;
 }
 
-/// What is small and seen at once comes first.
+/// Small pictures that are visible at once come first.
 Result<void> ShownSet::upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes) {
     if (!word_pictures.ready()) {
         return word_pictures.upload(store, max_bytes);

@@ -1,12 +1,13 @@
-/// The artifacts that are shown together, with all that is theirs: what is in memory of them, their pictures on the table, the
-/// exhibit's words in their languages.
+/// The artifacts that are shown together, with everything that belongs to them: what is in memory, their pictures on
+/// the table, and the exhibit's own texts in their languages.
 ///
-///     open_set (any thread) -> upload some, once a frame -> shown -> release some, once a frame -> destroyed (any thread)
+///     open_set (any thread) -> upload, a part a frame -> shown -> release, a part a frame -> destroyed (any thread)
 ///
-/// Memory   while one set comes and another is shown, both are there: the coming one adds its first artifact's levels, the
-///          caption, all small pictures and words. Budgets count each set alone.
-/// Threads  `open_set` on any, without a context. `upload` and `release_some` on the render thread, with the display's context
-///          current. A set of which nothing is in the store may be destroyed on any; that may wait for its reader.
+/// Memory   while one set is shown and another is loaded, both are in memory: the new one adds its first artifact's
+///          levels, the caption, all small pictures and texts. Budgets count each set alone.
+/// Threads  `open_set` on any, without a context. `upload` and `release_some` on the render thread, with the
+///          display's context current. A set with nothing in the store may be destroyed on any thread; the destructor
+///          may wait for its reader.
 /// Errors   as open_artifacts; the driver has no memory.
 #pragma once
 
@@ -35,26 +36,26 @@
 
 namespace frustumscreen {
 
-/// The same for all sets of a run.
+/// Options common to all sets of a run.
 struct SetOptions {
     std::string technique =
-        "auto"; ///< this, `samples`, `cull kinds`, `program` and `waits`: as ArtifactShowOptions
+        "auto"; ///< `technique`, `samples`, `cull_kinds`, `program` and `waits`: as ArtifactShowOptions
     int samples = 1;
     unsigned cull_kinds = AllCullKinds;
     std::string_view program = "frustumscreen";
     bool waits = false;
     DevicePlan devices;
     std::uint32_t max_blocks_on_gpu = 0;   ///< as SceneRequest
-    std::uint64_t gpu_bytes_that_stay = 0; ///< of the memory's budget, whatever set is shown
+    std::uint64_t gpu_bytes_that_stay = 0; ///< part of the memory's budget that every set needs
 };
 struct SetRequest {
     std::uint64_t number = 0; ///< as InstalledSet; 0: the packs of the settings or of the command line
     std::vector<std::filesystem::path> packs;
     std::string packs_key; ///< as ArtifactShowOptions
     std::vector<AttractLine> attract;
-    std::function<bool()> goes_on = [] { return true; }; ///< asked before each pack; no: the set is given up
+    std::function<bool()> goes_on = [] { return true; }; ///< called before each pack; false ends opening
 };
-/// What frames cost on this GPU, and the view that they are expected for.
+/// The cost of frames on this GPU, and the view that they are expected for.
 struct ExpectedFrames {
     FrameCost cost;
     PropShape prop;
@@ -64,29 +65,30 @@ struct ExpectedFrames {
 
 struct ShownSet {
     std::uint64_t number = 0;
-    Catalogue catalogue; ///< as it was opened; the exhibit has its own
+    Catalogue catalogue; ///< as opened; the exhibit has its own
     std::vector<std::string>
-        names; ///< by artifact: its id; without one its file. The same in another set: the same artifact
+        names; ///< by artifact: its id, or its file without one; equal names in two sets mean the same artifact
     std::vector<std::string> languages; ///< of all captions
-    std::string trouble;                ///< why it cannot be shown after all; empty: it can
-    std::vector<std::string> notes;     ///< sentences about what a person may not have meant
+    std::string trouble;                ///< why the set cannot be shown; empty: it can
+    std::vector<std::string> notes;     ///< sentences about settings that may be unintended
     RenderNeeds needs;
     std::unique_ptr<ArtifactCache> artifact_cache;
     AdviceWords words;
     LoadedTexts word_pictures;
     TableShow table;
     std::optional<TableBrowser>
-        browser; ///< lay_out_catalogue; the exhibit takes it. A run's first set has none
+        browser; ///< from lay_out_catalogue; the exhibit takes it. A run's first set has none
 
-    /// So many bytes more, or a little more than that, towards showing what is wished for.
+    /// Uploads about `max_bytes` more of what `wish` needs to be shown, or a little more.
     [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes);
     [[nodiscard]] bool ready(const CacheRequest& wish) const;
-    /// False: nothing is left in the store. Nothing can be shown any more.
+    /// Releases a part of the store's contents. False: nothing is left in the store. After the first call nothing can
+    /// be shown.
     bool release_some(GpuStore& store);
 
     [[nodiscard]] TextureId word(const WordIndex& word, std::size_t shape) const;
     [[nodiscard]] SharedRecording recording(const WordIndex& word) const;
-    /// Anything of it can be heard.
+    /// True if anything of the set can be heard.
     [[nodiscard]] bool speaks() const;
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const {
         return word_pictures.bytes() + table.planned_gpu_bytes();
@@ -96,7 +98,7 @@ private:
     bool words_released_ = false;
 };
 
-/// `frames`: the set's reader begins at once; none: call Residents::start later.
+/// `frames`: the set's reader begins at once; none: call ArtifactCache::start later.
 [[nodiscard]] Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOptions& options,
                                                          const SetRequest& request,
                                                          const std::optional<ExpectedFrames>& frames);

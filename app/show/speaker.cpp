@@ -34,7 +34,7 @@ bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
     return announcement && !presentation.prepares_word && announce(announcement);
 }
 
-/// The latest one begins at once.
+/// Plays the latest tone at once.
 void Speaker::play_tones(std::uint32_t asked) {
     if (std::exchange(tones_, asked) == asked) {
         return;
@@ -59,7 +59,7 @@ void Speaker::end_description(bool at_pause) {
     if (!is_alive(description_) || ending_ == Ending::Stopped) {
         return;
     }
-    // What is not heard yet waits for something else to end, and that goes on to its own next pause.
+    // A description not heard yet waits for other speech to end, which goes on to its own next pause.
     if (!at_pause && is_heard) {
         wish_.stop();
         ending_ = Ending::Stopped;
@@ -79,11 +79,11 @@ void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) 
             ending_ = Ending::None;
         }
     } else if (!told_ && !presentation.leaves) {
-        end_description(false); // it found no pause
+        end_description(false); // no pause came in time
     }
     if (reading_ && !is_alive(description_)) {
         if (description_ > advice_) {
-            wish_.leave(); // lets go of its samples
+            wish_.leave(); // releases its samples
         }
         reading_ = nullptr;
     }
@@ -118,7 +118,7 @@ void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage
     const SharedRecording recording = stage.recording(*word_);
     const SharedReading reading = recording ? reader_->find(recording) : nullptr;
     if (recording && !reading) {
-        word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // nobody reads it any more
+        word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // not needed any more
         return;
     }
     word_.reset();

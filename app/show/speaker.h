@@ -1,14 +1,14 @@
-/// Turns what the exhibit decides to say into what is to be heard: one voice at a time.
+/// Turns the exhibit's decisions about speech into the sound to play: one voice at a time.
 ///
-///     Presentation (says, tells, prepares) -> step -> SoundRequest -> Sound -> SoundReport -> hear -> Narration
+///     Presentation (says, tells, prepares) -> step -> SoundRequest -> Sound -> SoundReport -> hear -> SpeechProgress
 ///
-/// Advice is said once, when its words have been read. A description is heard as long as the presentation tells it; then it is
-/// left at its next pause or stopped, as the presentation says. What begins while something else is spoken stops that, but
-/// advice that comes by itself waits for the pause.
+/// Advice is spoken once, as soon as its recording is decoded. A description is played as long as the presentation
+/// tells it; then it ends at its next pause or at once, as the presentation says. New speech stops the current one,
+/// but unrequested advice waits for the pause.
 ///
-/// Time     speech begins at the step that asks for it, if its recording was read by then (prompt_reader.h).
+/// Time     speech begins at the step that requests it, if its recording is decoded by then (prompt_reader.h).
 /// Threads  the render thread. `step` allocates nothing.
-/// Errors   none: what cannot be read is silent.
+/// Errors   none: a recording that cannot be read is silent.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -23,26 +23,27 @@ namespace frustumscreen {
 
 class Speaker {
 public:
-    /// There is something to say: without it nothing is heard, and there is no thread that reads.
+    /// Starts the reader. Without this call nothing is played and no thread is started.
     void begin(PromptReader::Answer answer);
-    /// `announcement`: what is to be said when nothing else is heard, or about to be; none: nothing. Returns whether it begins now.
+    /// `announcement`: to be played when nothing else is, or is about to be; null: none. Returns true if it begins in
+    /// this step.
     bool step(const Presentation& presentation, const ExhibitStage& stage,
               const SharedRecording& announcement = nullptr);
     void hear(const SoundReport& report);
-    /// Another set is shown: what was decided of the one before names nothing of this one, and what is heard of it ends.
+    /// Call when another set is shown: forgets the previous set's decisions and ends its speech.
     void forget();
-    /// What is heard ends, and nothing that waits begins.
+    /// Ends all speech, including what waits.
     void fall_silent();
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
     [[nodiscard]] const SoundRequest& wish() const { return wish_; }
-    /// Something is heard.
+    /// True while something is heard.
     [[nodiscard]] bool speaks() const { return report_.number != 0; }
-    /// How the description is heard that the latest step told, or left.
+    /// Playback of the description that the latest step told or left.
     [[nodiscard]] SpeechProgress narration() const;
 
 private:
-    /// For the staff: nothing but the tone that they asked for.
+    /// Plays only the tones that the staff asked for.
     void play_tones(std::uint32_t asked);
     void end_description(bool at_pause);
     void tell(const Presentation& presentation, const ExhibitStage& stage);
@@ -54,16 +55,16 @@ private:
     SoundRequest wish_;
     SoundReport report_;
     std::optional<DescriptionIndex> told_;
-    std::uint64_t description_ = 0; ///< its number; 0: it was not said
-    SharedReading reading_;         ///< of the description that was said
-    bool comes_ = false;            ///< it is being read
+    std::uint64_t description_ = 0; ///< its number; 0: it was not played
+    SharedReading reading_;         ///< of the description being played
+    bool comes_ = false;            ///< it is being decoded
     enum class Ending : std::uint8_t { None, Left, Stopped };
-    Ending ending_ = Ending::None;  ///< of it, before its time
-    std::optional<WordIndex> word_; ///< waits until it was read
-    std::uint64_t advice_ = 0;      ///< the number of the latest
+    Ending ending_ = Ending::None;  ///< how it was ended early
+    std::optional<WordIndex> word_; ///< waits until it is decoded
+    std::uint64_t advice_ = 0;      ///< the number of the latest advice
     SharedPrompt tone_;             ///< the staff's
-    std::uint64_t tone_number_ = 0; ///< of the latest
-    std::uint32_t tones_ = 0;       ///< asked for until now
+    std::uint64_t tone_number_ = 0; ///< of the latest tone
+    std::uint32_t tones_ = 0;       ///< number requested so far
 };
 
 } // namespace frustumscreen

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* calibration_name = "calibration in use";
 
-/// As anybody outside judges it.
+/// The verdict as other programs judge it.
 std::string verdict(const RunStatus& status) {
     KnownExhibit known;
     known.status.fields = nlohmann::json::parse(status_json(status), nullptr, false);
@@ -30,7 +30,7 @@ std::string verdict(const RunStatus& status) {
     return verdict_of(known).sentence;
 }
 
-/// Days since "2026-11-25 10:12 UTC"; nothing: it says no date, or one to come.
+/// Days since "2026-11-25 10:12 UTC"; nothing: there is no date, or it is in the future.
 std::optional<int> age_days(const std::string& made, std::time_t now) {
     std::tm day{};
     if (std::sscanf(made.c_str(), "%4d-%2d-%2d", &day.tm_year, &day.tm_mon, &day.tm_mday) != 3) {

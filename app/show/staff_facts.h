@@ -1,8 +1,8 @@
-/// What the staff's pages say beside what was pressed: the status, the calibration in use, devices, volume.
+/// The facts on the staff's pages that do not depend on the buttons: status, calibration in use, devices, volume.
 ///
 /// Units    decibels.
 /// Threads  pure; any.
-/// Errors   none: what nobody says is left out.
+/// Errors   none: unknown facts are left out.
 #pragma once
 
 #include "app/exhibit/states.h"
@@ -18,27 +18,28 @@
 
 namespace frustumscreen {
 
-/// What the pages say beside what was pressed; sentences that are empty are left out.
+/// The facts on the pages; empty sentences are left out.
 struct StaffFacts {
     std::vector<std::string> lines; ///< of the status
     std::string card;               ///< for the QR code
-    std::string calibration;        ///< that is in use
+    std::string calibration;        ///< the one in use
     std::string drift;
     std::string tracker, camera, panel, sound;
     TrackerSignal prop, head;
-    double settings_gain_db = 0.0; ///< the volume of this hour
+    double settings_gain_db = 0.0; ///< the settings' volume for this hour
     std::size_t buttons = 2;       ///< of the panel
     bool tracks_head = false;
-    bool calibrates = false; ///< the staff may begin the table's calibration
-    bool speaks = false;     ///< there is something to be heard with
+    bool calibrates = false; ///< the staff may start the table's calibration
+    bool speaks = false;     ///< there is a sound device
 
     [[nodiscard]] bool operator==(const StaffFacts&) const = default;
 };
 
-/// Of what the status says. `driver`: the display's name for itself. `before`: the state before the picture came. `now`: the wall clock.
+/// The facts from a status. `driver`: the display's name for itself. `before`: the state before the staff picture.
+/// `now`: the wall clock.
 [[nodiscard]] StaffFacts staff_facts(const RunStatus& status, const Settings& settings,
                                      std::string_view driver, State before, std::time_t now);
-/// Which calibration is used, how old it is, and how good.
+/// The calibration in use, its age and its quality.
 [[nodiscard]] std::string calibration_line(const CalibrationSettings& settings, std::time_t now);
 
 } // namespace frustumscreen

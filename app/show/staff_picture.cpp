@@ -20,7 +20,7 @@ constexpr Colour lit_colour{255, 184, 92};
 constexpr Colour ring_colour{126, 158, 196};
 constexpr double smallest_em_px = 8.0;
 
-/// 1 px of a picture of 1280 x 800.
+/// 1 px of a picture of 1280 x 800, scaled to the projector's.
 double unit_px(const PatternScene& scene) {
     return std::min(scene.projector.width / 1280.0, scene.projector.height / 800.0);
 }
@@ -31,7 +31,7 @@ std::string circled(std::size_t button, const StaffView& view) {
     return view.pressed == button ? full.at(button) : open.at(button);
 }
 
-/// A page's words, from its title to what the buttons do.
+/// The words of a page, from its title to the buttons' functions.
 class PageWords {
 public:
     PageWords(const StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
@@ -42,7 +42,7 @@ public:
         add_buttons();
         add_end();
     }
-    /// As large as fits the room, `em_px` at most.
+    /// Sets the words as large as fits the room, `em_px` at most.
     [[nodiscard]] Image<std::uint8_t> set(const Typesetter& typesetter, const glm::dvec2& room,
                                           double em_px) const {
         std::vector<Paragraph> paragraphs;
@@ -60,9 +60,9 @@ public:
 private:
     struct Line {
         std::string text;
-        double size = 1.0; ///< of its letters, in ems
+        double size = 1.0; ///< of the letters, in ems
         bool bold = false;
-        double space = 0.3; ///< before it, in ems
+        double space = 0.3; ///< before the line, in ems
     };
     void add(std::string text, double size = 1.0, bool bold = false, double space = 0.3) {
         if (!text.empty()) {
@@ -97,7 +97,7 @@ private:
             if (facts_.tracks_head) {
                 add_signal("head", facts_.head);
             }
-            add("Let them lie still: noise is what they tremble, in the last second.");
+            add("Let them lie still: noise is how much they trembled in the last second.");
             add(facts_.camera);
             break;
         case StaffPage::Buttons:
@@ -153,7 +153,7 @@ private:
         }
         const bool is_first = button == 0;
         if (view_.page == StaffPage::Light && button <= 2) {
-            return is_first ? "white, black and greys in turn" : "one back of these";
+            return is_first ? "white, black and greys in turn" : "the one before";
         }
         if (view_.page == StaffPage::Sound && button <= 2) {
             return is_first ? "louder, with a tone; after the loudest comes the quietest"
@@ -202,7 +202,8 @@ void put(Canvas& canvas, const Image<std::uint8_t>& words, const glm::ivec2& cor
     canvas.coverage(words, corner, white);
 }
 
-/// At the upper right; returns its left edge. Without room for three pixels a module, which no telephone reads, there is none.
+/// Puts the QR code at the upper right; returns its left edge. Below three pixels a module, which no telephone reads,
+/// it is left out.
 double put_code(Canvas& canvas, const std::string& card, double margin_px) {
     const Image<std::uint8_t> code = qr_code(card);
     const Image8& picture = canvas.image();
@@ -225,7 +226,7 @@ double put_code(Canvas& canvas, const std::string& card, double margin_px) {
     return corner.x;
 }
 
-/// Each with its number, how often it was pressed, and whether it is pressed now.
+/// Puts each button with its number, its press count, and whether it is pressed.
 void put_buttons(Canvas& canvas, const StaffView& view, std::size_t count, double unit,
                  const Typesetter& typesetter) {
     const double width = canvas.image().width, height = canvas.image().height;
@@ -283,7 +284,7 @@ Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const Patte
         put_words({margin, margin}, {right - 2.0 * margin, height - 2.0 * margin}, 16.0);
         break;
     }
-    case StaffPage::Place: // below what the pattern says itself
+    case StaffPage::Place: // below the pattern's own text
         put_words({30.0, 84.0}, {0.5 * wide, 0.5 * height}, 16.0);
         break;
     case StaffPage::Focus: // between the stars

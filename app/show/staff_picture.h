@@ -1,8 +1,8 @@
-/// The staff's picture, page by page: words, and what is to be looked at. What the buttons do stands on each page.
+/// The staff picture, page by page: words and test pictures. Each page says what the buttons do.
 ///
 /// Frames   table T, metres, of the pattern.
 /// Threads  as Canvas.
-/// Errors   none: what does not fit is set smaller.
+/// Errors   none: text that does not fit is set smaller.
 #pragma once
 
 #include "app/exhibit/staff_tool.h"
@@ -11,10 +11,10 @@
 
 namespace frustumscreen {
 
-/// What lies below a page's words, and follows from page and light alone.
+/// The part of the picture below a page's words, which depends on page and light alone.
 [[nodiscard]] Image8 staff_background(const StaffView& view, const PatternScene& scene,
                                       const Typesetter& typesetter);
-/// The page, without the prop's edges, which StaffPage::Place has on top of it.
+/// The page without the prop's edges, which are drawn on top of StaffPage::Place.
 [[nodiscard]] Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const PatternScene& scene,
                                    const Image8& background, const Typesetter& typesetter);
 

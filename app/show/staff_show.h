@@ -1,6 +1,6 @@
-/// The staff's picture on the display: its pages, with what is known now.
+/// The staff picture on the display: its pages, with the current facts.
 ///
-/// Memory   all of it is there only while the picture is shown.
+/// Memory   allocated only while the picture is shown.
 /// Threads  the render thread, with the display's context current.
 /// Errors   the typeface is missing.
 #pragma once
@@ -20,17 +20,18 @@ namespace frustumscreen {
 
 class StaffShow {
 public:
-    /// Numbers that are live change no faster.
+    /// Shortest time between changes of live numbers.
     static constexpr Nanoseconds between_signals = std::chrono::milliseconds(300);
 
-    /// `speaks`: something can be heard. `driver`: the display's name for itself. `before`: the state before the picture came.
+    /// `speaks`: a sound device is used. `driver`: the display's name for itself. `before`: the state before the
+    /// staff picture.
     [[nodiscard]] static Result<std::unique_ptr<StaffShow>> create(const Settings& settings, bool speaks,
                                                                    std::string driver, State before);
 
-    /// `gain_db`: the volume that the settings have for this hour.
+    /// `gain_db`: the settings' volume for this hour.
     void tell(const RunStatus& status, double gain_db);
     void set_viewfinder(Viewfinder* viewfinder) { pattern_->set_viewfinder(viewfinder); }
-    /// Draws what has changed.
+    /// Draws the picture again if it has changed.
     void show(MonotonicTime now, const StaffView& view, const TrackerSignal& prop, const TrackerSignal& head);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
                                   const RenderTarget& target, Redraw redraw) {
@@ -46,9 +47,9 @@ private:
     std::string driver_;
     State before_ = State::View;
     StaffFacts facts_;
-    Image8 background_; ///< of the page that was drawn last
+    Image8 background_; ///< of the page drawn last
     std::optional<std::pair<StaffPage, StaffLight>> background_of_;
-    std::optional<StaffView> drawn_; ///< nothing: what was drawn holds no more
+    std::optional<StaffView> drawn_; ///< nothing: the drawn picture is out of date
     MonotonicTime signals_at_;
 };
 

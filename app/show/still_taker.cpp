@@ -32,7 +32,7 @@ void StillTaker::keep(MonotonicTime now, const TrackedState& shown) {
     still.tracked_state = shown;
     still.time = MonotonicTime(now - start_);
     read_colour_into(display_.framebuffer(), still.picture);
-    erase_probe(still.picture); // the code is for a watchdog and no part of the picture
+    erase_probe(still.picture); // the code is for the watchdog, not part of the picture
 }
 
 std::vector<Still> StillTaker::finish() && {

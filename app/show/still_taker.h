@@ -1,4 +1,5 @@
-/// The pictures that a run keeps: one from the middle of each of its parts, or soon after it where a fade goes on at that time.
+/// The pictures that a run keeps: one from the middle of each of its parts, or soon after it if a fade is running
+/// then.
 ///
 /// Threads  the render thread, with the display's context current. `take` allocates nothing.
 #pragma once
@@ -20,14 +21,14 @@ struct Still {
 
 class StillTaker {
 public:
-    /// `count` pictures, spread over `length`; without it only `keep` takes one.
+    /// `count` pictures, spread over `length`; without a length only `keep` takes one.
     StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start, Display& display);
 
-    /// The picture that is shown, if one is due. `settled`: nothing in it fades.
+    /// Keeps the shown picture if one is due. `settled`: nothing in it fades.
     void take(MonotonicTime now, const TrackedState& shown, bool settled);
-    /// The picture that is shown, whatever the time.
+    /// Keeps the shown picture, whatever the time.
     void keep(MonotonicTime now, const TrackedState& shown);
-    /// None was taken, and at least one was wanted.
+    /// True if none was taken and at least one was wanted.
     [[nodiscard]] bool lacks_all() const { return taken_ == 0 && !stills_.empty(); }
     [[nodiscard]] std::vector<Still> finish() &&;
 

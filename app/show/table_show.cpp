@@ -16,14 +16,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of the projector's light. A picture's brightest places are those of the artifact in the prop.
+/// Fraction of the projector's light. A picture's brightest parts equal those of the artifact in the prop.
 constexpr double picture_brightness = 1.0;
-constexpr double mark_brightness = 0.5;        ///< of a caption's
-constexpr double empty_ring_brightness = 0.12; ///< of the projector's light
+constexpr double mark_brightness = 0.5;        ///< relative to a caption's
+constexpr double empty_ring_brightness = 0.12; ///< fraction of the projector's light
 constexpr int mark_px = 256;
-constexpr double inner_margin_m = 0.004; ///< of a title within a square
+constexpr double inner_margin_m = 0.004; ///< between a title and the square around it
 
-/// Across a band: its sides are a pixel soft.
+/// The profile across a band: its sides are soft over one texel.
 Image<std::uint8_t> band_picture() {
     constexpr int texels = 16;
     Image<std::uint8_t> band(1, texels, 255);
@@ -31,7 +31,7 @@ Image<std::uint8_t> band_picture() {
     return band;
 }
 
-/// As large as the square has room for, standing on its lower side. `size`: of any unit.
+/// The largest rectangle of the shape `size` (in any unit) that fits the square, on its lower side.
 TableRectangle fitted(const glm::dvec2& size, const TableRectangle& square) {
     TableRectangle picture = square;
     picture.size_m = size * (square.size_m.x / std::max(size.x, size.y));
@@ -61,7 +61,7 @@ struct TableShow::Loader {
         show.band_ = add(band_picture());
     }
 
-    /// The titles that are shown; the pack's own where it has no captions.
+    /// The titles to show; the pack's own title if it has no captions.
     [[nodiscard]] std::vector<PackLabel> titles_of(const PackCard& card) const {
         if (card.titles.empty()) {
             return {{"", card.title}};
@@ -90,7 +90,7 @@ struct TableShow::Loader {
         return make_table_title(*typesetter, title.text, texels_per_m);
     }
 
-    /// What was read before a refusal stays with the card.
+    /// Loads a pack's card. Whatever was read before an error stays in the card.
     [[nodiscard]] Result<void> load(const std::filesystem::path& file, Card& card) {
         TRY(PackCard read, load_pack_card(file));
         const Image8& picture = read.table_picture;
@@ -184,7 +184,7 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
 }
 
 /// Artifacts stand on the lower side of their places.
-void TableShow::place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const {
+void TableShow::place_placeholder(const PresentedPlaceholder& placeholder, OnTable& on_table) const {
     if (placeholder.artifact >= cards_.size()) {
         return;
     }
@@ -216,7 +216,7 @@ void TableShow::place_card(const PlacedPicture& placed, const Presentation& pres
     }
 }
 
-/// `within`: in the middle of the square, if it has room there; else below it.
+/// `within`: in the middle of the square, if there is room; otherwise below it.
 void TableShow::place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
                             OnTable& on_table) const {
     const TableRectangle& square = placed.place.picture;

@@ -1,12 +1,12 @@
-/// What lies on the table to choose from, as pictures: the artifacts' small pictures with their titles, the place that leads on,
-/// and the ring around the prop.
+/// The pictures on the table to choose from: the artifacts' small pictures with titles, the place that leads to the
+/// next page, and the ring around the prop.
 ///
 /// A pack without a table picture shows an outlined square with its title in it.
 ///
 /// Frames   table T, metres.
-/// Threads  read on any, without a context; the render thread, with the display's context current, for all else. `place` allocates
-///          nothing.
-/// Errors   none. A pack whose picture or titles cannot be read lies there as a square, and a note says why.
+/// Threads  `read` on any, without a context; everything else on the render thread, with the display's context
+///          current. `place` allocates nothing.
+/// Errors   none. A pack whose picture or titles cannot be read is shown as a square, and a note says why.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -32,27 +32,27 @@ public:
         bool all_languages = false;               ///< a button changes the language
     };
     TableShow() = default; ///< shows nothing
-    /// Reads the packs; nothing of it is in the store yet.
+    /// Reads the packs; nothing is in the store yet.
     [[nodiscard]] static TableShow read(const Settings& settings, const Request& request);
-    /// So many bytes more go into the store, or a little more than that. What the driver refuses is not shown.
+    /// Uploads about `max_bytes` more, or a little more. Pictures that the driver refuses are not shown.
     void upload(GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == textures_.size(); }
-    /// Takes some more of it out of the store; false: nothing was left. Nothing can be placed any more.
+    /// Releases a part of the store's contents; false: nothing was left. Nothing can be placed afterwards.
     bool release_some(GpuStore& store);
 
     /// `shadow`: the prop's.
     void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
                OnTable& on_table) const;
-    /// The picture that grows into the prop's place; on the prop, not hidden by it.
-    void place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const;
-    /// One of each kind of picture, so that drivers compile for them before the first frame.
+    /// The picture that grows into the prop's place. It lies on the prop, and the prop does not hide it.
+    void place_placeholder(const PresentedPlaceholder& placeholder, OnTable& on_table) const;
+    /// Places one picture of each kind, so that drivers compile for them before the first frame.
     void place_samples(const glm::dvec2& at_m, OnTable& on_table) const;
 
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const { return planned_gpu_bytes_; }
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
 private:
-    /// In the store, or on the way into it: until then its picture is kept.
+    /// A texture in the store, or one to be uploaded, whose picture is kept until then.
     struct Texture {
         std::variant<Image<std::uint8_t>, std::vector<Image8>> picture; ///< coverage; light with mip levels
         TextureId id = TextureId::None;
@@ -60,7 +60,7 @@ private:
     static constexpr std::size_t no_texture = ~std::size_t{0};
     struct Picture {
         std::size_t texture = no_texture; ///< index into `textures_`
-        glm::dvec2 size{1.0};             ///< of any unit
+        glm::dvec2 size{1.0};             ///< in any unit
     };
     struct Title {
         std::size_t texture = no_texture;
@@ -80,14 +80,14 @@ private:
     void place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
                      OnTable& on_table) const;
 
-    std::vector<glm::dvec2> room_; ///< what the projector's picture covers of the table
+    std::vector<glm::dvec2> room_; ///< the part of the table that the projector's picture covers
     Pinhole projector_;
     RigidTransform table_from_projector_;
-    double text_brightness_ = 0.6; ///< share of the projector's light
+    double text_brightness_ = 0.6; ///< fraction of the projector's light
     std::vector<Card> cards_;
     std::vector<Texture> textures_;
-    std::size_t uploaded_ = 0; ///< of those
-    std::size_t released_ = 0; ///< the same
+    std::size_t uploaded_ = 0; ///< number of `textures_`
+    std::size_t released_ = 0; ///< number of `textures_`
     std::size_t square_ = no_texture;
     std::size_t more_ = no_texture;
     std::size_t band_ = no_texture; ///< bright along its middle, with soft sides

@@ -1,4 +1,5 @@
-/// Three short notes for the staff, as loud as the exhibit speaks (-23 LUFS): what is right for them is right for speech.
+/// Three short notes for the staff, as loud as the exhibit's speech (-23 LUFS): a good volume for them is good for
+/// speech.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -7,7 +7,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Clockwise from the picture's upper edge, of a direction in a picture whose rows run down.
+/// Quarter turns, clockwise from the picture's upper edge, of a direction in a picture whose rows run down.
 int quarter_of(const glm::dvec3& direction) {
     if (std::abs(direction.x) > std::abs(direction.y)) {
         return direction.x > 0.0 ? 1 : 3;
@@ -15,11 +15,12 @@ int quarter_of(const glm::dvec3& direction) {
     return direction.y > 0.0 ? 2 : 0;
 }
 
-/// For who stands at the front and looks down at the table, what is higher or farther away is above.
+/// Quarter turns that put what is higher or farther away at the top, for a viewer at the front who looks down at the
+/// table.
 int turns_of(const Settings& settings) {
     const CameraSettings& camera = settings.camera;
     if (camera.pinhole.fx <= 0.0 || camera.table_from_camera.translation == glm::dvec3(0.0)) {
-        return 0; // nobody has measured how it hangs
+        return 0; // the camera's pose has not been measured
     }
     const int in_camera = quarter_of(camera.table_from_camera.inverse().direction({0.0, 1.0, 1.0}));
     const int on_table =
@@ -27,7 +28,7 @@ int turns_of(const Settings& settings) {
     return (on_table - in_camera + 4) % 4;
 }
 
-/// Of the frame, which pixel of it becomes the first of the turned one, and where the next of a row and of a column lie.
+/// The frame's pixel that becomes the first of the turned picture, and the steps along a row and a column.
 struct Walk {
     glm::ivec2 first, along_row, along_column;
 };
@@ -60,7 +61,7 @@ void Viewfinder::use(const CameraFrame& frame) {
         return;
     }
     const std::lock_guard lock(mutex_);
-    if (!wanted_) { // it ended meanwhile, and all was overwritten
+    if (!wanted_) { // it is not wanted any more, and the copy was overwritten
         return;
     }
     const bool lies = quarter_turns_ % 2 != 0;
@@ -78,7 +79,7 @@ void Viewfinder::shrink(const CameraFrame& frame, int by) {
     std::size_t next = 0;
     for (int y = 0; y < size_.y; ++y) {
         for (int x = 0; x < size_.x; ++x) {
-            int sum = pixels / 2; // it rounds
+            int sum = pixels / 2; // for rounding
             for (int k = 0; k < pixels; ++k) {
                 const glm::ivec2 at =
                     walk.first + (by * x + k % by) * walk.along_row + (by * y + k / by) * walk.along_column;

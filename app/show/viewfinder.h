@@ -1,11 +1,12 @@
-/// What the camera sees, small and grey, for the staff who hold both of their buttons: handed from the camera's thread to the render
-/// thread, and only while it is wanted.
+/// The camera's picture, small and grey, for the staff who hold both of their buttons: handed from the camera's
+/// thread to the render thread, only while it is wanted.
 ///
-/// Shape    the frame, turned by quarter turns so that it stands upright for who looks at the table from its front, and shrunk by a
-///          whole number: each pixel is the mean of a square of the frame's. What is left over at its right and lower edge is left out.
-/// Memory   while it is not wanted no frame is copied, and what was copied is zeros: from the call of `want` that says so, or from the
-///          next one if the camera's thread was just writing.
-/// Threads  `use`: the camera's. All else: the render thread, which waits for nothing and allocates nothing.
+/// Shape    the frame, turned by quarter turns so that it is upright for a viewer at the table's front, and shrunk by
+///          a whole number: each pixel is the mean of a square of the frame. A remainder at the right and lower edge
+///          is cut off.
+/// Memory   while it is not wanted no frame is copied, and the copy is overwritten with zeros: at the call
+///          `want(false)`, or at the next call if the camera's thread was writing.
+/// Threads  `use`: the camera's. Everything else: the render thread, which never waits and allocates nothing.
 /// Errors   none.
 #pragma once
 
@@ -21,7 +22,7 @@
 
 namespace frustumscreen {
 
-/// The most that it takes of a projector's picture, in pixels.
+/// The largest part of a projector's picture that it takes, in pixels.
 [[nodiscard]] glm::ivec2 viewfinder_room(const Pinhole& projector);
 
 class Viewfinder {
@@ -36,8 +37,9 @@ public:
 
     /// Call in every frame.
     void want(bool wanted);
-    /// Draws what it has into the upper part of `picture`, which is as wide as the room and no lower: the frame in the middle of its
-    /// lower edge, black around it. False: nothing has changed since.
+    /// Draws the latest frame into the upper part of `picture`, which is as wide as the room and at least as high:
+    /// the frame at the middle of the room's lower edge, black around it. False: nothing has changed since the last
+    /// call.
     [[nodiscard]] bool take(Image8& picture);
 
 private:
@@ -46,7 +48,7 @@ private:
     glm::ivec2 room_;
     int quarter_turns_;
     std::atomic<bool> wanted_{false};
-    bool wiped_ = true; ///< the render thread's
+    bool wiped_ = true; ///< used by the render thread only
 
     std::mutex mutex_;
     bool changed_ = false;

@@ -13,8 +13,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr double em_px = 13.0;
-constexpr int line_px = 90;   ///< the longest sentence of a camera, in five rows
-constexpr int margin_px = 24; ///< the corners' brackets lie farther out
+constexpr int line_px = 90;   ///< the longest sentence about a camera, in five rows
+constexpr int margin_px = 24; ///< the corners' brackets lie outside it
 constexpr glm::u8vec4 black(0, 0, 0, 255);
 
 } // namespace

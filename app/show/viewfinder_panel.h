@@ -1,8 +1,9 @@
-/// What lies on the alignment pattern while the staff hold both of their buttons: what the camera sees, and below it a line that says
-/// how the camera is.
+/// The panel on the alignment pattern while the staff hold both of their buttons: the camera's picture, and below it
+/// a line about the camera's state.
 ///
-/// Place    the picture's lower right, where neither its corners nor the grid's figures are.
-/// Memory   the picture is taken at the construction; what it showed is overwritten by `forget` and by the end, here and in the GPU's.
+/// Place    the picture's lower right, clear of its corners and of the grid's numbers.
+/// Memory   the picture is allocated at construction; `forget` and the destructor overwrite its contents, here and in
+///          the GPU's memory.
 /// Threads  the render thread, with the display's context current. Only `set_line` allocates.
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// How the camera is, the size of its frames, and how many come in a second.
+/// The camera's state, its frame size and frame rate.
 [[nodiscard]] std::string viewfinder_line(const RunStatus& status);
 
 class ViewfinderPanel {
@@ -26,19 +27,19 @@ public:
     ViewfinderPanel& operator=(const ViewfinderPanel&) = delete;
 
     void set_line(std::string line, const Typesetter& typesetter);
-    /// True: what it shows has changed since the last call.
+    /// True if the picture has changed since the last call.
     [[nodiscard]] bool follow(Viewfinder& viewfinder);
-    /// From now on it shows nothing of a camera.
+    /// Clears the camera's picture.
     void forget();
     void show(unsigned framebuffer) { upload_.show_again(framebuffer, place_); }
 
 private:
     glm::ivec2 room_;
     glm::ivec2 place_; ///< of its upper left corner in the projector's picture
-    Image8 picture_;   ///< the camera's above, the line below
+    Image8 picture_;   ///< the camera's picture above, the line below
     PictureUpload upload_;
     std::string line_;
-    bool line_is_new_ = true; ///< what was uploaded has another, or nothing was
+    bool line_is_new_ = true; ///< the uploaded picture has another line, or nothing was uploaded
     bool has_seen_ = false;   ///< the picture may hold a part of a frame
 };
 

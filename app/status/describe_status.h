@@ -153,7 +153,7 @@ void shown_fields(auto& fields, auto& status) {
         "`verdict`: `trying`, `good` (shown for 30 s without a fault) or `bad` with the `reason`; "
         "`on_trial`: there is a set to go back to; `starts` of the exhibit without a verdict; "
         "`of_ended_keys`: "
-        "the packs that were signed with a key that does not count any more, by `id`; `trouble`: "
+        "the packs that were signed with a key that is no longer trusted, by `id`; `trouble`: "
         "what is wrong with set.txt, the verdict's file, or the disk that both are on",
         Metric{}, [&](auto& inner, auto& set) { set_fields(inner, set, status.library_hangs); });
     fields.word(

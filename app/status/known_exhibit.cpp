@@ -57,7 +57,7 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     pack_format::Refusal refusal{{}, "the file"};
     nlohmann::json fields = pack_format::parse_json(refusal, json, max_depth);
     if (refusal.error || !fields.is_object()) {
-        document.why = "this is no status: " +
+        document.why = "this is not a status: " +
                        printable(refusal.error ? refusal.error->message : "no object { ... }", 200);
         return document;
     }

@@ -29,7 +29,7 @@ using SharedSetStatus = std::shared_ptr<const SetStatus>;
 
 /// Takes the place of SetStatus::trouble: the thread that fills in SetStatus is the one that hangs.
 inline constexpr std::string_view library_hangs_sentence =
-    "the library's disk does not answer; no other set can come until it does";
+    "the library's disk does not answer; no other set can come until it answers";
 
 /// For the journal and the service manager.
 [[nodiscard]] std::string sentence_of(const SetStatus& status);

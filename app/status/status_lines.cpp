@@ -4,6 +4,7 @@
 #include "app/status/exhibit_verdict.h"
 #include "app/status/watchdog_status.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/chrono.h>
@@ -168,7 +169,7 @@ std::string set_line(const StatusReport& status) {
 std::string signatures_line(const StatusReport& status) {
     return !status.set || status.set->of_ended_keys.empty()
                ? std::string()
-               : "packs of a key that does not count any more: " + brief(status.set->of_ended_keys);
+               : "packs of a key that is no longer trusted: " + brief(status.set->of_ended_keys);
 }
 
 std::string left_out_line(const StatusReport& status) {
@@ -317,7 +318,7 @@ std::string versions_line(const StatusReport* status, const std::string& system)
     return status != nullptr && !status->versions.program.empty()
                ? fmt::format("FrustumScreen {}, packs of format {}, {}", status->versions.program,
                              status->versions.pack_format, or_else(status->versions.system, "?"))
-               : fmt::format("FrustumScreen {}, {}", FRUSTUMSCREEN_VERSION, system);
+               : fmt::format("FrustumScreen {}, {}", project_version(), system);
 }
 
 void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double> age_s, std::time_t now) {

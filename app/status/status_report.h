@@ -14,6 +14,7 @@
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/tracker/tracker.h"
 
 #include <array>
@@ -36,7 +37,7 @@ struct StatusStamp {
 };
 
 struct StatusVersions {
-    std::string program = FRUSTUMSCREEN_VERSION;
+    std::string program = std::string(project_version());
     int pack_format = pack_format_version;
     std::string system; ///< operating system and kernel
 };

@@ -2,7 +2,7 @@
 /// samples, smoothed and predicted. An offline picture uses TrackedStateTracker, which does neither.
 ///
 /// Tags     an optional second tracker of the prop. Each of the two has its own estimator; the source arbiter
-///          (hand_over.h) chooses between them.
+///          (source_arbiter.h) chooses between them.
 /// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head,
 ///          the eye is that of the active visitor (holder.h); it glides from one person to another.
 /// Frames   table T, metres; samples too (registered_tracker.h).

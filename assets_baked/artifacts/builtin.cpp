@@ -21,7 +21,7 @@ std::vector<std::string_view> builtin_names() {
 
 Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
     if (triangles < fewest_triangles || triangles > max_triangles) {
-        return bad_input("artifact.triangles", "{} triangles asked for, {} to {} are possible", triangles,
+        return bad_input("artifact.triangles", "{} triangles are asked for; allowed are {} to {}", triangles,
                          fewest_triangles, max_triangles);
     }
     if (name == "amphora") {
@@ -31,7 +31,7 @@ Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
         return make_nautilus_cup(triangles);
     }
     return bad_input("artifact.no_such",
-                     "no built-in artifact is named '{}'; there are amphora and nautilus-cup", name);
+                     "no built-in artifact is named '{}'; allowed are amphora and nautilus-cup", name);
 }
 
 } // namespace frustumscreen

@@ -1,6 +1,7 @@
 #include "assets_baked/artifacts/write_glb.h"
 
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 
 #include <algorithm>
 #include <bit>
@@ -29,7 +30,7 @@ public:
 
     Bytes write() {
         document_ = Json::object();
-        document_["asset"] = {{"version", "2.0"}, {"generator", "FrustumScreen " FRUSTUMSCREEN_VERSION}};
+        document_["asset"] = {{"version", "2.0"}, {"generator", name_and_version("FrustumScreen")}};
         document_["scene"] = 0;
         document_["scenes"] = {{{"nodes", {0}}}};
         document_["nodes"] = {{{"mesh", 0}}};

@@ -171,8 +171,8 @@ std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps) 
                           scraps.triangles, mesh.triangles.size(), scraps.size_with / scraps.size_without));
     }
     if (is_all_black(mesh)) {
-        guess("all of its colours are black, so nothing of it will show: export it with its colours, or name "
-              "a picture with --texture FILE");
+        guess("all of its colours are black, so visitors see nothing of it: export it with its colours, or "
+              "name a picture with --texture FILE");
     }
     Bounds bounds;
     double farthest = 0.0;
@@ -185,7 +185,7 @@ std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps) 
                     [](const glm::dvec3& position) { return glm::dvec3(glm::vec3(position)) == position; });
     const double step = std::ldexp(farthest, -23);
     if (is_single && bounds.size() > 0.0 && step > max_step_share * bounds.size()) {
-        guess(fmt::format("its points lie on a grid of {:.2g} of its size, since its coordinates are large "
+        guess(fmt::format("its points lie on a grid of {:.2g} of its size, because its coordinates are large "
                           "({:.3g}): move it to the origin before it is exported",
                           step / bounds.size(), farthest));
     }

@@ -1,6 +1,6 @@
 #include "assets_baked/bake/relief_scene.h"
 
-#include "app/relief/cast_blocks.h"
+#include "app/relief/rasterize_blocks.h"
 
 #include <algorithm>
 #include <array>
@@ -33,9 +33,9 @@ template <typename Visit> void for_each_cell(const BlockRelief& relief, Visit vi
     }
 }
 
-/// Position of a surface hit in its block, encoded as in CastSamples.
+/// Position of a surface hit in its block, encoded as in RasterSamples.
 std::uint32_t place_of(std::uint32_t cell, const SurfaceHit& hit) {
-    constexpr auto unit = static_cast<float>(CastSamples::places_per_cell);
+    constexpr auto unit = static_cast<float>(RasterSamples::places_per_cell);
     const std::size_t first = hit.triangle % triangles_of_cell * 3;
     const std::array<float, 3> weights{1.0F - hit.u - hit.v, hit.u, hit.v};
     glm::vec2 at(static_cast<float>(cell % block_cells), static_cast<float>(cell / block_cells));
@@ -92,10 +92,10 @@ bool ReliefScene::is_drawn(const SurfaceHit& hit, const glm::vec3& direction) co
     }
     const auto before = static_cast<std::uint32_t>(std::popcount(block.cut & (bit - 1)));
     const std::uint64_t cover = relief_.covers[block.first_cover + before];
-    constexpr std::uint32_t part = CastSamples::places_per_cell / 8;
+    constexpr std::uint32_t part = RasterSamples::places_per_cell / 8;
     const std::uint32_t place = place_of(cell.cell, hit);
-    const std::uint32_t column = (place & 0xFFFFU) % CastSamples::places_per_cell / part;
-    const std::uint32_t row = (place >> 16U) % CastSamples::places_per_cell / part;
+    const std::uint32_t column = (place & 0xFFFFU) % RasterSamples::places_per_cell / part;
+    const std::uint32_t row = (place >> 16U) % RasterSamples::places_per_cell / part;
     return (cover >> (8 * row + column) & 1U) != 0;
 }
 

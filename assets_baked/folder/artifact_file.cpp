@@ -129,8 +129,9 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
                      fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
     }
     if (!recording.empty()) {
-        table.require("folder.no_description", !caption.description.empty(), "recording",
-                      "has no description beside it; write its words there, for who does not hear them");
+        table.require(
+            "folder.no_description", !caption.description.empty(), "recording",
+            "has no description beside it; write its words there, for visitors who do not hear them");
         file.recordings.emplace(caption.language, std::move(recording));
     }
 }
@@ -159,7 +160,7 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
                       fmt::format("in {} {}", language, fault.value_or("")));
         text = std::string(trimmed(text));
         table.require("folder.label_empty", !text.empty(), "labels",
-                      fmt::format("in {} is empty; write what there is", language));
+                      fmt::format("in {} is empty; write a word for what is there", language));
         hotspot.labels.push_back({std::move(language), std::move(text)});
     }
 }

@@ -23,7 +23,7 @@ std::string_view fault_of(std::string_view letter, char32_t code) {
         return "is a control character; delete it, or use a line break";
     }
     if (overrides_order(code)) {
-        return "overrides the order of the letters around it; delete it, right-to-left text is set properly "
+        return "overrides the order of the letters around it; delete it: right-to-left text is set properly "
                "without it";
     }
     return {};

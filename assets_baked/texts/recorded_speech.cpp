@@ -50,11 +50,11 @@ std::vector<fs::path> sounds_in(const fs::path& folder) {
 std::string why_unused(const fs::path& file, const std::string& name, const RecordingNames& names) {
     const bool can_be_read = std::find(endings.begin(), endings.end(), file.extension()) != endings.end();
     if (const auto wanted = names.find(name); wanted != names.end() && wanted->second) {
-        return fmt::format("{} goes before it", printable(wanted->second->string(), 300));
+        return fmt::format("{} is used instead", printable(wanted->second->string(), 300));
     }
     if (!can_be_read) {
         const fs::path wav = fs::path(file).replace_extension(endings.front());
-        return fmt::format("it is none of WAV, FLAC and Ogg Opus; convert it, such as by ffmpeg -i {} {}",
+        return fmt::format("it is not WAV, FLAC or Ogg Opus; convert it, such as with ffmpeg -i {} {}",
                            printable(file.filename().string(), 100), printable(wav.filename().string(), 100));
     }
     const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
@@ -93,7 +93,7 @@ std::vector<std::string> unused_recordings(const fs::path& folder, const Recordi
         const bool is_left_out =
             std::find(left_out.begin(), left_out.end(), inside.begin()->string()) != left_out.end();
         if (!is_taken && !is_left_out) {
-            notes.push_back(fmt::format("{}: nobody hears this recording: {}", printable(file.string(), 300),
+            notes.push_back(fmt::format("{}: this recording is not used: {}", printable(file.string(), 300),
                                         why_unused(file, name, names)));
         }
     }

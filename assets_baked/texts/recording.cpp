@@ -47,7 +47,8 @@ bool is_allowed(int format) {
 
 Result<void> check_kind(const SF_INFO& info) {
     if (!is_allowed(info.format)) {
-        return bad_input("recording.format", "this is no WAV, FLAC or Ogg file; convert it to one of these");
+        return bad_input("recording.format",
+                         "this is not a WAV, FLAC or Ogg file; convert it to one of these");
     }
     if (info.samplerate < min_rate_hz || info.samplerate > max_rate_hz) {
         return bad_input("recording.rate",
@@ -69,7 +70,7 @@ Result<void> append_mixed(std::span<const float> frames, int channels, std::vect
         }
         if (!std::isfinite(sum)) {
             return bad_input("recording.not_finite",
-                             "the recording has samples that are no numbers; save it again as 16 or 24 bit");
+                             "the recording has samples that are not numbers; save it again as 16 or 24 bit");
         }
         samples.push_back(sum / static_cast<float>(channels));
     }
@@ -94,9 +95,8 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
     const SoundFile file = open_sound(sound, SFM_READ, info);
     if (!file) {
         return bad_input("recording.unreadable",
-                         "this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can, and others "
-                         "are converted, "
-                         "such as by ffmpeg -i NAME.mp3 NAME.wav",
+                         "this recording cannot be read ({}); allowed are WAV, FLAC and Ogg Opus: convert "
+                         "it, such as with ffmpeg -i NAME.mp3 NAME.wav",
                          printable(sf_strerror(nullptr), 120));
     }
     TRY_VOID(check_kind(info));
@@ -112,7 +112,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
         TRY_VOID(append_mixed(std::span(block).first(values), info.channels, recording.samples));
         if (recording.samples.size() > max_frames) {
             return bad_input("recording.too_long",
-                             "the recording is longer than {} s; allowed is that: shorten it",
+                             "the recording is longer than the allowed {} s; shorten it",
                              longest_recording_s);
         }
     }

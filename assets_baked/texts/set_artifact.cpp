@@ -110,12 +110,11 @@ private:
         const double height = limits_.title_em * min_height(runs, "title") + text;
         if (height > limits_.max_height && text > 0.0) {
             const double share = std::max(0.1, (limits_.max_height - height + text) / text);
-            note(fmt::format(
-                "text: the caption is {:.0f} times its type size high where it is widest, and fits "
-                "nowhere on a table beside the prop; allowed are {:.0f}: shorten the text to "
-                "about {} letters",
-                height / em_units, static_cast<double>(limits_.max_height) / em_units,
-                static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
+            note(fmt::format("text: the caption, where it is widest, is {:.0f} times as high as its type "
+                             "size, and does not fit on a table beside the prop; allowed are {:.0f} times: "
+                             "shorten the text to about {} letters",
+                             height / em_units, static_cast<double>(limits_.max_height) / em_units,
+                             static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
         }
     }
     static std::size_t letters_of(std::string_view text) {

@@ -69,7 +69,7 @@ public:
     [[nodiscard]] std::vector<std::string> sentences() const {
         std::vector<std::string> made;
         for (const auto& [why, languages] : all_) {
-            made.push_back(fmt::format("the description in {} is silent, and shown all the same: {}",
+            made.push_back(fmt::format("the description in {} is silent, but it is shown: {}",
                                        fmt::join(languages, ", "), why));
         }
         return made;
@@ -102,10 +102,9 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
         names[fmt::format("{}/{}", language, key)] = recording_of(language, sources);
         if (captions[k].description.empty()) {
             if (const auto file = recording_of(language, sources)) {
-                spoken.notes.push_back(
-                    fmt::format("{}: nobody can read what is spoken here, so it is left out; write it "
-                                "as the description in '{}'",
-                                printable(file->string(), 300), language));
+                spoken.notes.push_back(fmt::format("{}: there is no text of this recording, so it is left "
+                                                   "out; write its words as the description in '{}'",
+                                                   printable(file->string(), 300), language));
             }
         } else if (all[k]->speech) {
             const auto file = recording_of(language, sources);

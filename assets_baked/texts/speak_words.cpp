@@ -73,7 +73,7 @@ Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& opt
         }
     }
     return silent == 0 ? std::string()
-                       : fmt::format("{} of {} words in '{}' are silent, and shown all the same: {}", silent,
+                       : fmt::format("{} of {} words in '{}' are silent, but they are shown: {}", silent,
                                      words.words.size(), words.language, why);
 }
 

@@ -185,7 +185,7 @@ private:
         const auto* text = node.as_string();
         if (text == nullptr) {
             refuse("words.no_text", node,
-                   fmt::format("{} is no text; write it between quotation marks", shown));
+                   fmt::format("{} is not a text; write it between quotation marks", shown));
         } else if (text->get().empty() || text->get().size() > max_word_bytes) {
             refuse("words.word_size", node,
                    fmt::format(

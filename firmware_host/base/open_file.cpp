@@ -62,7 +62,7 @@ Result<OpenFile> OpenFile::open(const std::filesystem::path& path, std::uint64_t
     if (!S_ISREG(status.st_mode)) {
         return bad_input("file.not_regular",
                          path.string() + (S_ISDIR(status.st_mode) ? ": this is a folder; name a file"
-                                                                  : ": this is no ordinary file"));
+                                                                  : ": this is not a regular file"));
     }
     if (bytes > limit_bytes) {
         return bad_input("file.too_long", path.string() + ": " + std::to_string(bytes) + " bytes; at most " +

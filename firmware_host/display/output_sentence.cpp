@@ -70,11 +70,10 @@ DeviceState why_dark(const CardSeen& card, const OutputRequest& request) {
     }
     return dark(
         "display.no_projector",
-        format_sentence("no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
-                        request.connector.empty() ? "" : " to ", request.connector,
-                        request.force ? "; name display.connector to light one that cannot say that it is "
-                                        "there"
-                                      : ""));
+        format_sentence(
+            "no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
+            request.connector.empty() ? "" : " to ", request.connector,
+            request.force ? "; set display.connector to light a projector that does not report itself" : ""));
 }
 
 DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& request,
@@ -88,11 +87,10 @@ DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& req
                         connector.name, before, reason,
                         kernel_argument(connector.name, request.width, request.height, request.refresh_hz)));
     }
-    return dark(
-        "display.no_mode_taken",
-        format_sentence("the graphics card takes no mode of the projector at {}{}{}; the exhibit goes on "
-                        "in the dark",
-                        connector.name, before, reason));
+    return dark("display.no_mode_taken",
+                format_sentence("the graphics card refuses every mode of the projector at {}{}{}; the "
+                                "exhibit goes on in the dark",
+                                connector.name, before, reason));
 }
 
 } // namespace frustumscreen

@@ -71,11 +71,10 @@ std::string cp2112_remark(const std::string& chip, std::span<const std::byte> co
     };
     look(buttons, "panel.lines");
     look(lamps, "panel.lamps");
-    return found.empty()
-               ? std::string()
-               : fmt::format("GPIO chip {}: {} and no GPIO until the chip was unplugged; name other "
-                             "lines, 2 to 6 have no such function",
-                             chip, fmt::join(found, ", "));
+    return found.empty() ? std::string()
+                         : fmt::format("GPIO chip {}: {}, not a GPIO line, until the chip is unplugged; name "
+                                       "other lines: 2 to 6 have no such function",
+                                       chip, fmt::join(found, ", "));
 }
 
 std::vector<std::byte> read_cp2112_configuration(const std::string& gpio_chip) {

@@ -153,7 +153,7 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
     KeyBits keys{};
     if (::ioctl(file.get(), EVIOCGBIT(EV_KEY, keys.size()), keys.data()) < 0) {
         return fail(ErrorKind::DeviceLost, "panel.no_event_device",
-                    "keyboard {}: it is no event device; see {}", request.device, folder);
+                    "keyboard {}: it is not an event device; see {}", request.device, folder);
     }
     KeyLevels there(request.codes);
     there.set(keys); // the same bits, but for existing keys

@@ -50,7 +50,7 @@ Result<Bytes> content_of(Bytes answer) {
     std::size_t size = 0;
     const char* const head_end = head.data() + head.size();
     if (!head.starts_with("ok ")) {
-        return bad_input("staff.no_exhibit", "what listens there is no exhibit");
+        return bad_input("staff.no_exhibit", "the program that listens there is not an exhibit");
     }
     const std::from_chars_result read = std::from_chars(head.data() + 3, head_end, size);
     if (read.ec != std::errc{} || read.ptr != head_end || answer.size() - end - 1 != size) {

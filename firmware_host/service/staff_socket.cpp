@@ -145,7 +145,7 @@ bool StaffSocket::wait_for(int descriptor, short events, MonotonicTime until) co
 
 void StaffSocket::serve(int client, const std::stop_token& stop) const {
     Result<Bytes> answer =
-        bad_input("staff.not_allowed", "this is for the staff: be root, or in the socket's group");
+        bad_input("staff.not_allowed", "only the staff may ask this: be root, or in the socket's group");
     if (may_ask(client, group_)) {
         const Result<std::string> question = question_of(client);
         answer = question ? answer_(*question, stop) : tl::unexpected<Error>(question.error());

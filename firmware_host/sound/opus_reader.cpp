@@ -25,7 +25,7 @@ constexpr std::size_t longest_packet = 5760; ///< samples per channel: 120 ms, R
 std::string_view reason(int error) {
     switch (error) {
     case OP_ENOTFORMAT:
-        return "this is no Ogg Opus recording; store it as Opus";
+        return "this is not an Ogg Opus recording; store it as Opus";
     case OP_EVERSION:
     case OP_EIMPL:
         return "this kind of Opus recording is not known; store it as Opus with one or two channels";

@@ -124,7 +124,7 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
         result.samples.push_back(sample);
     }
     if (result.samples.empty()) {
-        return bad_input("convert.no_pose", "{}: no pose in it; allowed are rows of t x y z qx qy qz qw",
+        return bad_input("convert.no_pose", "{}: it holds no pose; allowed are rows of t x y z qx qy qz qw",
                          name);
     }
     if (options.flat) {

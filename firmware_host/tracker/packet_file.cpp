@@ -54,13 +54,14 @@ std::size_t packet_size(std::size_t payload) {
 Result<PacketReader> PacketReader::open(std::span<const std::byte> file, std::string_view name) {
     if (!is_packet_recording(file) || file.size() < header_bytes) {
         return bad_input("packets.no_recording",
-                         "{}: this is no recording of packets; they come from frustumscreen record --raw",
+                         "{}: this is not a recording of packets; frustumscreen record --raw makes one",
                          name);
     }
     const auto found = ByteReader(file.subspan(magic.size())).read<std::uint32_t>();
     if (found != version) {
-        return bad_input("packets.version", "{}: a recording of version {}; this program knows version {}",
-                         name, found, version);
+        return bad_input("packets.version",
+                         "{}: this recording has version {}; this program reads version {}", name, found,
+                         version);
     }
     return PacketReader(file.subspan(header_bytes));
 }

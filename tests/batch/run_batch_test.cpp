@@ -104,7 +104,7 @@ TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
 TEST_F(Batch, AFailureSaysThatAnOlderPackIsStillThere) {
     add("bad");
     ASSERT_TRUE(write_file(folder / "out/bad.fspack", as_bytes("of last year")));
-    EXPECT_NE(run_all()[0].sentence.find("(the pack of before is still there)"), std::string::npos);
+    EXPECT_NE(run_all()[0].sentence.find("(the previous pack is still there)"), std::string::npos);
     EXPECT_EQ(text("out/bad.fspack"), "of last year");
 }
 

@@ -1,7 +1,7 @@
 // A pack's own reliefs drawn by the bench, against the ray cast of the baked mesh.
 
 #include "app/bench/measures/comparison.h"
-#include "app/bench/techniques/relief_cast.h"
+#include "app/bench/techniques/relief_raster.h"
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bench/drawn_near.h"

@@ -29,7 +29,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
     ASSERT_TRUE(truth);
     constexpr int texels = 64;
     const ReliefImages images =
-        cast_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_frustum({}), texels);
+        rasterize_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_frustum({}), texels);
     ASSERT_EQ(images.images.size(), 5U);
     const glm::dvec3 size = images.box.high - images.box.low;
     int hits = 0;

@@ -212,7 +212,7 @@ TEST(Verdicts, AReliefMayBeTheFineOne) {
     result.techniques.push_back(
         technique("relief192", TechniqueKind::PackRelief, -1, 7.0, {picture_error(0.1, 0.1, 0.04, 9.0)}));
     EXPECT_EQ(missed(judge(result)), 0U);
-    result.techniques.back().kind = TechniqueKind::ReliefCast; // not from the pack
+    result.techniques.back().kind = TechniqueKind::ReliefRaster; // not from the pack
     EXPECT_EQ(missed(judge(result)), 1U);
 }
 

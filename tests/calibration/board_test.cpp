@@ -89,10 +89,10 @@ TEST(Board, HasNoTagUnderThePropOrOverThePaper) {
 
 TEST(Board, SaysWhichPropsHaveNone) {
     EXPECT_EQ(board_for({0.36, 0.08, 0.15}).error().message,
-              "the prop's bottom is 360 mm wide, which leaves no room for tags on a sheet of A3; up to 339 "
-              "mm are allowed");
+              "the prop's bottom is 360 mm wide, which leaves no room for tags on a sheet of A3; allowed are "
+              "at most 339 mm");
     EXPECT_EQ(board_for({0.16, 0.03, 0.15}).error().message,
-              "the prop's top is 30 mm wide, which is too small for a tag; 35 mm at least are needed");
+              "the prop's top is 30 mm wide, which is too small for a tag; allowed are at least 35 mm");
     EXPECT_TRUE(board_for({0.339, 0.0353, 0.15}));
 }
 

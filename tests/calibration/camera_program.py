@@ -57,7 +57,7 @@ class Camera(unittest.TestCase):
         self.assertIn("You need the prop on its printed board (3 mm thick)", done.stderr)
         self.assertIn("camera: no camera is connected; check its USB cable", done.stderr)
         self.assertIn("Light and dark follow each other. Back returns. No camera is connected; check its USB cable", done.stderr)
-        self.assertTrue(done.stderr.endswith("the one before counts [calibrate.ended_early]\n"), done.stderr)
+        self.assertTrue(done.stderr.endswith("the previous one is still used [calibrate.ended_early]\n"), done.stderr)
         self.assertFalse((self.folder / "kept").exists())
 
     def assert_said_in_turn(self, done, *sentences):
@@ -117,7 +117,7 @@ class Camera(unittest.TestCase):
             self.assertTrue(any(f"{1000 * base:g} x {1000 * base:g}" in (text.text or "") for text in root.iter(f"{SVG}text")))
         large = self.run_program("sheet", "--config", self.config, "-o", sheet, base=0.36)
         self.assertEqual(large.returncode, 1)
-        self.assertIn("leaves no room for tags on a sheet of A3; up to 339 mm are allowed", large.stderr)
+        self.assertIn("leaves no room for tags on a sheet of A3; allowed are at most 339 mm", large.stderr)
 
 
 if __name__ == "__main__":

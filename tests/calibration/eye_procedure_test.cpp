@@ -197,7 +197,7 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     live.sight_all();
     live.judge();
     ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Refused);
-    EXPECT_NE(table_words(live.procedure).lines[1].find("turn the head, and the chin up and down"),
+    EXPECT_NE(table_words(live.procedure).lines[1].find("turn the head, and move the chin up and down"),
               std::string::npos)
         << table_words(live.procedure).lines[1];
     live.next();

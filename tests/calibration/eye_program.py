@@ -131,7 +131,7 @@ def test_wrong(program, table):
     good = HEADER + "left," + ",".join(repr(float(x)) for x in rows[0]) + "\n"
     for text, because in (("", "header"), ("a,b\n", "header"), (good.replace("left", "both"), "allowed are left, right"),
                           (good.replace("left,", "left,x"), "finite number"), (good + "left,1\n", "fields"),
-                          (HEADER + "left,0,0,0,0,0,0,0,1,1,0,0,0\n", "no rotation")):
+                          (HEADER + "left,0,0,0,0,0,0,0,1,1,0,0,0\n", "not a rotation")):
         done = program.of_text(text, status=1)
         assert done.stdout == "" and because in done.stderr and done.stderr.count("\n") == 1, done.stderr
     done = program(names, rows, "--keep", status=1)

@@ -155,7 +155,7 @@ class Eyes(unittest.TestCase):
         left = self.eye("--headless")
         self.assertEqual(left.returncode, 1)
         self.assertIn("Nothing was changed.", left.stderr)
-        self.assertIn("it ended before a calibration was kept; the one before counts", left.stderr)
+        self.assertIn("it ended before a calibration was kept; the previous one is still used", left.stderr)
         self.assertEqual(sorted(each.name for each in self.kept.iterdir()), ["calibration-0001.toml", "drift.json"])
         self.write([(0.3, BACK)], tracker="none")
         failed = self.eye("--headless")

@@ -51,7 +51,7 @@ TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
 
 TEST(PointFiles, EachReportIsARotation) {
     const auto touch_of = [](const std::string& turn) { return touch_error("0,0,0," + turn + ",1,2,0\n"); };
-    EXPECT_NE(touch_of("0,0,0,0").find("t.csv:2: qw,qx,qy,qz are no rotation"), std::string::npos);
+    EXPECT_NE(touch_of("0,0,0,0").find("t.csv:2: qw,qx,qy,qz are not a rotation"), std::string::npos);
     EXPECT_NE(touch_of("90,0,0,0").find("90; are these angles in degrees?"), std::string::npos);
     EXPECT_NE(touch_of("1.03,0,0,0").find("[points.no_rotation]"), std::string::npos);
     const auto rounded = parse_touches(std::string(touch_header) + "0,0,0,0.6,0.79,0,0,1,2,0\n", "t.csv");
@@ -61,7 +61,7 @@ TEST(PointFiles, EachReportIsARotation) {
         "rest,tx_m,ty_m,tz_m,qw,qx,qy,qz,x_m,y_m,z_m,u_px,v_px,block_m\n1,0,0,0,0.5,0,0,0,0,0,0,1,2,0\n";
     const auto rest = parse_rests(rest_rows, "r.csv");
     ASSERT_FALSE(rest);
-    EXPECT_NE(rest.error().message.find("r.csv:2: qw,qx,qy,qz are no rotation"), std::string::npos);
+    EXPECT_NE(rest.error().message.find("r.csv:2: qw,qx,qy,qz are not a rotation"), std::string::npos);
 }
 
 TEST(PointFiles, SightsAreReadAsTheyWereWritten) {

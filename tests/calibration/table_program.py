@@ -153,7 +153,7 @@ class Table(unittest.TestCase):
         truth = TrueTable(1280, 0.4)
         none = self.touch_up(truth, crosses)
         self.assertEqual(none.returncode, 1)
-        self.assertIn("no calibration is kept there that could be touched up", none.stderr)
+        self.assertIn("no calibration is kept there, so there is nothing to touch up", none.stderr)
         kept = self.folder / "kept"
         kept.mkdir()
         (kept / "calibration-0001.toml").write_text(truth.calibration(SENSOR_M))
@@ -185,7 +185,7 @@ class Table(unittest.TestCase):
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], truth)
         none = self.run_program("table", "--touch-up", "--config", self.config, "--headless")
         self.assertEqual(none.returncode, 1)
-        self.assertIn("no calibration is kept there that could be touched up", none.stderr)
+        self.assertIn("no calibration is kept there, so there is nothing to touch up", none.stderr)
         kept = self.folder / "kept"
         kept.mkdir()
         (kept / "calibration-0001.toml").write_text(truth.calibration(SENSOR_M))
@@ -225,14 +225,14 @@ class Table(unittest.TestCase):
         self.assertEqual(left.returncode, 1)
         self.assertIn("Next begins. Back returns to the exhibit", left.stderr)
         self.assertRegex(left.stderr, "boards that make 120 mm")
-        self.assertIn("it ended before a calibration was kept; the one before counts", left.stderr)
+        self.assertIn("it ended before a calibration was kept; the previous one is still used", left.stderr)
         self.assertFalse((self.folder / "kept").exists())
         # Missing requirements are shown on the table, and Next does nothing.
         text = self.config.read_text().replace(f"sensor_height_m = {SENSOR_M}", "")
         self.config.write_text(text.replace("script = [", "script = [{ at_s = 0.1, button = 1 }, "))
         left = self.run_program("table", "--config", self.config, "--headless")
         self.assertEqual(left.returncode, 1)
-        self.assertIn("The table cannot be measured Nobody knows how high the sensor is", left.stderr)
+        self.assertIn("The table cannot be measured The sensor's height above the prop's bottom is not known", left.stderr)
         self.assertIn("set calibration.sensor_height_m", left.stderr)
 
     def test_without_a_tracker_or_buttons_it_says_so(self):

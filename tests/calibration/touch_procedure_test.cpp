@@ -202,7 +202,7 @@ TEST_F(Procedure, WhoDoesNothingLeaves) {
 }
 
 TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
-    TouchProcedure cannot(crosses(), "nobody knows how high the sensor is");
+    TouchProcedure cannot(crosses(), "the sensor's height is not known");
     cannot.step({now, std::nullopt, true, false});
     EXPECT_EQ(cannot.stage(), CalibrationStage::Begin);
     cannot.step({now, std::nullopt, false, true});

@@ -90,7 +90,7 @@ class Counts(unittest.TestCase):
         self.assertEqual([each["day"] for each in json.loads(done.stdout)["days"]], [f"2026-03-0{k}" for k in range(1, 8)])
         done = self.run_counts("--from", "2026-02-30")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("this is no day; write it as 2026-11-27 [counts.day]", done.stderr)
+        self.assertIn("this is not a day; write it as 2026-11-27 [counts.day]", done.stderr)
 
     def test_damaged_files_are_told_and_stay(self):
         self.write("2026-11-26.json", day_file("2026-11-26", {10: (3, 60000)}, {"Amphora": (3, 60000)}))

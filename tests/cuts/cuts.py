@@ -23,7 +23,7 @@ from appliance import Appliance
 from bench import Patience
 from direct import Direct
 from states import Checker, Must, State, Version, kept_number
-from updates import Updates
+from updates import NEXT, THIS, Updates
 from write_log import MARK, Replay, moments
 
 MIB = 1 << 20
@@ -77,7 +77,7 @@ class Cuts:
         self._begun = time.monotonic()
         self.tools = Tools(CHECKOUT / "build/release/bin", arguments.packs, self.work / "tools")
         self.versions = [Version.of(name, folder / f"frustumscreen_{name}.efi")
-                         for name, folder in (("0.1.0", self.image.parent), ("0.2.0", self.next))]
+                         for name, folder in ((THIS, self.image.parent), (NEXT, self.next))]
         self.updates = Updates(self.next, arguments.keys, self.work / "bundles")
         self.rows, self.faults = {}, []
 
@@ -90,7 +90,7 @@ class Cuts:
     def record(self, folder):
         """One kiosk's life."""
         shutil.rmtree(folder, ignore_errors=True)
-        (self.work / "bundles/update-0.2.0.raucb").unlink(missing_ok=True)
+        (self.work / f"bundles/update-{NEXT}.raucb").unlink(missing_ok=True)
         bundle = self.updates.make()
         with Lent(self.image, folder, Recorded) as pc:
             life = Session(pc, self.work, self.tools, bundle, self.say)

@@ -20,6 +20,7 @@ from appliance import Appliance, tracker  # noqa: E402
 from bench import Patience, eventually  # noqa: E402
 import sticks  # noqa: E402
 from states import kept_text  # noqa: E402
+from updates import NEXT  # noqa: E402
 from write_log import RecordedDisk, sparse_copy  # noqa: E402
 
 KEPT, UNSAFE, SETTINGS = "/data/settings/kept.txt", "/data/settings/unsafe.txt", "/data/settings/kiosk.toml"
@@ -158,10 +159,10 @@ class Session:
     def update(self):
         self.mark(phase="update")
         self.pc.run(f"rm -f {REPORT}")
-        self.mark(begun="version", value="0.2.0")
-        self.stick("update", {"frustumscreen-0.2.0.raucb": self.bundle}, 320)
+        self.mark(begun="version", value=NEXT)
+        self.stick("update", {f"frustumscreen-{NEXT}.raucb": self.bundle}, 320)
         pack, = self.told(True, UPDATE_S)["packs"]
-        self.mark(kept="version", value="0.2.0", outcome=pack)
+        self.mark(kept="version", value=NEXT, outcome=pack)
         assert pack["outcome"] == "taken", pack
         assert self.pc.resets_within(300.0), "the machine does not start again"
 

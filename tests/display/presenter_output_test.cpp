@@ -108,13 +108,14 @@ TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
     exhibit.memory.none_left = true;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
-    EXPECT_EQ(exhibit.presenter.state(), "the graphics card takes no mode of the projector at HDMI-A-1: no "
-                                         "memory; the exhibit goes on in the dark");
+    EXPECT_EQ(exhibit.presenter.state(),
+              "the graphics card refuses every mode of the projector at HDMI-A-1: no "
+              "memory; the exhibit goes on in the dark");
     exhibit.memory.none_left = false;
     exhibit.kms.refused = a_projector().modes;
     exhibit.frames(100);
     EXPECT_FALSE(exhibit.says("no memory")) << "that is over: " << exhibit.presenter.state();
-    EXPECT_TRUE(exhibit.says("takes no mode"));
+    EXPECT_TRUE(exhibit.says("refuses every mode"));
 }
 
 TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {

@@ -215,7 +215,7 @@ TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
     none.kms.refused = projector.modes;
     none.presenter.connected(a_card({projector}));
     none.frames(200);
-    EXPECT_TRUE(none.says("takes no mode of the projector at HDMI-A-1")) << none.presenter.state();
+    EXPECT_TRUE(none.says("refuses every mode of the projector at HDMI-A-1")) << none.presenter.state();
     EXPECT_LE(none.kms.lights, 3 * 5) << "tried again every second, not every frame";
 }
 

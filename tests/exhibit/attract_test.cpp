@@ -15,8 +15,8 @@ const MonotonicTime start{seconds(100)};
 const RigidTransform held_pose{{1.0, 0.0, 0.0, 0.0}, {0.2, -0.1, 0.0}};
 constexpr glm::dvec2 place_m{0.03, 0.01};
 
-/// A tracker that hands out a good pose in every frame until `lost`, and again from `found` on; a pose counts
-/// as known for a second.
+/// A tracker that gives a good pose in every frame until `lost`, and again from `found` on; the pose counts as known
+/// for a second after the last good one.
 struct Visit {
     MonotonicTime lost;
     MonotonicTime found = lost + seconds(10'000);

@@ -1,4 +1,4 @@
-// The exhibit's own words with squares for letters: what is set of them can be counted.
+// The exhibit's own texts with squares for letters, so that the letters of a picture can be counted.
 #pragma once
 
 #include "app/pack/words_file.h"
@@ -10,7 +10,7 @@
 
 namespace frustumscreen::synthetic {
 
-/// All that is said of a stick, and how many letters it has.
+/// The texts about a stick, each with its number of letters.
 inline const std::vector<std::pair<std::string, int>>& stick_words() {
     static const std::vector<std::pair<std::string, int>> words{{"stick.found", 20},
                                                                 {"stick.copying", 14},
@@ -34,7 +34,7 @@ inline const std::vector<std::pair<std::string, int>>& stick_words() {
     return words;
 }
 
-/// Letters half an em wide, an em apart, standing on the baseline; broken for 36, 18 and 9 em as the bake does.
+/// Letters half an em wide, an em apart, on the baseline; broken for 36, 18 and 9 em, as in the bake.
 inline LanguageWords block_words(const std::string& language, TextDirection direction) {
     LanguageWords all{language, language, {}, {}, DistanceAtlas(12, 12, 255), {}};
     all.runs.texels_per_em = 8;

@@ -34,7 +34,7 @@ struct Table {
     }
 };
 
-/// Whether the projector's ray to a table point meets the prop: brute force over the solid's planes.
+/// True if the projector's ray to a table point meets the prop: brute force over the prop's planes.
 bool lands_on_prop(const PropShape& prop, const RigidTransform& pose, const glm::dvec3& from,
                    const glm::dvec2& p) {
     const glm::dvec3 a = pose.inverse().point(from);

@@ -91,11 +91,11 @@ TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
     double gone_s = 0.0;
     for (int frame = 0; frame <= 300; ++frame) {
         const double now = frame / 60.0;
-        // It goes away 0.1 s before the ring is full, at 0.2 m/s.
+        // The prop leaves 0.1 s before the ring is full, at 0.2 m/s.
         const glm::dvec2 at = pictures[0].centre_m + glm::dvec2(std::max(0.0, now - 1.6) * 0.2, 0.0);
         const DwellState state = dwell.update(at_s(now), at, pictures);
         EXPECT_FALSE(state.chosen);
-        EXPECT_LT(std::abs(state.full - before), 1.0 / 60.0 / 0.2 + 1e-4); // an emptying ring is the faster
+        EXPECT_LT(std::abs(state.full - before), 1.0 / 60.0 / 0.2 + 1e-4); // emptying is faster
         gone_s = state.full > 0.0 ? now : gone_s;
         most = std::max(most, state.full);
         before = state.full;
@@ -146,7 +146,7 @@ TEST(Dwell, APropThatIsLiftedOrLostRestsNowhere) {
     const PropShape prop = make_frustum(shipped_frustum);
     EXPECT_EQ(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.0}}), glm::dvec2(0.1, 0.2));
     EXPECT_FALSE(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.03}}));
-    // A cube that lies on another face: its middle counts, not where its bottom is.
+    // A cube that lies on another face: its middle counts, not its bottom's.
     const glm::dquat lying = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(0, 1, 0));
     const std::optional<glm::dvec2> at = standing_place(make_cube(0.1), {lying, {0.1, 0.2, 0.05}});
     ASSERT_TRUE(at);
@@ -155,7 +155,7 @@ TEST(Dwell, APropThatIsLiftedOrLostRestsNowhere) {
     const std::vector<TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     for (int frame = 0; frame < 600; ++frame) {
-        // Lost for a moment every 1.2 seconds; and, in the second half, frames that come once in a second.
+        // Lost for one frame every 1.2 seconds; in the second half, one frame a second.
         const bool lost = frame % 72 == 0;
         const double now = frame < 300 ? frame / 60.0 : 5.0 + (frame - 300);
         const DwellState state =
@@ -201,7 +201,7 @@ TEST(Dwell, SweepsOverPicturesNeverChoose) {
     EXPECT_GT(swept_s, 3000.0);
 }
 
-/// The slowest sweep that is one: 12 mm a second, right through the middles of a row of pictures.
+/// The slowest motion that counts as a sweep: 12 mm/s, through the middles of a row of pictures.
 TEST(Dwell, ASlowSteadySweepNeverChooses) {
     const std::vector<TableRectangle>& pictures = shipped_pictures();
     Random random(22);
@@ -275,7 +275,7 @@ TEST(Dwell, WhoRestsOnAPictureGetsItWithinEighteenTenthsOfASecond) {
     EXPECT_EQ(wrong, 0);
 }
 
-/// Whether the prop was within 24 mm of where it is at `last` for the time of a ring before: plain search.
+/// True if, for the time of a ring before `last`, the prop was within 24 mm of its place at `last`: plain search.
 bool rested_before(const std::vector<PoseSample>& samples, const std::vector<glm::dvec2>& places,
                    std::size_t last) {
     for (std::size_t k = last + 1; k-- > 0 && samples[last].time - samples[k].time <= milliseconds(1490);) {
@@ -286,7 +286,7 @@ bool rested_before(const std::vector<PoseSample>& samples, const std::vector<glm
     return true;
 }
 
-/// The recorded way as it is laid on the table; or turned, smaller, and begun over one of the pictures.
+/// The recorded path as laid on the table; or turned, scaled down, and begun over one of the pictures.
 std::vector<glm::dvec2> some_way(Random& random, const std::vector<PoseSample>& samples, bool as_it_is) {
     const double scale = as_it_is ? 1.0 : between(random, 0.3, 1.0);
     const double angle = as_it_is ? 0.0 : between(random, -3.14, 3.14);
@@ -339,7 +339,7 @@ TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
     RecordProperty("rings", rings);
     RecordProperty("choices", choices);
     RecordProperty("minutes", static_cast<int>(minutes));
-    EXPECT_GT(rings, 150); // the hands come over pictures, and slow down there
+    EXPECT_GT(rings, 150); // the hands pass over pictures and slow down there
     EXPECT_EQ(accidents, 0) << "of " << choices << " choices";
 }
 

@@ -1,4 +1,4 @@
-// Another set of artifacts takes this one's place while the exhibit goes on: when, and what stays.
+// Another set of artifacts replaces the current one while the exhibit runs: when, and what stays.
 
 #include "tests/exhibit/exhibits.h"
 
@@ -34,7 +34,7 @@ protected:
         run(seconds(1), {Command::NextArtifact});
         ASSERT_EQ(shown.state, State::View);
     }
-    /// How long it takes from now on, at most `longest`.
+    /// The time that the set takes to leave from now on, at most `longest`.
     Nanoseconds leaves_within(Nanoseconds longest) {
         const MonotonicTime from = now;
         while (!exhibit.set_has_left() && now - from < longest) {
@@ -67,7 +67,7 @@ TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     }
     EXPECT_EQ(last, 0.0);
     EXPECT_FALSE(shown.caption);
-    EXPECT_GT(light.size(), 10U); // a fade, and no leap
+    EXPECT_GT(light.size(), 10U); // a fade, not a jump
     const Catalogue old = exhibit.show_set(artifacts(2, {"fr", "de"}), {}, {}, 1, now);
     EXPECT_EQ(old.size(), 3U);
     run(milliseconds(20));
@@ -79,7 +79,7 @@ TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     EXPECT_EQ(shown.language, "de");
     EXPECT_EQ(shown.state, State::View);
     run(seconds(1), {Command::NextArtifact});
-    EXPECT_EQ(shown.artifact, 0U); // of two
+    EXPECT_EQ(shown.artifact, 0U); // the set has two
 }
 
 TEST_F(AnotherSet, ThatHasTheHousesLanguageAgainIsInThat) {
@@ -88,7 +88,7 @@ TEST_F(AnotherSet, ThatHasTheHousesLanguageAgainIsInThat) {
     leaves_within(seconds(1));
     static_cast<void>(exhibit.show_set(artifacts(1, {"fr"}), {}, {}, 0, now));
     run(seconds(1));
-    EXPECT_EQ(shown.language, "fr"); // there is no other
+    EXPECT_EQ(shown.language, "fr"); // the set has no other
     exhibit.await_set(true);
     leaves_within(seconds(1));
     static_cast<void>(exhibit.show_set(artifacts(1, {"fr", "en"}), {}, {}, 0, now));
@@ -101,12 +101,12 @@ TEST_F(AnotherSet, WaitsForTheNextTurnWhereNobodyIs) {
         run(milliseconds(20));
         ASSERT_LT(now, sample::start + seconds(200));
     }
-    const std::size_t artifact = shown.artifact; // it has just come
+    const std::size_t artifact = shown.artifact; // shown a moment ago
     run(seconds(3));
     exhibit.await_set(true);
     EXPECT_GT(leaves_within(seconds(30)), seconds(16));
     EXPECT_TRUE(exhibit.set_has_left());
-    EXPECT_EQ(shown.artifact, artifact); // no other one came in between
+    EXPECT_EQ(shown.artifact, artifact); // no other one was shown in between
 }
 
 TEST_F(AnotherSet, ComesAtOnceWhereAVisitorLooks) {
@@ -119,7 +119,7 @@ TEST_F(AnotherSet, DoesNotComeInTheMiddleOfAChange) {
     visit();
     exhibit.await_set(true);
     run(milliseconds(20), {Command::NextArtifact});
-    // Out and in again for the change, and out for the set.
+    // Out and in for the change of artifact, and out for the set.
     EXPECT_GE(leaves_within(seconds(5)), 3 * fade_time - milliseconds(60));
 }
 
@@ -142,7 +142,7 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
 
     static_cast<void>(exhibit.show_set(artifacts(2, {"en"}), {}, {}, 0, now));
     run(seconds(1));
-    exhibit.hear(true); // and it never ends
+    exhibit.hear(true); // and never ends
     exhibit.await_set(true);
     const Nanoseconds waited = leaves_within(seconds(60));
     EXPECT_GE(waited, Exhibit::longest_wait);
@@ -151,7 +151,7 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
 
 TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
     visit();
-    exhibit.hear(true); // and it never ends
+    exhibit.hear(true); // and never ends
     exhibit.await_set(true);
     const MonotonicTime from = now;
     while (!exhibit.leaves_set() && now - from < seconds(60)) {

@@ -1,4 +1,4 @@
-// What is told of an artifact, as the exhibit's decisions: buttons, rest, advice, captions and lamps.
+// Narration as the exhibit's decisions: buttons, rest, advice, captions and lamps.
 #include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -54,7 +54,7 @@ protected:
             const DescriptionIndex told = shown.tells.value_or(DescriptionIndex{});
             shown = exhibit_.step(now_, commands, tracked_state);
             commands.clear();
-            // A voice that speaks what is told, one portion in three seconds, and pauses there.
+            // A voice that speaks the description, three seconds a portion, with a pause after each.
             if (shown.tells && (!spoken_since_ || told != *shown.tells)) {
                 spoken_since_ = over_ ? spoken_since_ : now_;
             }
@@ -163,7 +163,7 @@ TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptio
         run(milliseconds(20));
         left_in_words = left_in_words || shown.leaves;
         if (shown.tells || shown.leaves) {
-            // The caption itself goes out of the prop's way at first.
+            // The caption itself fades while the prop covers it at first.
             EXPECT_TRUE(describes() || k < 40) << "a voice without its caption";
             EXPECT_FALSE(shown.advice);
         }
@@ -179,7 +179,7 @@ TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptio
 TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     run(seconds(2));
     x_ = 0.3;
-    run(milliseconds(100)); // sooner than any sign
+    run(milliseconds(100)); // too early for a sign
     EXPECT_FALSE(shown.sign);
     run(milliseconds(120), {Command::Help});
     EXPECT_TRUE(shown.sign);
@@ -198,7 +198,7 @@ TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
     run(milliseconds(100));
     run(milliseconds(120), {Command::Help});
     EXPECT_FALSE(shown.tells || shown.leaves);
-    run(milliseconds(40)); // the advice has its words first
+    run(milliseconds(40)); // the advice shows its words first
     EXPECT_TRUE(shown.advice);
     EXPECT_EQ(advised_, 1);
 }
@@ -251,7 +251,7 @@ TEST_F(NarrationExhibit, TheStaffsPatternEndsIt) {
     EXPECT_FALSE(shown.tells || shown.leaves);
 }
 
-/// Over the picture that the prop rests on, Choose takes that picture and tells nothing.
+/// While the prop rests on a picture, Choose takes that picture and tells nothing.
 TEST(NarrationTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     ExhibitPlace where = place();
     where.prop = make_frustum({0.10, 0.06, 0.05});

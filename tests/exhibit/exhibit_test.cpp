@@ -1,4 +1,4 @@
-// The exhibit's decisions, held against a table and against a model that only counts.
+// The exhibit's decisions, compared with a table and with a counting model.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -19,7 +19,7 @@ using std::chrono::seconds;
 
 constexpr Nanoseconds rest = seconds(3); ///< all fades are over
 
-/// What one command does, by the state that it meets.
+/// The effect of one command, by the state in which it arrives.
 struct Row {
     bool staff;
     Command command;
@@ -38,7 +38,7 @@ constexpr std::array table{
 
 const std::vector<std::string> languages{"en", "de", "fr"};
 
-/// After as many frames as it takes until nothing fades: a caption appears from the frame on that places it.
+/// The presentation after all fades: a caption appears in the frame that places it.
 Presentation settled(Exhibit& exhibit, MonotonicTime now) {
     const MonotonicTime end = now + rest;
     for (; now < end; now += milliseconds(50)) {
@@ -71,8 +71,8 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
     }
 }
 
-/// Every press that counts, by button. A chord strikes out the latest of the first and of the last button, if
-/// that press reached the exhibit.
+/// Counts every press, by button. A chord removes the latest press of the first and of the last button, if that press
+/// reached the exhibit.
 class Ledger {
 public:
     explicit Ledger(std::size_t buttons) : buttons_(buttons) {}
@@ -139,7 +139,7 @@ TEST(Exhibit, TheStaffsPictureEndsByItself) {
     EXPECT_FALSE(staff_at(start + StaffTool::after_press));
 }
 
-/// From the chord to the table's calibration, and what its presses leave.
+/// From the chord to the table's calibration, and the effect of its presses.
 TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     Exhibit exhibit = sample::exhibit(2, languages);
     MonotonicTime now = start;

@@ -1,4 +1,4 @@
-// Exhibits to decide for: artifacts with a caption in each of some languages, on a table of the usual size.
+// Exhibits for tests of decisions: artifacts with a caption in each of several languages, on a table of usual size.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -26,7 +26,7 @@ inline Exhibit exhibit(std::size_t artifacts, const std::vector<std::string>& la
     return {Catalogue(artifacts, entry), where, "en", start};
 }
 
-/// The prop lies still, or nobody knows where since `lost`.
+/// The situation with the prop at rest; its pose is unknown from `lost` on.
 inline TrackedState tracked_state(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
     TrackedState tracked_state;
     tracked_state.eye_m = {0.0, -0.55, 0.5};

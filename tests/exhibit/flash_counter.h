@@ -1,4 +1,4 @@
-// How often a picture flashes, from the definition alone.
+// Counts the flashes of a picture, from the definition alone.
 //
 // WCAG 2.2, success criterion 2.3.1 and 'general flash': a flash is a pair of opposing changes in relative
 // luminance, an increase and then a decrease or the other way round, of 10 % or more of the maximum each,

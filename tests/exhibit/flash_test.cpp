@@ -1,4 +1,4 @@
-// Whatever is pressed, the picture flashes no more than photosensitive people can bear.
+// The picture never flashes more than is safe for photosensitive people, whatever is pressed.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
@@ -50,13 +50,13 @@ TEST(FlashCounter, CountsPairsOfOpposingChanges) {
     EXPECT_EQ(max_flashes_per_second(trembling), 1);
 }
 
-/// One artifact's pixel and one of its caption, in a picture that is white there, as a visitor sees it.
+/// A pixel of an artifact and a pixel of its caption, both white in the picture, as a visitor sees them.
 class Watched {
 public:
     explicit Watched(std::size_t artifacts) : exhibit_(sample::exhibit(artifacts, {"en", "de", "fr"})) {}
     explicit Watched(Exhibit exhibit) : exhibit_(std::move(exhibit)) {}
 
-    /// `lost`: since when nobody knows where the prop is.
+    /// `lost`: since when the prop's pose is unknown.
     void look(MonotonicTime now, std::span<const Command> commands, std::optional<MonotonicTime> lost = {}) {
         const Presentation shown = exhibit_.step(now, commands, sample::tracked_state(now, lost));
         artifact.push_back({now, shown.brightness});
@@ -70,7 +70,7 @@ private:
     Exhibit exhibit_;
 };
 
-/// A press; or the staff's chord and at once the next, which undoes presses and shows no pattern.
+/// A press; or the staff's chord, twice at once, which undoes presses and shows no pattern.
 void press(std::vector<Command>& commands, std::mt19937& random) {
     if (random() % 8 == 0) {
         commands.insert(commands.end(), 2, Command::StaffMode);
@@ -79,7 +79,7 @@ void press(std::vector<Command>& commands, std::mt19937& random) {
     }
 }
 
-/// At rest it flashes twice a second at most; the prop, lost and found, adds one.
+/// With the prop at rest there are at most two flashes a second; a prop that is lost and found adds one.
 TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo) {
     int most = 0;
     for (unsigned seed = 0; seed < 30; ++seed) {
@@ -122,7 +122,7 @@ Exhibit narration_exhibit() {
     return {Catalogue(3, entry), place, "en", start};
 }
 
-/// The caption's text changes by fades of its own, which a change of artifact or language may interrupt.
+/// The caption's text has its own fades, which a change of artifact or language may interrupt.
 TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
     int most = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
@@ -143,7 +143,7 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
         most = std::max(most, max_flashes_per_second(watched.caption));
     }
     EXPECT_GE(most, 2) << "nothing was seen of the presses";
-    // Choose and another button in turn, each at a brightness of its own on the way up or down.
+    // Choose and another button in turn, each at various brightnesses while fading in or out.
     for (const Command other : {Command::NextArtifact, Command::NextLanguage, Command::Help}) {
         for (int k = 0; k < 400; k += 3) {
             Watched watched(narration_exhibit());
@@ -166,7 +166,7 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
     }
 }
 
-/// Somebody who watches the picture and presses just when it hurts most: at any brightness on its way up.
+/// The worst case: presses at any brightness on its way up.
 TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
     for (const Command command : button_commands) {
         for (int percent = 1; percent <= 100; percent += 3) {

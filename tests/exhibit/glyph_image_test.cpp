@@ -1,4 +1,4 @@
-// Glyph runs as pictures, of a letter whose area is known: a square of half an em.
+// Pictures of glyph runs, with a letter of known area: a square of half an em.
 #include "app/typography/caption_image.h"
 #include "app/typography/captions.h"
 #include "app/typography/glyph_image.h"
@@ -120,7 +120,7 @@ TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they
     const std::array parts{GlyphPart{CaptionRole::Title, &title},
                            GlyphPart{CaptionRole::Text, &runs.texts[0]}};
     const CaptionImage both = make_caption(runs, square(), parts, em_m, 0.3, texels_per_m);
-    // A title of 1.35 em to the right above a text of 40 pixels an em, with 0.3 em between them.
+    // A title of 1.35 em at the right, above a text of 40 pixels an em, with 0.3 em between them.
     EXPECT_EQ(both.coverage.width, 80);
     EXPECT_EQ(both.coverage.height, 54 + 12 + 40);
     EXPECT_NEAR(both.size_m.x, 80.0 / texels_per_m, 1e-12);
@@ -144,7 +144,7 @@ TEST(GlyphCaption, small_lines_lie_below_the_text_close_together_and_have_at_lea
         const double texels_per_m = 50.0 / em_m;
         const double small_px = 50.0 * std::max(0.8 * em_pt, 24.0) / em_pt;
         const CaptionImage image = make_caption(runs, square(), parts, em_m, 0.3, texels_per_m);
-        // 0.3 em of the text's own below it, and nothing between the two lines.
+        // Below it 0.3 em of the text's size, and no gap between the two lines.
         EXPECT_NEAR(image.coverage.height, 50 + 15 + 2 * small_px, 2.0) << em_pt;
         EXPECT_EQ(image.coverage.at(10, 50 + 15 + static_cast<int>(small_px / 2)), 204) << em_pt;
         EXPECT_EQ(image.coverage.at(static_cast<int>(small_px) + 2, image.coverage.height - 10), 0) << em_pt;

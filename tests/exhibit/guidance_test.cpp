@@ -1,4 +1,4 @@
-// Guidance as visitors meet it: signs that never lie on the prop, then words, then speech; and silence.
+// Guidance for visitors: signs that never lie on the prop, then words, then speech; and silence.
 #include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 #include "exhibits.h"
@@ -42,13 +42,13 @@ bool inside(std::span<const glm::dvec2> polygon, const glm::dvec2& p) {
     return true;
 }
 
-/// A point of a sign's picture, by its share of the width and the height.
+/// A point of a sign's picture, by its fractions of width and height.
 glm::dvec2 point_of(const PlacedSign& sign, double u, double v) {
     const auto& c = sign.corners_m;
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[3], c[2], u), v);
 }
 
-/// Whatever is advised, the sign's letters of light meet the table and not the prop: followed ray by ray.
+/// The sign's light meets the table and not the prop, for every advice: traced ray by ray.
 TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     const ExhibitPlace place = guided_place();
     const FaceReader reader(*place.guidance);
@@ -91,7 +91,7 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     for (const auto& [sign, count] : shown) {
         all += count;
     }
-    EXPECT_GT(all, advised * 9 / 10); // where the prop fills the picture there is no room
+    EXPECT_GT(all, advised * 9 / 10); // there is no room if the prop fills the picture
 }
 
 TEST(Signs, AnArrowPointsTheWay) {
@@ -116,7 +116,7 @@ TEST(Signs, AnArrowPointsTheWay) {
     EXPECT_GE(pointed, 8);
 }
 
-/// A turn's head is at the end that it turns to: counter-clockwise about the prop, seen from above.
+/// A turn's arrowhead is at the end that it turns to: counter-clockwise about the prop, seen from above.
 TEST(Signs, AnArcTurnsTheWay) {
     ExhibitPlace place = guided_place();
     place.picture_m = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
@@ -175,7 +175,7 @@ TEST_F(GuidedExhibit, ShowsASignThenWordsThenSpeaks) {
     ASSERT_TRUE(words.advice);
     EXPECT_EQ(words.advice->word, (WordIndex{1, 0})); // en, slide_left
     EXPECT_EQ(said_, 0);
-    // The artifact's caption gives way.
+    // The artifact's caption fades meanwhile.
     EXPECT_TRUE(!words.caption || words.caption->brightness < 0.01);
     at(seconds(7), 0.3);
     EXPECT_EQ(said_, 1);
@@ -211,7 +211,7 @@ TEST_F(GuidedExhibit, GuidesWithoutAllocating) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-/// A tracker's noise at rest is nobody.
+/// A tracker's noise at rest does not count as a visitor.
 TEST(PresenceTest, IsAMovementOrAPress) {
     Presence presence;
     Seeded seeded(4);

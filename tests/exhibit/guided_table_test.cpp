@@ -1,4 +1,4 @@
-// Guidance and the pictures on the table: what is being chosen is no mistake, and words lie beside pictures.
+// Guidance and the pictures on the table: choosing a picture needs no advice, and words lie beside pictures.
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/settings/lit_zone.h"
@@ -48,7 +48,7 @@ struct Visit {
         tracked_state.time = now;
         shown = exhibit->step(now, {}, tracked_state);
     }
-    /// Slides there in half a second, or so many steps. Returns those with a sign.
+    /// Slides there in half a second, or in `steps` steps. Returns the number of steps with a sign.
     int slide_to(const glm::dvec2& goal, int steps = 30) {
         const glm::dvec3 from = tracked_state.table_from_prop.translation;
         int signs = 0;
@@ -60,7 +60,7 @@ struct Visit {
         }
         return signs;
     }
-    /// Steps of this time with a sign.
+    /// Number of steps in `time` with a sign.
     int signs_in(milliseconds time) {
         int signs = 0;
         for (milliseconds each{0}; each < time; each += milliseconds(16)) {
@@ -73,7 +73,7 @@ struct Visit {
     AdviceLanguage words{"en", {}};
 };
 
-/// The middle of a picture where a prop's face is seen and not lit.
+/// The middle of a picture where a face of the prop is seen but not lit.
 glm::dvec2 dark_picture(const Visit& visit) {
     for (const PlacedPicture& picture : visit.shown.table->pictures()) {
         const FaceReader reader(*visit.place.guidance);
@@ -105,7 +105,7 @@ TEST(GuidedTable, IsQuietWhileThePropIsOnAPictureAndGuidesAfterTheChoice) {
     EXPECT_GT(without.signs_in(milliseconds(1600)), 30);
 }
 
-/// Two and a half seconds to a picture, through places where a face is dark, and back.
+/// Two and a half seconds to a picture and back, through places where a face is dark.
 TEST(GuidedTable, IsQuietOnTheWayToAPictureAndBack) {
     for (const bool pictures : {true, false}) {
         Visit visit(true);
@@ -128,7 +128,7 @@ TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
     const glm::dvec2 dark(std::copysign(reach, goal.x), -0.24); // beside all pictures
     EXPECT_EQ(stops.slide_to(dark, 150), 0);
     EXPECT_GT(stops.signs_in(milliseconds(1500)), 30);
-    // Whoever follows it keeps it.
+    // A visitor who follows the advice keeps it.
     EXPECT_GT(stops.slide_to(glm::mix(dark, glm::dvec2(0.0), 0.15), 60), 50);
 
     Visit wanders(true);
@@ -140,7 +140,7 @@ TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
     EXPECT_GT(signs, 30);
 }
 
-/// However the sign lies over pictures, it is what is read.
+/// A sign stays readable wherever it lies over pictures.
 TEST(GuidedTable, PicturesUnderTheSignAreDim) {
     int over_pictures = 0;
     for (const glm::dvec3& eye : {glm::dvec3(0.0, -0.55, 0.5), glm::dvec3(0.75, 0.0, 0.5)}) {
@@ -192,7 +192,7 @@ TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
     }
 }
 
-/// A corner of the prop's foot lies in the dark, and nothing of the artifact is seen through it.
+/// A corner of the prop's base lies in the dark, and no part of the artifact is seen through it.
 TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
     constexpr glm::dvec2 at(0.20, 0.05);
     for (const bool known : {true, false}) {
@@ -210,7 +210,7 @@ TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
     }
 }
 
-/// The frame is that of the artifact that is shown, where it has one.
+/// The frame is that of the shown artifact, if it has one.
 TEST(GuidedTable, TheFrameLiesAroundTheShownArtifactsZone) {
     Visit visit(false);
     CatalogueEntry own{{"en"}, {{{0.2, 0.05}}}, {}};

@@ -1,4 +1,4 @@
-// Labels of hotspots, through the exhibit: shown where a cast ray meets the point, and nowhere else.
+// Labels of hotspots, through the exhibit: shown exactly where a cast ray meets the point.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -16,7 +16,7 @@ namespace {
 using sample::start;
 using std::chrono::milliseconds;
 
-/// Two blocks beside each other, in the prop's frame: each hides the other's inner side from most eyes.
+/// Two adjacent blocks, in the prop's frame: each hides the other's inner side from most eyes.
 struct Blocks {
     std::vector<glm::vec3> points;
     std::vector<std::uint32_t> indices;
@@ -39,7 +39,7 @@ struct Blocks {
             }
         }
     }
-    /// By Cramer's rule, triangle by triangle.
+    /// True if the segment meets a triangle: Cramer's rule, triangle by triangle.
     [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const {
         for (std::size_t k = 0; k < indices.size(); k += 3) {
             const glm::dvec3 a(points[indices[k]]);
@@ -66,14 +66,14 @@ HotspotSet hotspots_of(const Blocks& blocks) {
     for (const auto& [point, normal] :
          {std::pair(glm::dvec3(-0.008, 0.0, 0.03), glm::dvec3(1, 0, 0)), // inner sides
           std::pair(glm::dvec3(0.008, 0.004, 0.02), glm::dvec3(-1, 0, 0)),
-          std::pair(glm::dvec3(-0.018, -0.015, 0.05), glm::dvec3(0, -1, 0)), // outer ones
+          std::pair(glm::dvec3(-0.018, -0.015, 0.05), glm::dvec3(0, -1, 0)), // outer sides
           std::pair(glm::dvec3(0.018, 0.0, 0.05), glm::dvec3(0, 0, 1))}) {
         set.hotspots.push_back({{point, normal}, {{0.04, 0.010}, {0.05, 0.010}}});
     }
     return set;
 }
 
-/// One hotspot more is told of than there are.
+/// The tellable lists one hotspot more than exist.
 Exhibit make_exhibit(const HotspotSet& set) {
     const Tellable tellable{{}, std::vector<Nanoseconds>(set.hotspots.size() + 1, std::chrono::seconds(1))};
     CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, {2, tellable}, {}, set};
@@ -95,7 +95,7 @@ struct Shower {
                 exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
-    /// Presses until this one is told of; nothing: until none is.
+    /// Presses until this hotspot is told; nothing: until none is.
     void point_out(std::optional<std::size_t> hotspot) {
         for (int press = 0; press < 100 && shown.tells_of != hotspot; ++press) {
             wait(milliseconds(20), std::array{Command::Choose});
@@ -104,7 +104,7 @@ struct Shower {
     }
 };
 
-/// Whether the face through which the eye looks at the point meets the lens's light.
+/// True if the face through which the eye looks at the point is lit by the lens.
 bool looks_through_a_lit_face(const PropShape& prop, const glm::dvec3& eye, const glm::dvec3& lens,
                               const glm::dvec3& point) {
     double entry = -1.0;
@@ -171,7 +171,7 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
     EXPECT_GT(hidden, 20);
 }
 
-/// Not even for the time of a fade: in the very step in which the point turns away.
+/// The label goes dark without a fade, in the very step in which the point turns away.
 TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
     const Blocks blocks;
     Shower shower{make_exhibit(hotspots_of(blocks))};
@@ -192,7 +192,7 @@ TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
             EXPECT_EQ(brightness, 0.0) << degree;
             ++dark;
         }
-        EXPECT_LT(last - brightness, 0.4) << degree; // softly
+        EXPECT_LT(last - brightness, 0.4) << degree; // gradual
         last = brightness;
     }
     EXPECT_GT(dark, 30);
@@ -213,7 +213,7 @@ TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {
     EXPECT_EQ(shower.shown.hotspot->language, 1U);
     EXPECT_EQ(shower.shown.hotspot->label.size_m.x, 0.05);
     EXPECT_TRUE(shower.shown.settled);
-    shower.point_out(4); // there is none
+    shower.point_out(4); // does not exist
     shower.wait(milliseconds(500));
     EXPECT_FALSE(shower.shown.hotspot);
     shower.point_out(2);

@@ -1,4 +1,5 @@
-// The timetable against Python's zoneinfo, which reads the same zones with other code; sleep under a simulated clock.
+// The timetable, compared with Python's zoneinfo, an independent reader of the same zones; sleep with a simulated
+// clock.
 
 #include "app/exhibit/hours.h"
 #include "firmware_host/base/local_time.h"
@@ -31,7 +32,7 @@ struct Opened {
     bool operator==(const Opened&) const = default;
 };
 
-/// Each interval in which it is open, by asking the timetable from change to change.
+/// The intervals in which it is open, from querying the timetable from change to change.
 std::vector<Opened> openings(const Timetable& timetable, sys_seconds from, sys_seconds to) {
     std::vector<Opened> all;
     while (from < to) {
@@ -46,7 +47,7 @@ std::vector<Opened> openings(const Timetable& timetable, sys_seconds from, sys_s
     return all;
 }
 
-/// The same, as Python has it.
+/// The intervals from Python.
 std::vector<Opened> expected(const std::string& zone, const std::string& times, int year, int years) {
     const std::string command = fmt::format("python3 {} {} {} {} {}", script, zone, times, year, years);
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
@@ -77,7 +78,7 @@ struct ZoneCase {
 
 class Zones : public testing::TestWithParam<ZoneCase> {};
 
-/// Times before, at, within and after the hour that is left out or comes twice, and over midnight.
+/// Times before, at, within and after the hour that is skipped or repeated, and over midnight.
 TEST_P(Zones, OpenOnceForEachSpanAsPythonHasIt) {
     const auto [zone, year, years] = GetParam();
     if (!use_time_zone(zone)) {
@@ -97,8 +98,8 @@ TEST_P(Zones, OpenOnceForEachSpanAsPythonHasIt) {
     }
 }
 
-// Lord Howe has half an hour, Santiago and Beirut change at midnight, Casablanca goes back for Ramadan. The
-// years beyond 2037 have no table: they follow the zone's rule.
+// Lord Howe shifts by half an hour, Santiago and Beirut change at midnight, Casablanca shifts back for Ramadan. Years
+// beyond 2037 have no table: they follow the zone's rule.
 INSTANTIATE_TEST_SUITE_P(
     Timetable, Zones,
     testing::Values(ZoneCase{"Europe/Berlin", 2026, 2}, ZoneCase{"America/New_York", 2026, 1},
@@ -173,7 +174,7 @@ TEST(WallClock, TellsALeapFromAClockThatRuns) {
     EXPECT_TRUE(WallClock::plausible(utc(2026, 1, 1, 0)));
 }
 
-/// An exhibit whose time passes by a frame.
+/// An exhibit whose time advances frame by frame.
 struct Sleeper {
     Sleep sleep;
     MonotonicTime now{hours(1)};
@@ -235,7 +236,7 @@ TEST(Sleep, WaitsFifteenMinutesAtMost) {
     exhibit.input.used = exhibit.now;
     exhibit.run(seconds(5));
     EXPECT_TRUE(exhibit.sleep.asleep());
-    exhibit.input.used = exhibit.now; // who cleans the table moves the prop
+    exhibit.input.used = exhibit.now; // the prop moves while the table is cleaned
     exhibit.run(minutes(5));
     EXPECT_TRUE(exhibit.sleep.asleep()) << "a button wakes it, not the prop";
 }

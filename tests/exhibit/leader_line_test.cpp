@@ -20,7 +20,8 @@ double between(Random& random, double low, double high) {
 
 constexpr std::uint32_t all_faces = ~0U;
 
-/// A cup without a handle: a surface that turns round the z axis, with a foot, a belly and a lip, thick walls, open above.
+/// A cup without a handle: a surface of revolution about the z axis, with a foot, a belly and a lip, thick walls,
+/// open above.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::dvec3> normals;
@@ -28,7 +29,8 @@ struct Mesh {
 };
 
 Mesh cup(int rings, int spokes) {
-    // The outline from the foot's middle, outside up to the lip and inside down again: radius, height; closed and smooth.
+    // The outline from the foot's middle, outside up to the lip and inside down again: radius and height; closed and
+    // smooth.
     const auto outline = [](double s) {
         const double half = s < 0.5 ? 2.0 * s : 2.0 * (1.0 - s); // 0 at the middle, 1 at the lip
         const double wall = s < 0.5 ? 0.004 : -0.004;
@@ -66,7 +68,7 @@ Mesh cup(int rings, int spokes) {
     return mesh;
 }
 
-/// The plain ray cast: distance to the first triangle, by volumes' signs, over all triangles.
+/// Brute-force ray cast: the distance to the first triangle, by signs of volumes, over all triangles.
 double first_hit(const Mesh& mesh, const glm::dvec3& from, const glm::dvec3& direction) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
@@ -93,7 +95,7 @@ glm::dvec3 some_eye(Random& random) {
                                                    std::sin(elevation));
 }
 
-/// `drawn` is what rays are cast at, `truth` the artifact itself.
+/// `drawn`: the surface for ray casts; `truth`: the artifact itself.
 struct Agreement {
     int seen = 0, unseen = 0, wrong = 0, wrong_beyond_tolerance = 0;
 };
@@ -119,7 +121,7 @@ Agreement compare(const Mesh& truth, const Mesh& drawn, double tolerance_m, int 
         (expected ? agreement.seen : agreement.unseen) += 1;
         if (seen != expected) {
             ++agreement.wrong;
-            // Where another tolerance, or a step aside by it, changes the truth, both are right.
+            // If another tolerance, or an offset by it, changes the truth, both answers are right.
             bool changes = cosine < 0.15;
             for (int step = 0; step < 8 && !changes; ++step) {
                 const double turn = step * std::numbers::pi / 4.0;
@@ -151,7 +153,7 @@ TEST(Hotspots, AreSeenExactlyWhereARayCastReachesThem) {
 TEST(Hotspots, ACoarserLevelDecidesTheSameButWithinItsError) {
     const Mesh fine = cup(80, 96);
     const Mesh coarse = cup(40, 32);
-    // The coarser outline's spokes cut off up to r (1 - cos(pi / 32)) = 0.2 mm, its rings about as much.
+    // The coarser outline's spokes cut off up to r (1 - cos(pi / 32)) = 0.2 mm; its rings about as much.
     const Agreement agreement = compare(fine, coarse, 5e-4, 1500);
     EXPECT_GT(agreement.seen, 200);
     RecordProperty("wrong_coarse", agreement.wrong);
@@ -170,7 +172,7 @@ TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
         const glm::dvec3 point(between(random, -0.02, 0.02), between(random, -0.02, 0.02),
                                between(random, 0.01, 0.1));
         const Hotspot hotspot{point, glm::normalize(eye - point)};
-        // The face by bisection: where the ray from inside goes out again.
+        // The face by bisection: where the ray from inside leaves the prop.
         double inside = 0.0;
         double outside = 1.0;
         std::size_t face = 0;
@@ -238,7 +240,7 @@ bool holds(const TableRectangle& rectangle, const glm::dvec2& at, double margin)
     return glm::all(glm::lessThan(glm::abs(at - rectangle.centre_m), 0.5 * rectangle.size_m + margin));
 }
 
-/// By the plain ray: from a point to the table's point, whether the prop is between.
+/// True if the prop lies between a point and a table point, by ray cast.
 bool hides(const Scene& scene, const glm::dvec3& from_m, const glm::dvec2& at) {
     const RigidTransform prop_from_table = scene.table_from_prop.inverse();
     const glm::dvec3 from = prop_from_table.point(from_m);
@@ -277,13 +279,13 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
         }
         EXPECT_TRUE(holds(scene.needs.label, points.back(), 1e-9));
         EXPECT_FALSE(holds(scene.needs.label, points.back(), -1e-9));
-        // It begins beside the prop, as seen or as lit.
+        // It begins beside the prop, or beside the prop's shadow.
         const double off = std::min(clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
                                               scene.needs.shadow->corners()),
                                     clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
                                               scene.needs.hidden->corners()));
         EXPECT_LT(off, 0.0075) << k; // 4 mm across the outline's edges, more at its corners
-        // To the eye, the point and the line's first part are one straight line.
+        // For the eye, the point and the first part of the line lie on one straight line.
         const glm::dvec3 eye = scene.needs.eye_m;
         const glm::dvec3 normal =
             glm::normalize(glm::cross(glm::dvec3(points[0], 0.0) - eye, glm::dvec3(points[1], 0.0) - eye));
@@ -306,7 +308,7 @@ TEST(LeaderLine, FollowsSoftlyAsThePropTurns) {
     for (int k = 0; k < 40; ++k) {
         Scene scene = some_scene(random, {});
         const glm::dvec3 point = scene.table_from_prop.inverse().point(scene.needs.point_m);
-        // The label keeps clear of every turn, as it does in the exhibit for some time.
+        // The label stays clear of the prop at every yaw, as it does in the exhibit for some time.
         const double reach = 0.17;
         scene.needs.label = {glm::dvec2(scene.table_from_prop.translation) + glm::dvec2(reach, -reach),
                              {0.08, 0.022}};
@@ -321,7 +323,7 @@ TEST(LeaderLine, FollowsSoftlyAsThePropTurns) {
             ASSERT_TRUE(line);
             ASSERT_EQ(line->count, 2U);
             if (before) {
-                // Only where the line grazes the prop's outline its beginning goes faster than the outline.
+                // The line's beginning moves faster than the outline only where it grazes the prop's outline.
                 const double moved = glm::distance(line->points_m[0], before->points_m[0]);
                 EXPECT_LT(moved, 0.008);
                 EXPECT_LT(glm::distance(line->points_m[1], before->points_m[1]), 0.003);

@@ -1,4 +1,4 @@
-// What is told, step by step, and by simulated visitors who press, play, rest and go as they like.
+// Narration, step by step, and with simulated visitors who press, play, rest and leave at random.
 #include "app/exhibit/narration_sequencer.h"
 #include "tests/render/counted_new.h"
 
@@ -18,7 +18,8 @@ const Tellable both{{seconds(4), seconds(4), seconds(2)}, {seconds(1), seconds(1
 const Tellable hotspots_alone{{}, {seconds(1)}};
 const Tellable description_alone{{seconds(4)}, {}};
 
-/// Steps in frames of 20 ms, with a voice that speaks what is told: each portion for two seconds, with a pause after each.
+/// Steps in frames of 20 ms, with a voice that speaks the description: two seconds a portion, with a pause after
+/// each.
 class Telling_ : public ::testing::Test {
 protected:
     static constexpr Nanoseconds frame = milliseconds(20);
@@ -34,7 +35,7 @@ protected:
         speak();
         return told;
     }
-    /// Nothing is pressed; the visitor rests.
+    /// No presses; the visitor rests.
     Told rest(Nanoseconds time, const NarrationInput& input = {}) {
         for (Nanoseconds at{0}; at < time; at += frame) {
             step(input);
@@ -149,7 +150,7 @@ TEST_F(Telling_, RestLeadsThroughAllOfItOnce) {
 }
 
 TEST_F(Telling_, TheAttributionIsReadAfterWhatWasHeardAndAloneWhereNothingElseIsToldInWords) {
-    const Tellable attributed{{seconds(4), seconds(4), seconds(2)}, {}, true}; // two of them are spoken
+    const Tellable attributed{{seconds(4), seconds(4), seconds(2)}, {}, true}; // two portions are spoken
     tellable = &attributed;
     press();
     rest(seconds(3));
@@ -278,7 +279,7 @@ TEST_F(Telling_, HelpBeginsTheDescriptionAndDoesNotBeginItTwice) {
     EXPECT_TRUE(told.speaks);
 }
 
-/// How the speech before ended, or how far it is, says nothing of the one that begins.
+/// The state of earlier speech does not affect the one that begins.
 TEST(NarrationSequencer, WhatIsToldAgainBeginsAtItsBeginning) {
     for (const SpeechProgress& before : {SpeechProgress{State::Over, 0}, {State::Heard, 2}}) {
         NarrationSequencer narration_sequencer;
@@ -353,7 +354,7 @@ TEST_F(Telling_, WhoPlaysOnIsNotLedOnAndTheLabelGoesByItself) {
     EXPECT_TRUE(nothing());
 }
 
-/// Whatever visitors do: one thing at a time, no voice without its caption, portions in their order, and an end.
+/// For any behaviour of visitors: one thing at a time, no voice without its caption, portions in order, and an end.
 TEST_F(Telling_, HoldsItsPromisesForVisitorsWhoDoAnything) {
     std::mt19937 random(5);
     const std::array tellables{&both, &hotspots_alone, &description_alone};

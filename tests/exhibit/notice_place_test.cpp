@@ -1,4 +1,4 @@
-// A notice's pictures, set of letters that can be counted, and where they come to lie on the table.
+// A notice's pictures, with letters that can be counted, and their places on the table.
 #include "app/exhibit/notice_place.h"
 #include "app/typography/ring.h"
 #include "app/typography/visitor_side.h"
@@ -35,7 +35,7 @@ NoticePicture draw(const NoticeText& text, TextDirection direction = TextDirecti
     return draw_notice(text, text, {words.runs, words.atlas, typesetter(), texels_per_m});
 }
 
-/// Solid squares of half the type size: their area in type sizes is a quarter each.
+/// The number of solid squares of half the type size: each has the area of a quarter of an em square.
 double squares_in(const Image<std::uint8_t>& image) {
     const double em_px = min_caption_em_m * texels_per_m;
     double light = 0.0;
@@ -44,7 +44,7 @@ double squares_in(const Image<std::uint8_t>& image) {
     }
     return light / (0.25 * em_px * em_px);
 }
-/// Of the columns [first, end), as shares of the picture's width.
+/// The light in the columns [first, end), given as fractions of the picture's width.
 double light_between(const Image<std::uint8_t>& image, double first, double end) {
     double light = 0.0;
     for (int y = 0; y < image.height; ++y) {
@@ -62,7 +62,7 @@ TEST(NoticeImage, every_shape_has_all_letters) {
         const NoticePicture picture = draw(copying, direction);
         ASSERT_EQ(picture.shapes.size(), 4U);
         for (const NoticeShape& shape : picture.shapes) {
-            // In the narrowest shape sentences are no larger than lines.
+            // In the narrowest shape, sentences are no larger than lines.
             const double em = &shape == &picture.shapes.back() ? 1.0 : caption_title_em;
             EXPECT_NEAR(squares_in(shape.image.coverage), 14.0 * em * em, 0.055 * 14.0 * em * em);
             ASSERT_TRUE(shape.ring_m);
@@ -99,7 +99,7 @@ TEST(NoticeImage, titles_stand_where_the_reader_begins) {
     NoticeText lines = told;
     lines.lines = {{"IIIII", "", "stick.taken"}};
     lines.sentences.clear();
-    // Words alone are fainter than titles and have solid letters: their light is known.
+    // Words are fainter than titles and have solid letters, so their light is known.
     const double word = 3 * 0.8 * 0.25 * std::pow(min_caption_em_m * texels_per_m, 2);
     const Image<std::uint8_t> to_right = draw(lines).shapes[0].image.coverage;
     const Image<std::uint8_t> to_left = draw(lines, TextDirection::RightToLeft).shapes[0].image.coverage;
@@ -249,7 +249,7 @@ TEST(NoticePlace, it_gives_way_to_what_comes) {
     EXPECT_TRUE(table.wait(milliseconds(800), notice));
 }
 
-/// The only room is where the prop comes by, every 0.6 s.
+/// The only room is where the prop passes, every 0.6 s.
 TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     const SharedNotice small = notice_of({{0.2, 0.05}});
     Table table;
@@ -258,7 +258,7 @@ TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     ASSERT_TRUE(table.wait(milliseconds(600), small));
     int comes = 0;
     bool lit = true;
-    for (int k = 0; k < 495; ++k) { // the last time it is in the way
+    for (int k = 0; k < 495; ++k) { // in the last frame the prop is in the way
         table.pose.translation.y = k % 30 < 15 ? -0.1 : 0.0;
         const bool now_lit = table.wait(milliseconds(20), small).has_value();
         comes += now_lit && !lit ? 1 : 0;
@@ -272,7 +272,7 @@ TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     ASSERT_TRUE(again);
     EXPECT_EQ(again->brightness, 1.0);
     for (int k = 0; k < 200;
-         ++k) { // it stays while it fits: the prop comes nearer and goes, and leaves it room
+         ++k) { // the notice stays while it fits: the prop approaches and leaves, with enough room
         table.pose.translation.y = k % 30 < 15 ? -0.003 : 0.0;
         const auto stays = table.wait(milliseconds(20), small);
         ASSERT_TRUE(stays);
@@ -320,7 +320,7 @@ TEST(NoticePlace, the_ring_lies_in_the_picture_for_every_reader) {
     }
 }
 
-/// A prop that is slid and turned anywhere, and things that come and go: a lit notice is never on any of them.
+/// The prop slides and turns anywhere and things come and go: a lit notice never overlaps any of them.
 TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) {
     const std::array<SharedNotice, 3> notices{notice_of({{0.3, 0.1}, {0.15, 0.2}, {0.08, 0.1}}),
                                               notice_of({{0.25, 0.04}, {0.1, 0.08}}), nullptr};
@@ -362,7 +362,7 @@ TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) 
             ++lit;
             EXPECT_GT(clearance(shown->rectangle.corners(), table.environment().shadow->corners()), 0.0);
             for (std::size_t each = 0; each < table.obstacles.size(); ++each) {
-                if (table.now - came[each] > milliseconds(300)) { // it had the time to leave
+                if (table.now - came[each] > milliseconds(300)) { // long enough to have faded
                     EXPECT_FALSE(touch(shown->rectangle, table.obstacles[each]));
                 }
             }

@@ -1,4 +1,4 @@
-// What is in the prop's place while the chosen artifact is not there yet.
+// The picture in the prop's place while the chosen artifact is not ready.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
@@ -20,7 +20,7 @@ TableRectangle square(const glm::dvec2& centre_m, double side_m) {
     return {centre_m, glm::dvec2(side_m), 0};
 }
 
-/// Artifact 1 stays; 4 is chosen, and not there.
+/// Artifact 1 is shown; 4 is chosen and not ready.
 Placeholder::Input leaving_for_4(double brightness) {
     Placeholder::Input input;
     input.shown = {1, brightness, "en", brightness, true, true};
@@ -49,7 +49,7 @@ TEST(Placeholder, GrowsFromItsPlaceOnTheTableIntoTheProps) {
         EXPECT_GE(shown->rectangle.size_m.x, side_m);
         EXPECT_NEAR(shown->brightness, input.shown_ready ? 1.0 - input.shown.brightness : 1.0, 1e-12);
         side_m = shown->rectangle.size_m.x;
-        // On the straight line between the two places, as far along as it has grown.
+        // On the straight line between the two places, at the share by which it has grown.
         const double share = (side_m - 0.06) / 0.10;
         EXPECT_NEAR(shown->rectangle.centre_m.x, 0.3 - 0.4 * share, 1e-12);
     }
@@ -154,7 +154,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
     EXPECT_EQ(shown.artifact, 2U);
     EXPECT_EQ(shown.brightness, 1.0);
     EXPECT_FALSE(shown.placeholder);
-    // And with nothing else left:
+    // And with no other artifact left:
     states[2] = ArtifactState::LeftOut;
     exhibit.note(states);
     for (int k = 0; k < 240; ++k, now += frame) {
@@ -165,7 +165,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
     EXPECT_EQ(last.lamps & 3U, 0U);
 }
 
-/// The artifact and the picture in its place light the same part of the table; both as white as can be, or one dark.
+/// The artifact and the picture in its place light the same part of the table; both are fully white, or one is dark.
 TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWhateverComes) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
@@ -178,7 +178,7 @@ TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWha
         MonotonicTime now = start;
         std::size_t shown_now = 0;
         for (; now < start + seconds(20); now += frame) {
-            for (std::size_t k = 0; k < states.size(); ++k) { // they come, and those not shown go
+            for (std::size_t k = 0; k < states.size(); ++k) { // artifacts come and go
                 if (random() % 60 == 0) {
                     states[k] = states[k] == ArtifactState::Ready && k != shown_now ? ArtifactState::Away
                                                                                     : ArtifactState::Ready;

@@ -1,4 +1,4 @@
-// What the exhibit does for nobody, and what it does when the tracker fails a visitor.
+// The exhibit without visitors, and when the tracker fails a visitor.
 
 #include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
@@ -44,7 +44,7 @@ protected:
     }
     void SetUp() override { tracked_state.eye_m = {0.0, -0.55, 0.5}; }
 
-    /// Goes on for so long; `lost`: nobody knows where the prop is.
+    /// Runs for `time`; with `lost`, the prop's pose is unknown.
     void wait(Nanoseconds time, std::span<const Command> commands = {}) {
         const MonotonicTime end = now + time;
         for (std::span<const Command> pressed = commands; now < end; pressed = {}) {
@@ -60,7 +60,7 @@ protected:
     }
     void slide(double x_m) { tracked_state.table_from_prop.translation.x = x_m; }
     void lose() { lost = now; }
-    /// The key of the sentence on the table; empty: there is none.
+    /// The key of the sentence on the table; empty: none.
     [[nodiscard]] std::string text() const { return shown.advice ? keys.at(shown.advice->word.text) : ""; }
 
     TrackedState tracked_state;
@@ -76,7 +76,7 @@ TEST_F(RestTest, NobodyIsThereAtFirst) {
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::Attract);
     EXPECT_EQ(text(), "attract_line");
-    EXPECT_EQ(shown.advice->word.language, 1U); // the house's
+    EXPECT_EQ(shown.advice->word.language, 1U); // the house's language
     EXPECT_EQ(shown.advice->brightness, 1.0);
 }
 
@@ -130,7 +130,7 @@ TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
     EXPECT_EQ(shown.advice->word.language, 1U);
 }
 
-/// A tracker's noise at rest is nobody; a sentence that is spoken while the visitor goes is left.
+/// A tracker's noise at rest does not count as a visitor; a sentence being spoken ends when the visitor goes.
 TEST_F(RestTest, WhoeverGoesIsNotCalledBack) {
     wait(seconds(1));
     slide(0.3); // dark
@@ -165,7 +165,7 @@ TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
     EXPECT_EQ(text(), "");
 }
 
-/// The artifact turns, and the words beside it lie still.
+/// The artifact turns, and the words beside it do not move.
 TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
     wait(seconds(1));
     slide(0.02);
@@ -192,7 +192,7 @@ TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
     EXPECT_TRUE(shown.attracts);
     EXPECT_EQ(text(), "attract_line");
     wait(seconds(1),
-         std::array{Command::NextArtifact}); // nobody knows where the prop is, but somebody is there
+         std::array{Command::NextArtifact}); // the prop's pose is unknown, but a visitor is present
     EXPECT_EQ(shown.state, State::Degraded);
 }
 
@@ -225,7 +225,7 @@ TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
     EXPECT_FALSE(shown.sign);
     slide(0.3);
     wait(seconds(1));
-    EXPECT_TRUE(shown.sign); // a dark face goes first
+    EXPECT_TRUE(shown.sign); // a dark face has priority
 }
 
 TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
@@ -235,7 +235,7 @@ TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
     wait(seconds(1));
     tracked_state.head_known = false;
     wait(seconds(10));
-    EXPECT_EQ(shown.state, State::View); // gone, or waiting
+    EXPECT_EQ(shown.state, State::View); // the visitor is gone, or waiting
     slide(0.04);
     wait(seconds(3));
     EXPECT_EQ(shown.state, State::Guide);

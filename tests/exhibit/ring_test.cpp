@@ -1,4 +1,4 @@
-// The ring beside the prop's shadow: where it lies, which way it fills, and how much of it.
+// The ring beside the prop's shadow: its place, its direction of filling, and its filled share.
 
 #include "app/typography/ring.h"
 #include "app/typography/visitor_side.h"
@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<glm::dvec2> wide{{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}};
 
-/// The smallest polygon around some points on a circle that is a little out of the middle.
+/// A polygon around some points on a circle that is slightly off the middle.
 TablePolygon some_shadow(std::mt19937& random) {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     const glm::dvec2 middle(0.2 * u(random), 0.1 * u(random));
@@ -28,7 +28,7 @@ TablePolygon some_shadow(std::mt19937& random) {
     return shadow;
 }
 
-/// Along the middle of the piece's inner edge; straight, so that corners do not count twice.
+/// The length of the piece's inner edge along its middle; straight, so that corners do not count twice.
 double length_of(const RingPiece& piece) {
     return glm::distance(piece.corners_m[2], piece.corners_m[3]);
 }
@@ -58,7 +58,7 @@ TEST(Ring, FillsAsMuchAsItIsToldBesideTheShadowOfAnyShape) {
                 EXPECT_LE(off, 4.0 * (ring_gap_m + ring_width_m) + 1e-9);
             }
         }
-        for (std::size_t piece = 0; piece + 1 < ring.count; ++piece) { // one after the other, and joined
+        for (std::size_t piece = 0; piece + 1 < ring.count; ++piece) { // pieces are joined
             EXPECT_EQ(ring.all[piece].corners_m[1], ring.all[piece + 1].corners_m[0]);
             EXPECT_TRUE(ring.all[piece].filled || !ring.all[piece + 1].filled);
         }

@@ -69,7 +69,7 @@ TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
                 selection.take(commands.at(random() % commands.size()), now);
             }
             const Shown shown = selection.at(now);
-            // A cubic ease over 250 ms moves by at most 1.5 / 250 each millisecond.
+            // A cubic ease over 250 ms moves by at most 1.5 / 250 in a millisecond.
             ASSERT_NEAR(shown.brightness, before.brightness, 0.0061) << run << " " << ms;
             ASSERT_NEAR(shown.caption_brightness, before.caption_brightness, 0.0061) << run << " " << ms;
             ASSERT_LE(shown.caption_brightness, shown.brightness);
@@ -88,8 +88,7 @@ TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
     }
 }
 
-/// The picture dims within a few frames, or it is about to change anyway, and it ends where all the presses
-/// lead.
+/// The picture dims within a few frames, or is about to change anyway; it ends where all the presses lead.
 TEST(Selection, APressShowsAtOnceAndNoneIsForgotten) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
@@ -162,7 +161,7 @@ TEST(Selection, TheLanguageButtonGoesThroughTheLanguages) {
 TEST(Selection, ACommandThatIsUndoneLeavesWhatWasThere) {
     const MonotonicTime later = start + std::chrono::seconds(3);
     for (const Command command : {Command::NextArtifact, Command::PreviousArtifact, Command::NextLanguage}) {
-        for (const std::string language : {"en", "fr", "nl"}) { // "nl": no caption has it
+        for (const std::string language : {"en", "fr", "nl"}) { // "nl": no caption in this language
             Selection selection(3, {"en", "de", "fr"}, language, start);
             selection.take(command, start + std::chrono::seconds(1));
             const Shown changed = selection.at(later);

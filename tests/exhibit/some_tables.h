@@ -1,4 +1,4 @@
-/// Tables, props and projectors from a seed.
+/// Random tables, props and projectors from a seed.
 #pragma once
 
 #include "app/exhibit/table_layout.h"
@@ -16,7 +16,7 @@ inline RigidTransform standing(const glm::dvec2& place, double yaw) {
     return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(place, 0.0)};
 }
 
-/// Any table, prop and projector; the picture a little turned and narrower at one end, as measured ones are.
+/// Any table, prop and projector; the picture is slightly turned and narrower at one end, as in measured ones.
 inline TableSetUp some_set_up(std::mt19937_64& random) {
     TableSetUp set_up;
     set_up.artifacts = random() % 31;

@@ -1,4 +1,4 @@
-// The staff's buttons: a table of presses, and every state that four buttons can reach.
+// The staff's buttons: a table of presses, and every state that can be reached with them.
 
 #include "app/exhibit/staff_tool.h"
 
@@ -21,7 +21,7 @@ using std::chrono::seconds;
 
 const MonotonicTime start{seconds(100)};
 
-/// A tool that is played with, as from the exhibit. Letters: 1 to 5 press; F holds the first button, O another.
+/// A tool operated as by the exhibit. Letters: 1 to 5 press; F holds the first button, O another.
 class Played {
 public:
     explicit Played(bool stays = false) : tool(stays) {
@@ -112,7 +112,7 @@ TEST(StaffTool, PressesDoWhatTheTableSays) {
     }
 }
 
-/// On every page and with every number of buttons, in either order, and with another press between.
+/// On every page, with every number of buttons, in either order, and with another press in between.
 TEST(StaffTool, AChordsPressesLeaveNothing) {
     for (const std::size_t buttons : {2U, 3U, 4U, 5U}) {
         const char last = static_cast<char>('0' + buttons);
@@ -138,7 +138,7 @@ TEST(StaffTool, GoesAMinuteAfterTheLastPressAndHalfAnHourAfterItCame) {
     Played played;
     EXPECT_FALSE(played.tool.is_over(start + minutes(1) - milliseconds(1)));
     EXPECT_TRUE(played.tool.is_over(start + minutes(1)));
-    while (played.now < start + minutes(29) + seconds(30)) { // a child that presses and presses
+    while (played.now < start + minutes(29) + seconds(30)) { // a child that keeps pressing
         played.now += seconds(49);
         played.play("1");
         EXPECT_EQ(played.tool.is_over(played.now), played.now >= start + minutes(30));
@@ -149,7 +149,7 @@ TEST(StaffTool, GoesAMinuteAfterTheLastPressAndHalfAnHourAfterItCame) {
     kept.play("2O");
     EXPECT_FALSE(kept.tool.is_over(start + minutes(30) - milliseconds(1)));
     EXPECT_TRUE(kept.tool.is_over(start + minutes(30)));
-    while (kept.now < start + minutes(30)) { // nor does keeping it again and again
+    while (kept.now < start + minutes(30)) { // repeated keeping does not extend it either
         kept.play("2O");
     }
     EXPECT_TRUE(kept.tool.is_over(kept.now));
@@ -180,7 +180,7 @@ TEST(StaffTool, AWhiteAndABlackPictureLoseTheirWordsToBeMeasured) {
     EXPECT_TRUE(words_after(StaffTool::words_stay)) << "the greys keep their numbers";
 }
 
-/// By presses of 50 ms: what is shown changes at most every 350 ms, and ends where the presses lead.
+/// With presses every 50 ms, the shown content changes at most every 350 ms, and ends where the presses lead.
 TEST(StaffTool, WhatIsShownFollowsAtAPaceThatDoesNotFlash) {
     Played played;
     played.play("222");
@@ -214,8 +214,8 @@ TEST(StaffTool, AKeptVolumeIsOneOfItsSteps) {
     }
 }
 
-/// All that five buttons, long presses and the chord can reach: from everywhere the chord's presses are undone, every page but the
-/// last is left by the second button, every page is reached, and no volume is out of its limits.
+/// Everything that five buttons, long presses and the chord can reach: the chord's presses are undone everywhere, the
+/// second button leaves every page but the last, every page is reached, and no volume is out of its limits.
 TEST(StaffTool, EveryStateThatCanBeReachedIsInOrder) {
     using Key = std::tuple<StaffPage, StaffLight, int, bool>;
     const auto key_of = [](const StaffTool& tool) {
@@ -256,7 +256,7 @@ TEST(StaffTool, EveryStateThatCanBeReachedIsInOrder) {
         }
     }
     EXPECT_EQ(pages.size(), staff_page_names.size());
-    // Volumes on and after the page of the sound, lights on their own page, kept or not.
+    // Volumes on and after the sound page, lights on their own page, kept or not.
     EXPECT_EQ(reached.size(), 2U * (1 + 1 + 1 + 3 + 11 + 11 + 11));
 }
 

@@ -1,4 +1,4 @@
-// The table of states, held against one written by hand for this test, and against the page of the documents.
+// The table of states, compared with one written by hand for this test, and with the page in docs.
 
 #include "app/exhibit/states.h"
 #include "app/exhibit/states_page.h"
@@ -17,7 +17,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Where each event leads, in the order of the heads; '.' stays.
+/// The state after each event, in the order of the headings; '.' stays.
 constexpr const char* by_hand =
     "                  attract  view     browse   guide    describe degraded fault    staff\n"
     "rest              .        attract  attract  attract  attract  attract  attract  view\n"
@@ -73,7 +73,7 @@ Observed observed(unsigned bits) {
     return {(bits & 1U) != 0, (bits & 2U) != 0, (bits & 4U) != 0, false, (bits & 8U) != 0, (bits & 16U) != 0};
 }
 
-/// While nothing changes on the table, no state takes turns with another.
+/// While nothing changes on the table, states do not alternate.
 TEST(States, WhatStaysTheCaseComesToRest) {
     for (const StateNote& note : state_notes) {
         for (unsigned bits = 0; bits < 32; ++bits) {
@@ -105,7 +105,7 @@ TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
         EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::NarrationSequencer)
             << note.name;
     }
-    EXPECT_FALSE(note_of(State::Attract).voice); // nobody is there to hear it
+    EXPECT_FALSE(note_of(State::Attract).voice); // no visitor can hear it
 }
 
 TEST(StatesPage, IsTheOneInTheDocuments) {
@@ -114,7 +114,7 @@ TEST(StatesPage, IsTheOneInTheDocuments) {
     EXPECT_EQ(states_page(), committed) << "write it again: frustumscreen states > docs/states.md";
 }
 
-/// The committed page, against the table by hand.
+/// The committed page, compared with the hand-written table.
 TEST(StatesPage, LeadsWhereItShould) {
     std::ifstream file(source_dir() + "/docs/states.md", std::ios::binary);
     const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -131,7 +131,7 @@ TEST(StatesPage, LeadsWhereItShould) {
     EXPECT_EQ(rows, event_count + 1);
 }
 
-/// The picture's edges are those of the graph that it was drawn from.
+/// The picture has the edges of the graph from which it was drawn.
 TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
     std::ifstream file(source_dir() + "/docs/states.svg", std::ios::binary);
     const std::string svg{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

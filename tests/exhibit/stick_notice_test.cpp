@@ -1,4 +1,4 @@
-// What is told of a stick, and for how long, by reports that an importer might write and by presses.
+// The notice about a stick, and its duration, for reports that an importer might write and for presses.
 #include "app/exhibit/stick_notice.h"
 #include "tests/exhibit/block_words.h"
 
@@ -47,7 +47,7 @@ TEST(NoticeText, each_stage_has_its_sentence_and_its_ring) {
     ImportReport failed = report_of("a", ImportStage::Failed);
     failed.refusal = ImportRefusal::NoRoom;
     EXPECT_EQ(notice_text(failed), (NoticeText{{"stick.refused.no_room", "stick.take_out"}, {}, false}));
-    failed.refusal = ImportRefusal::Unreadable; // whoever pulled it out is not asked to take it out
+    failed.refusal = ImportRefusal::Unreadable; // a stick that was pulled out need not be taken out
     EXPECT_EQ(notice_text(failed).sentences, (Keys{"stick.refused.unreadable"}));
 }
 
@@ -187,7 +187,7 @@ TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
         notice.take(start, report_of("a", stage), true);
         EXPECT_FALSE(notice.at(start));
         EXPECT_FALSE(notice.press(start));
-        notice.take(start, report_of("b", stage), false); // quicker than anybody looks
+        notice.take(start, report_of("b", stage), false); // faster than a person can see
         EXPECT_TRUE(notice.at(start));
     }
     StickNotice notice;
@@ -201,7 +201,7 @@ TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
     StickNotice notice;
     notice.take(start, report_of("a", ImportStage::Copying, 20), false);
     const MonotonicTime renewed = start + seconds(20);
-    notice.take(renewed, report_of("a", ImportStage::Copying, 20), false); // the same again
+    notice.take(renewed, report_of("a", ImportStage::Copying, 20), false); // the same report again
     EXPECT_FALSE(notice.at(start + seconds(30) - milliseconds(1))->stopped);
     EXPECT_TRUE(notice.at(start + seconds(30))->stopped);
     EXPECT_FALSE(notice.at(start + seconds(30))->ring);
@@ -229,7 +229,7 @@ TEST(StickNotice, sizes_that_lie_break_nothing) {
     EXPECT_EQ(*notice.at(start + seconds(1))->ring, 0.0);
 }
 
-/// Any reports in any order, and presses; the ring's end goes no quicker than a smooth step of 0.3 s.
+/// Any reports in any order, and presses; the ring's end moves no faster than a smooth step of 0.3 s.
 TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_ever) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         std::mt19937 random(seed);

@@ -32,7 +32,7 @@ struct Visitor {
         input.prop_m = at;
         input.shadow = hidden_by_prop(set_up.prop, {{1, 0, 0, 0}, glm::dvec3(at, 0.0)}, set_up.lens_m);
     }
-    /// What is chosen comes into the prop.
+    /// The chosen artifact comes into the prop.
     void wait(double seconds) {
         for (double s = 0.0; s < seconds; s += 1.0 / 60.0) {
             now += std::chrono::microseconds(16667);
@@ -77,10 +77,10 @@ TEST(TableBrowser, ShowsAllOthersAndWhatIsRestedOnComesIntoTheProp) {
     EXPECT_EQ(visitor.input.artifact, 4U);
     visitor.put({0.0, 0.0});
     visitor.wait(1.0);
-    // Only one picture went and one came; all lie where they lay.
+    // One picture went and one came; all others stayed in place.
     EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{0, 1, 2, 3, 5}));
     EXPECT_EQ(visitor.picture_of(0).place.picture.centre_m, place_of_first);
-    // Its own place is empty: nothing is chosen there.
+    // The chosen one's own place is empty: nothing is chosen there.
     visitor.put(place_of_fifth);
     visitor.wait(3.0);
     EXPECT_EQ(visitor.input.artifact, 4U);
@@ -96,7 +96,7 @@ TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
     std::set<std::size_t> seen = visitor.bright();
     for (std::size_t page = 1; page < pages; ++page) {
         visitor.put(visitor.picture_of(std::nullopt).place.picture.centre_m);
-        visitor.wait(4.0); // once: it must be left before it leads on again
+        visitor.wait(4.0); // one page: the prop must leave the place before it leads on again
         visitor.put({0.0, 0.0});
         visitor.wait(0.6);
         const std::set<std::size_t> more = visitor.bright();
@@ -105,7 +105,7 @@ TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
         EXPECT_EQ(visitor.input.artifact, 0U);
     }
     EXPECT_EQ(seen.size(), 49U); // all but the one in the prop
-    visitor.input.artifact = 30; // a button
+    visitor.input.artifact = 30; // chosen with a button
     visitor.wait(1.0);
     const std::size_t page = layout.page_of(30);
     for (const std::size_t artifact : visitor.bright()) {
@@ -133,7 +133,7 @@ TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
     EXPECT_EQ(visitor.browser.obstacles().size(), lay_out_table(visitor.set_up, 3).places.size());
 }
 
-/// Whatever happens, no picture jumps: it dims at most as fast as its fade and the prop's shadow do.
+/// No picture jumps: it dims at most as fast as its fade and the prop's shadow.
 TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
     std::mt19937_64 random(41);
     Visitor visitor(30);
@@ -170,7 +170,7 @@ TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
     }
 }
 
-/// It glides to and fro over one picture: that one dims once, without a jump, and comes back when the sign goes.
+/// The sign glides to and fro over one picture: it dims once, without a jump, and brightens when the sign goes.
 TEST(TableBrowser, PicturesUnderASignDim) {
     Visitor visitor(6);
     visitor.wait(0.6);
@@ -180,7 +180,7 @@ TEST(TableBrowser, PicturesUnderASignDim) {
     for (int k = 0; k < 600; ++k) {
         const bool signs = k < 420;
         const double glides =
-            std::sin(k * 2.0 * 3.14159 / 108.0); // it is beside the picture for half of the time
+            std::sin(k * 2.0 * 3.14159 / 108.0); // the sign is beside the picture for half of the time
         const double below = 0.5 * under.size_m.y + 0.026 + 0.02 - 0.02 * glides;
         const TableRectangle sign{under.centre_m - glm::dvec2(0.0, below), glm::dvec2(0.04)};
         visitor.input.sign = signs ? std::optional(polygon_of(sign)) : std::nullopt;

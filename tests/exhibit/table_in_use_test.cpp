@@ -1,4 +1,4 @@
-// What lies on the table once it is laid out: beside a caption, and while the prop moves over it.
+// The laid-out table in use: beside a caption, and while the prop moves over it.
 #include "app/exhibit/table_layout.h"
 #include "app/typography/captions.h"
 #include "tests/exhibit/some_tables.h"
@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// The area that is left for the caption is where it finds room.
+/// A caption finds room in the area that is left for it.
 TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
     std::mt19937_64 random(17);
     int tried = 0;
@@ -42,7 +42,7 @@ TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
     EXPECT_GT(tried, 80);
 }
 
-/// The picture under the prop dims as the prop comes, without a jump, and the others stay.
+/// The picture under the prop dims without a jump as the prop approaches, and the others stay.
 TEST(TableInUse, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
     TableSetUp set_up;
     set_up.artifacts = 12;

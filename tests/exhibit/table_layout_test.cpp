@@ -101,7 +101,7 @@ TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
             EXPECT_GE(place.picture.size_m.x, min_table_picture_m);
             EXPECT_LE(place.picture.size_m.x, max_table_picture_m + 1e-12);
             EXPECT_EQ(place.picture.size_m, layout.places.front().picture.size_m);
-            // The reader sees the title below the picture.
+            // For the reader the title lies below the picture.
             const glm::dvec2 down = turned(place.title.centre_m - place.picture.centre_m, -side);
             EXPECT_LT(down.y, 0.0);
             EXPECT_NEAR(down.x, 0.0, 1e-12);
@@ -113,7 +113,7 @@ TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
             FAIL() << "set-up " << k;
         }
     }
-    // The test tests what it means to: tables of all kinds.
+    // The test covers what it should: tables of all kinds.
     EXPECT_GT(by_places[0], tables / 48);
     EXPECT_LT(by_places[0], tables / 3);
     EXPECT_GT(by_places[12], tables / 16);
@@ -140,7 +140,7 @@ TEST(TableLayout, IsTheSameWheneverItIsMade) {
     }
 }
 
-/// A table that looks alike from two sides, or from four, is laid out alike for the readers there.
+/// A table that looks alike from two or four sides is laid out alike for the readers there.
 TEST(TableLayout, ReadersOnOppositeSidesSeeTheSame) {
     TableSetUp set_up;
     set_up.artifacts = 9;
@@ -176,7 +176,7 @@ TableSetUp shipped_table(const char* name, std::size_t artifacts) {
     return set_up;
 }
 
-/// How many places have no mirror image about the line on which the reader sees the prop.
+/// Number of places without a mirror image about the line on which the reader sees the prop.
 std::size_t places_without_image(const TableSetUp& set_up, const TableLayout& layout, int side) {
     const double line = turned(set_up.home_m, -side).x;
     const auto as_seen = [&](const TablePlace& place) { return turned(place.picture.centre_m, -side); };
@@ -217,7 +217,7 @@ TEST(TableLayout, IsSymmetricAboutTheReadersViewOfTheProp) {
     EXPECT_GT(symmetric, laid_out * 8 / 10);
 }
 
-/// Seen from the front of the shipped table, the rows lie at one distance, and so do the columns beside the prop.
+/// From the front of the shipped table, the rows have one distance, and so do the columns beside the prop.
 TEST(TableLayout, GapsAreEvenOnTheShippedTable) {
     for (std::size_t artifacts = 2; artifacts <= 12; ++artifacts) {
         const TableSetUp set_up = shipped_table("kiosk", artifacts);
@@ -282,10 +282,10 @@ TEST(TableLayout, ATableWithoutRoomHasNoPlaces) {
     EXPECT_EQ(lay_out_table(set_up, 0).pages(), 0U);
     set_up.picture_m = {{-0.6, -0.5}, {0.6, -0.5}, {0.6, 0.5}, {-0.6, 0.5}};
     EXPECT_EQ(lay_out_table(set_up, 0).places.size(), 5U);
-    set_up.lens_m.z = 0.1; // lower than the prop: its shadow has no end
+    set_up.lens_m.z = 0.1; // lower than the prop: its shadow is infinite
     EXPECT_TRUE(lay_out_table(set_up, 0).places.empty());
     set_up.lens_m.z = 1.5;
-    set_up.artifacts = 1; // no other
+    set_up.artifacts = 1; // no other artifact
     EXPECT_TRUE(lay_out_table(set_up, 0).places.empty());
 }
 

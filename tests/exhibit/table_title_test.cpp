@@ -1,4 +1,4 @@
-// Titles below pictures: two lines at most, none wider than a place allows, cut where they would be.
+// Titles below pictures: at most two lines, none wider than a place allows; longer ones are cut.
 
 #include "app/typography/captions.h"
 #include "app/typography/table_title.h"
@@ -23,7 +23,7 @@ struct Squares {
         runs.atlas_width = runs.atlas_height = 12;
         runs.boxes = {{2, 2, 4, 4, 0, 4}, {}};
     }
-    /// On one line: a letter where `text` has one.
+    /// A title on one line, with a letter wherever `text` has one.
     static GlyphText title(std::string_view text, TextDirection direction = TextDirection::LeftToRight) {
         GlyphSetting setting;
         setting.limit = 36 * em_units;
@@ -37,7 +37,7 @@ struct Squares {
     }
 };
 
-/// Letters in each of the two lines; columns of light that are apart.
+/// The number of letters in each of the two lines: separate columns of light.
 std::array<int, 2> letters_in(const CaptionImage& title) {
     std::array<int, 2> letters{};
     for (int line = 0; line < 2; ++line) {
@@ -71,7 +71,7 @@ TEST(TableTitle, IsBrokenWhereItsLinesAreAboutEqual) {
     EXPECT_EQ(letters_in(title), (std::array<int, 2>{5, 6}));
     EXPECT_LE(title.size_m.y, 0.022 + 0.5 / texels_per_m);
     EXPECT_LE(title.size_m.x, table_title_width_m);
-    // What is read from the right has its first word at the right end: the right part is the first line.
+    // In right-to-left text the first word is at the right end, so the right part is the first line.
     const CaptionImage arabic =
         make_table_title(squares.runs, squares.atlas,
                          Squares::title("abc de fghij k", TextDirection::RightToLeft), texels_per_m);

@@ -54,7 +54,7 @@ TEST_F(Text, LinesAreBrokenAtSpacesWithinTheWidth) {
     EXPECT_LE(image.width, 124);
     const Image<std::uint8_t> flat = typesetter->set(std::span(&words, 1), 1e9);
     EXPECT_GT(image.height, 2 * flat.height);
-    // Every letter is still there.
+    // No letter is missing.
     EXPECT_NEAR(static_cast<double>(ink(image)), static_cast<double>(ink(flat)),
                 0.02 * static_cast<double>(ink(flat)));
 }
@@ -67,7 +67,7 @@ TEST_F(Text, AWordLongerThanTheLineIsBrokenAndALineBreakBreaks) {
     EXPECT_GT(typesetter->set(std::span(&two, 1), 1000.0).height,
               typesetter->set(std::span(&one, 1), 1000.0).height);
     const Paragraph thin{"abc", 20.0};
-    EXPECT_GT(typesetter->set(std::span(&thin, 1), 1.0).height, 60); // one letter on each line, and an end
+    EXPECT_GT(typesetter->set(std::span(&thin, 1), 1.0).height, 60); // one letter a line, and it terminates
 }
 
 TEST_F(Text, NothingIsAnEmptyPicture) {

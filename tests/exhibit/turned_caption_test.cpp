@@ -1,4 +1,4 @@
-// A caption turns to the side that the visitor reads from.
+// A caption turns to the visitor's side.
 
 #include "app/typography/captions.h"
 
@@ -29,7 +29,7 @@ struct Reader {
     }
 };
 
-/// From the table's middle to the edge that a reader stands at, and to the reader's right.
+/// The directions from the table's middle to the reader's edge, and to the reader's right.
 struct Side {
     glm::dvec2 near, right;
 };

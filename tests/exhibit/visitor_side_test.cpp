@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Counter-clockwise from the front edge.
+/// The eye's position, counter-clockwise from the front edge.
 glm::dvec3 eye_at(double degrees_from_front, double distance_m = 0.8) {
     const double azimuth = (degrees_from_front - 90.0) * std::numbers::pi / 180.0;
     return {distance_m * std::cos(azimuth), distance_m * std::sin(azimuth), 0.5};

@@ -1,4 +1,4 @@
-// A million things (fewer under the sanitizers) happen to the exhibit in any order; what must hold does, at each of them.
+// A million random events (fewer under the sanitizers), with the exhibit's invariants checked after each.
 
 #include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
@@ -90,7 +90,7 @@ Exhibit walked_exhibit() {
     return {walked_catalogue(), walked_place(), "en", sample::start};
 }
 
-/// Speaks descriptions as a sound card does, or not at all, or one that it never ends.
+/// Plays descriptions like a sound card, or plays nothing, or plays one that never ends.
 class Narrator {
 public:
     static constexpr Nanoseconds portion = seconds(4);
@@ -135,14 +135,14 @@ bool finite(const glm::dvec3& v) {
 }
 
 bool a_share(double value) {
-    return value >= 0.0 && value <= 1.0; // and no NaN
+    return value >= 0.0 && value <= 1.0; // false for NaN
 }
 
 class Walk {
 public:
     explicit Walk(std::uint64_t seed) : random_(seed) { tracked_state_.eye_m = {0.0, -0.55, 0.5}; }
 
-    /// One thing happens, or only time passes.
+    /// One event, or only time passes.
     void step() {
         commands_.clear();
         const double dice = random_.between(0.0, 1.0);
@@ -170,11 +170,12 @@ public:
         go_on(time_to_pass());
     }
 
-    /// Nobody does anything: in the end the exhibit attracts.
+    /// Without events, the exhibit ends in State::Attract.
     void rest() {
         commands_.clear();
         packs_.fill(ArtifactState::Ready);
-        // A minute of staff, then the rest; who is told something is there, at most until that has its longest time.
+        // A minute of the staff's picture, then the rest; narration counts as presence, until it reaches its longest
+        // time.
         for (int k = 0; k < 95 || (k < 400 && shown_.state != State::Attract); ++k) {
             go_on(seconds(1));
         }
@@ -197,7 +198,7 @@ private:
         return milliseconds(static_cast<int>(ms));
     }
 
-    /// Somewhere on the table, onto one of its pictures, or now and then as somebody may leave it.
+    /// Moves the prop to some place on the table, onto a picture, or sometimes to an odd pose.
     void move_prop() {
         moved_ = true;
         RigidTransform& pose = tracked_state_.table_from_prop;
@@ -212,7 +213,7 @@ private:
             pose = {{1.0, 0.0, 0.0, 0.0}, {random_.between(-0.1, 0.1), random_.between(-0.05, 0.05), 0.0}};
         }
     }
-    /// One pack turns out bad, or is there again; now and then all do.
+    /// One pack becomes bad or good again; sometimes all of them do.
     void change_packs() {
         const bool all = random_.happens(0.1);
         const auto which =
@@ -220,7 +221,7 @@ private:
         const ArtifactState state = random_.happens(0.4) ? ArtifactState::LeftOut : ArtifactState::Away;
         all ? packs_.fill(state) : void(packs_[which] = state);
     }
-    /// What is wanted comes after a while, and what nobody wants may go.
+    /// Wanted packs are loaded after a while, and unwanted ones may be released.
     void load_packs() {
         for (const std::size_t wanted : shown_.wanted.artifacts()) {
             if (packs_[wanted] == ArtifactState::Away && random_.happens(0.02)) {
@@ -271,12 +272,12 @@ private:
         check_picture(watched);
     }
 
-    /// What is said lies on the table in words; when these go, it is left.
+    /// Spoken sentences are visible as words; when the words go, the speech ends.
     void check_sound(bool watched) {
         if (shown_.falls_silent) {
             sounds_.reset();
         }
-        // Words fade in, and go elsewhere where the prop was put on them.
+        // Words fade in, and move when the prop was put on them.
         note_since(mute_since_, sounds_ && !shown_.advice && !moved_, watched);
         EXPECT_TRUE(!mute_since_ || now_ - *mute_since_ < milliseconds(500)) << "a voice without its words";
         moved_ = false;
@@ -291,13 +292,13 @@ private:
             << "a voice under other words";
     }
 
-    /// Since when something is the case without a pause in which nobody watched.
+    /// Since when a condition has held without a gap in the observation.
     using Since = std::optional<MonotonicTime>;
     void note_since(Since& since, bool is, bool watched) const {
         since = !is ? std::nullopt : since && watched ? since : Since(now_);
     }
 
-    /// What is told is told in words too, and no longer than it may be.
+    /// A description that is heard is also shown, and lasts no longer than allowed.
     void check_description(bool watched) {
         const bool read = shown_.caption && shown_.caption->portion;
         described += shown_.state == State::Describe && read && narrator_.heard() ? 1 : 0;
@@ -313,7 +314,7 @@ private:
             << "a description that does not end";
     }
 
-    /// Nothing is shown of what is left out, and where nothing is left, words say so.
+    /// Left-out artifacts are not shown, and if none is left, words say so.
     void check_packs(bool watched) {
         note_since(left_out_since_, packs_.at(shown_.artifact) == ArtifactState::LeftOut && offered() > 0,
                    watched);
@@ -337,7 +338,7 @@ private:
         EXPECT_TRUE(a_share(shown_.brightness));
         EXPECT_TRUE(finite(shown_.table_from_prop.translation));
         EXPECT_NEAR(glm::length(shown_.table_from_prop.rotation), 1.0, 1e-6);
-        // The artifact is dark for no longer than two fades, as far as somebody watches without a pause.
+        // The artifact is dark for at most two fades, as far as it is observed without a gap.
         const bool dark =
             shown_.brightness + (shown_.placeholder ? shown_.placeholder->brightness : 0.0) < 0.05;
         note_since(dark_since_, dark && offered() > 0, watched);
@@ -373,7 +374,7 @@ private:
         elsewhere_since_;
 };
 
-/// The sanitizers take ten times as long, and find what they look for in fewer.
+/// Sanitizers take ten times as long, and fewer events are sufficient for them.
 constexpr int events = synthetic::allocations_are_counted ? 1'000'000 : 75'000;
 
 TEST(Walk, EventsFindNothingThatMustNotBe) {

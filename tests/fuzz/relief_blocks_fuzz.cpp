@@ -1,7 +1,7 @@
 // Relief blocks: refused in one line, or written again they give the same bytes, and rasterizing them stays
 // inside their memory.
 #include "app/pack/block_part.h"
-#include "app/relief/cast_blocks.h"
+#include "app/relief/rasterize_blocks.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>
@@ -11,29 +11,29 @@ using namespace frustumscreen;
 namespace {
 
 /// A small number keeps each input fast.
-constexpr std::size_t max_cast_blocks = 64;
+constexpr std::size_t max_rasterized_blocks = 64;
 
 /// From above, at an angle, close enough for the limits of a block to matter.
-CastView view_of_box() {
-    CastScene scene;
+RasterView view_of_box() {
+    RasterScene scene;
     scene.prop_from_box = glm::dmat4(0.1);
     scene.prop_from_box[3][3] = 1.0;
     scene.projector = {32, 24, 60.0, 60.0, 16.0, 12.0};
     scene.prop_from_projector = {{0.0, 1.0, 0.0, 0.0}, {0.02, 0.0, 0.5}}; // looking down
     scene.eye_m = {0.1, -0.3, 0.4};
-    CastView view;
+    RasterView view;
     set_up(view, make_frustum(FrustumSize{}), scene);
     return view;
 }
 
-void require_cast(const BlockRelief& relief) {
-    const CastView view = view_of_box();
+void require_raster(const BlockRelief& relief) {
+    const RasterView view = view_of_box();
     fuzz::require(!view.faces.empty(), "the box is seen");
     BlockItems items;
     list_blocks(items, relief, view);
-    CastSamples samples;
+    RasterSamples samples;
     samples.begin(view.lit, 2);
-    cast(samples, relief, view, items);
+    rasterize(samples, relief, view, items);
     for (std::size_t k = 0; k < samples.nearness.size(); ++k) {
         if (samples.nearness[k] > 0.0F) {
             fuzz::require(samples.block[k] < relief.blocks.size(), "a sample shows a block that is there");
@@ -55,8 +55,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Bytes written = pack_format::encode_blocks(*relief);
     fuzz::require(std::equal(written.begin(), written.end(), bytes.begin(), bytes.end()),
                   "what was read is written again byte for byte");
-    if (relief->blocks.size() <= max_cast_blocks) {
-        require_cast(*relief);
+    if (relief->blocks.size() <= max_rasterized_blocks) {
+        require_raster(*relief);
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// The search for an advice against an exhaustive one, which looks at every move and sequence of the lists and leaves nothing out.
+// The search for an advice, compared with an exhaustive one over every listed move and sequence.
 
 #include "app/guidance/advice_search.h"
 #include "app/guidance/steadiness.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// What is left to find: its cost, for each first move.
+/// The costs found by the exhaustive search, for each first move.
 struct Found {
     struct One {
         Move move;
@@ -39,13 +39,14 @@ struct Found {
     }
 };
 
-/// Six for an end that no small movement leaves whole.
+/// The cost of an end: six for an end that no small movement leaves whole.
 double cost_of_end(const FaceReader& reader, const GuidedState& end) {
     int looks = 0;
     return reader.valid(end) ? 6.0 * (1.0 - steadiness(reader, end, looks)) : never;
 }
 
-/// Single moves that help everybody: their effort, what their end costs, and three for those whom no way leads to a whole picture.
+/// Single moves that always help: their effort, the cost of their end, and three if no execution leads to a whole
+/// picture.
 Found single_moves(const FaceReader& reader, const GuidedState& tracked_state,
                    const std::optional<GivenAdvice>& standing) {
     Found found;
@@ -62,21 +63,21 @@ Found single_moves(const FaceReader& reader, const GuidedState& tracked_state,
     return found;
 }
 
-/// Sequences of moves that are done well.
+/// Sequences of moves that are carried out well.
 Found sequences(const FaceReader& reader, const GuidedState& tracked_state, int length, MoveSet last) {
     const GuidanceSetup& setup = reader.setup();
     Found found;
     for (const Candidate& first :
          candidates(setup, tracked_state, length == 1 ? last : MoveSet::Inner).all()) {
         if (setup.in_hand && stands_elsewhere(first.move)) {
-            continue; // hardly met in the hand; two moves are easier
+            continue; // hard to carry out in the hand; two moves are easier
         }
         const GuidedState next = after(first.move, setup, tracked_state);
         double rest = length == 1 ? cost_of_end(reader, next) : never;
         if (length == 2) {
             for (const Candidate& second : candidates(setup, next, last).all()) {
                 const GuidedState end = after(second.move, setup, next);
-                if (second.effort < rest && reader.valid(end)) { // the end costs at least nothing
+                if (second.effort < rest && reader.valid(end)) { // the cost of the end is at least 0
                     rest = std::min(rest, second.effort + cost_of_end(reader, end));
                 }
             }
@@ -186,10 +187,10 @@ TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
     EXPECT_GT(several, 0);
 }
 
-/// A prop that stands beside a projector which lights nothing: no move helps, and the visitor has to wait.
+/// A projector that lights nothing: no move helps, and the visitor has to wait.
 TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
     GuidanceSetup dark = GetParam()();
-    dark.projector.width = 1; // nothing is in its picture
+    dark.projector.width = 1; // its picture is empty
     dark.projector.height = 1;
     const FaceReader nothing_lit(dark);
     GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
@@ -202,7 +203,7 @@ TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
     EXPECT_EQ(advice->steps, 1);
 }
 
-/// Three and four moves: there is no sequence of two, even with the last move all over the table.
+/// Advice of three or four moves: no sequence of two exists, even with the last move all over the table.
 TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
     int longer = 0;
     for (int k = 0; k < 400 && longer < 3; ++k) {
@@ -222,7 +223,7 @@ TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
     int sought = 0;
     for (int k = 0; k < 12; ++k) {
         search.begin(reader, seeded_situation(reader.setup(), seeded), {});
-        static_cast<void>(search.advance(reader, 500)); // given up
+        static_cast<void>(search.advance(reader, 500)); // abandoned
         const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
         search.begin(reader, tracked_state, {});
         EXPECT_EQ(search.tracked_state().table_from_prop.translation,

@@ -1,4 +1,4 @@
-// Advice, followed as people follow it.
+// Advice, carried out as people do it.
 #include "app/guidance/guide.h"
 #include "guided_props.h"
 
@@ -34,7 +34,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
                 << "situation " << k << ": " << name_of(advice->move.action);
         }
     }
-    EXPECT_GT(single, 80); // both happen
+    EXPECT_GT(single, 80); // both occur
     EXPECT_GT(several, 20);
 }
 
@@ -71,7 +71,7 @@ TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
     Seeded seeded(12);
     int left = 0;
     constexpr int situations = 150;
-    constexpr int max_moves = 12; // of sloppy people; done well it takes up to four
+    constexpr int max_moves = 12; // with sloppy executions; carried out well, at most four are needed
     for (int k = 0; k < situations; ++k) {
         GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
         Advisor advisor(reader.setup());
@@ -88,8 +88,8 @@ TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
     EXPECT_LE(left, situations / 100);
 }
 
-/// Walks the situation in steps of 0.1 degrees or 0.3 mm. Advice may change where the situation does, but it
-/// never comes back to what it was within the next steps.
+/// Walks the situation in steps of 0.1 degrees or 0.3 mm. The advice may change with the situation, but it does not
+/// return to the previous one within the next steps.
 TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
     const FaceReader reader(GetParam()());
     Seeded seeded(13);
@@ -102,7 +102,7 @@ TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
         const glm::dvec3 step = 0.3e-3 * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
         Advisor advisor(reader.setup());
         std::optional<Move> standing;
-        std::optional<Move> before_it; // what stood before the latest change
+        std::optional<Move> before_it; // the standing one before the latest change
         int since_change = 100;
         for (int k = 0; k < 400; ++k) {
             const std::optional<Advice> advice = advisor.advise(tracked_state);
@@ -119,18 +119,18 @@ TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
             tracked_state.table_from_prop.translation += step;
         }
     }
-    EXPECT_GT(changes, 0); // boundaries were walked over
+    EXPECT_GT(changes, 0); // the walk crossed boundaries
 }
 
-/// A dense search for a single slide that helps people who are a little sloppier still: the advice seldom asks for
-/// two moves where there is such a one.
+/// A dense search for a single slide that helps even with slightly larger deviations: if one exists, the advice
+/// seldom takes two moves.
 TEST_P(AdviceOf, IsRarelyLongerThanADenseSearchFinds) {
     const FaceReader reader(GetParam()());
     const GuidanceSetup& setup = reader.setup();
     Seeded seeded(14);
     int several = 0;
     int missed = 0;
-    const int situations = setup.in_hand ? 100 : 1000; // few need several where it stands upright
+    const int situations = setup.in_hand ? 100 : 1000; // few upright props need several
     for (int k = 0; k < situations; ++k) {
         const GuidedState tracked_state = seeded_situation(setup, seeded);
         const std::optional<Advice> advice = advise(reader, tracked_state);

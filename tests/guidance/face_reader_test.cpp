@@ -1,4 +1,4 @@
-// Faces seen and lit: against the definition, corner by corner in table coordinates, and against a ray cast.
+// Faces seen and lit, compared with the definition, corner by corner in table coordinates, and with a ray cast.
 #include "guided_props.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double hair = 1e-9;
 
-/// The least sine of a point's elevation over a face, of all corners; table coordinates.
+/// The least sine of a point's elevation over a face, over all corners; table coordinates.
 double min_sine_over(const GuidedState& tracked_state, const PropFace& face, const glm::dvec3& point) {
     std::array<glm::dvec3, 4> corners{};
     std::transform(face.corners.begin(), face.corners.end(), corners.begin(),
@@ -61,7 +61,7 @@ TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
             ++(is_lit ? lit : dark);
         }
     }
-    EXPECT_GT(lit, 1000); // both happen
+    EXPECT_GT(lit, 1000); // both occur
     EXPECT_GT(dark, 1000);
 }
 
@@ -90,7 +90,7 @@ double traced_px(const GuidanceSetup& setup, const GuidedState& tracked_state, s
 
 TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
     GuidanceSetup setup = GetParam()();
-    // The ray cast knows the solid by its planes; those of the wedge were not moved with its corners.
+    // The ray cast uses the planes; the wedge's planes were not moved with its corners.
     setup.prop.bounds.resize(setup.prop.faces.size());
     for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
         setup.prop.bounds[f] = setup.prop.faces[f].plane;
@@ -105,7 +105,7 @@ TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
         const std::uint32_t seen = reader.read(tracked_state).seen;
         const double traced = traced_px(setup, tracked_state, seen);
         const double area = reader.area_px(tracked_state, seen);
-        // The raster of every fourth pixel is off by about its step along the outline.
+        // A raster of every fourth pixel errs by about its step along the outline.
         EXPECT_NEAR(area, traced, 0.03 * area + 200.0);
         const std::uint32_t largest = reader.largest_of(tracked_state, seen);
         for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {

@@ -1,4 +1,4 @@
-// When advice is given, and how: under a simulated clock.
+// When and in which form advice is given, with a simulated clock.
 #include "app/guidance/guide.h"
 #include "guided_props.h"
 
@@ -71,7 +71,7 @@ TEST_F(GuideTest, IsQuietSoonWhenTheVisitorHasManaged) {
     EXPECT_EQ(at(milliseconds(10250), good).stage, GuidanceStage::Quiet);
 }
 
-/// A tracker's error does not lift a prop, nor press it into the table.
+/// A tracker's error neither lifts a prop nor presses it into the table.
 TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
     for (const double height_m : {-0.006, 0.0, 0.006}) {
         for (const double lean_rad : {0.0, 0.04}) {
@@ -85,7 +85,7 @@ TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
     }
 }
 
-/// A prop that lies a little more in the dark than in the light, or the other way round, as a tracker sees it.
+/// A prop at the border of the light, slightly more in the dark or in the light, with a tracker's noise.
 TEST_F(GuideTest, DoesNotBlinkAtTheBorderOfTheLight) {
     double lit_m = 0.0;
     double dark_m = 0.3;
@@ -124,7 +124,7 @@ TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
 TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
     at(seconds(60), right_of_the_beam, Sensing::Good, false);
     EXPECT_EQ(spoken_, 0);
-    EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it shows
+    EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it is shown
 }
 
 TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
@@ -145,7 +145,7 @@ TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
 }
 
 TEST_F(GuideTest, WaitsWhileItIsFollowed) {
-    // 2 cm each second towards the beam: slow, but followed.
+    // 2 cm a second towards the beam: slow, but the advice is followed.
     for (int k = 0; k < 8; ++k) {
         at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
     }
@@ -171,7 +171,7 @@ TEST_F(GuideTest, TellsTheNextVisitorAnew) {
     const int before = spoken_;
     guide_.forget();
     at(seconds(126), right_of_the_beam);
-    EXPECT_EQ(spoken_, before + 1); // and not after the long pause that the one before had come to
+    EXPECT_EQ(spoken_, before + 1); // without the long pause of the previous advice
 }
 
 TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {

@@ -1,4 +1,4 @@
-/// The props that guidance is tested with: a frustum on a table, a cube in a hand, and any other convex prop.
+/// Props for tests of guidance: a frustum on a table, a cube in a hand, and any other convex prop.
 #pragma once
 
 #include "app/bench/truth/seeded_situations.h"
@@ -16,7 +16,7 @@ inline GuidanceSetup cube_setup() {
     return guidance_setup(cube_in_hand());
 }
 
-/// A wedge: no two of its sides are alike.
+/// A wedge: all of its sides differ.
 inline GuidanceSetup wedge_setup() {
     GuidanceSetup setup = frustum_setup();
     PropShape& prop = setup.prop;

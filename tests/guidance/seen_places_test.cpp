@@ -1,4 +1,4 @@
-// Whether an artifact is seen whole, and how much of it is lost: against rays from the eye.
+// The visibility of an artifact, and how much of it is lost, compared with rays from the eye.
 #include "app/guidance/seen_places.h"
 #include "guided_props.h"
 
@@ -9,7 +9,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A prop, and an artifact in it whose planes a ray cast knows.
+/// A prop, and an artifact in it whose planes the ray cast uses.
 struct Shown {
     GuidanceSetup setup;
     PropShape artifact;
@@ -21,12 +21,12 @@ Shown in_frustum() {
 Shown in_cube() {
     return {cube_setup(), make_frustum({0.05, 0.05, 0.09})};
 }
-/// It reaches out of the prop at the top, which is a window on it there.
+/// An artifact that extends out of the prop at the top, which acts as a window on it.
 Shown beyond_frustum() {
     return {frustum_setup(), make_frustum({0.12, 0.10, 0.16})};
 }
 
-/// The pixels of a pinhole at the eye through which the artifact would be seen, on places that get no light.
+/// The pixels of a pinhole at the eye through which the artifact would be seen, at places without light.
 double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
     const GuidanceSetup& setup = shown.setup;
     const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
@@ -79,7 +79,7 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     const FaceReader reader(shown.setup);
     Seeded seeded(11);
     int whole = 0;
-    int saved = 0; // whole, though a seen face is not all lit
+    int saved = 0; // whole, though a seen face is not entirely lit
     int lost = 0;
     for (int k = 0; k < 600; ++k) {
         const GuidedState tracked_state = seeded_situation(shown.setup, seeded);
@@ -94,7 +94,7 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
         }
         ++lost;
         EXPECT_GT(lost_px, 0.0) << k;
-        // The raster of every fifth pixel is off by about its step along the outline of what is lost.
+        // A raster of every fifth pixel errs by about its step along the outline of the lost area.
         EXPECT_NEAR(lost_px, traced, 0.04 * lost_px + 500.0) << k;
     }
     EXPECT_GT(whole, 20);
@@ -102,7 +102,7 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     EXPECT_GT(lost, 100);
 }
 
-/// An eye on the axis over a square hole, a cube below: small steps of the hole across the cube's silhouette.
+/// An eye on the axis over a square hole, with a cube below: small steps of the hole across the cube's silhouette.
 TEST(SeenPlaces, MeetExactlyWhereTheConesDo) {
     const std::array<glm::dvec3, 8> cube{{{-1, -1, -3},
                                           {1, -1, -3},
@@ -125,7 +125,7 @@ TEST(SeenPlaces, MeetExactlyWhereTheConesDo) {
             EXPECT_NEAR(SeenOutline(eye, {0, 0, -1}, cube).area_through(FacePart(hole)),
                         std::max(0.0, -gap) * 0.2, 1e-12);
         }
-        // A corner of the hole before a corner of the silhouette.
+        // A corner of the hole in front of a corner of the silhouette.
         const double at = 0.5 + gap;
         const std::array<glm::dvec3, 4> diamond{
             {{at, at, 0.0}, {at + 0.2, at - 0.1, 0.0}, {at + 0.2, at + 0.2, 0.0}, {at - 0.1, at + 0.2, 0.0}}};

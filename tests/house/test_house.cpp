@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -154,6 +155,96 @@ TEST(House, NoFileIsTooLongToRead) {
     for (const fs::path& file : files_ending({".h", ".cpp", ".cmake", ".sh"})) {
         EXPECT_LE(lines_of(file).size(), static_cast<std::size_t>(max_lines)) << file;
     }
+}
+
+/// Where a string, a character, a raw string or a comment that begins at `at` ends; `at` where none begins.
+std::size_t end_of_words(const std::string& text, std::size_t at) {
+    const auto behind = [&](const std::string& end, std::size_t from) {
+        const std::size_t found = text.find(end, from);
+        return found == std::string::npos ? text.size() : found + end.size();
+    };
+    const char first = text[at];
+    if (text.compare(at, 2, "R\"") == 0) {
+        const std::size_t open = text.find('(', at);
+        return behind(")" + text.substr(at + 2, open - at - 2) + "\"", open);
+    }
+    if (text.compare(at, 2, "//") == 0) {
+        return behind("\n", at);
+    }
+    if (text.compare(at, 2, "/*") == 0) {
+        return behind("*/", at);
+    }
+    const bool is_digit_separator =
+        first == '\'' && at > 0 && std::isxdigit(static_cast<unsigned char>(text[at - 1])) != 0;
+    if ((first != '"' && first != '\'') || is_digit_separator) {
+        return at;
+    }
+    std::size_t end = at + 1;
+    while (end < text.size() && text[end] != first) {
+        end += text[end] == '\\' ? 2U : 1U;
+    }
+    return end + 1;
+}
+
+/// A file's identifiers: strings and comments are left out.
+std::set<std::string> identifiers_of(const fs::path& file) {
+    std::ifstream stream(fs::path(frustumscreen::source_dir()) / file);
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    const auto is_word = [&](std::size_t k) {
+        return std::isalnum(static_cast<unsigned char>(text[k])) != 0 || text[k] == '_';
+    };
+    std::set<std::string> found;
+    for (std::size_t at = 0; at < text.size();) {
+        if (const std::size_t end = end_of_words(text, at); end != at) {
+            at = end;
+            continue;
+        }
+        const std::size_t begin = at;
+        while (at < text.size() && is_word(at)) {
+            ++at;
+        }
+        if (at > begin) {
+            found.insert(text.substr(begin, at - begin));
+        } else {
+            ++at;
+        }
+    }
+    return found;
+}
+
+/// The words behind 'Identifiers do not use' in docs/glossary.md, each in backquotes; with `_` at its end it is a prefix.
+std::vector<std::string> words_not_used() {
+    std::vector<std::string> words;
+    for (const std::string& line : lines_of("docs/glossary.md")) {
+        if (line.starts_with("Identifiers do not use")) {
+            static const std::regex quoted("`(\\w+)`");
+            for (std::sregex_iterator match(line.begin(), line.end(), quoted), end; match != end; ++match) {
+                words.push_back((*match)[1]);
+            }
+        }
+    }
+    return words;
+}
+
+TEST(House, NoIdentifierUsesAWordThatTheGlossaryReplaces) {
+    const std::vector<std::string> words = words_not_used();
+    ASSERT_GE(words.size(), 10U);
+    // In an identifier a word begins with a capital, or between underscores.
+    std::string any;
+    for (const std::string& word : words) {
+        const std::string capital = std::string(1, static_cast<char>(std::toupper(word[0]))) + word.substr(1);
+        any += word.ends_with('_') ? "|^" + word : "|(^|_)" + word + "(_|$)|" + capital + "(?![a-z])";
+    }
+    const std::regex replaced(any.substr(1));
+    std::size_t looked_at = 0;
+    for (const fs::path& file : files_ending({".cpp", ".h"})) {
+        for (const std::string& identifier : identifiers_of(file)) {
+            EXPECT_FALSE(std::regex_search(identifier, replaced))
+                << file << ": " << identifier << "; docs/glossary.md has the word that is used instead";
+            ++looked_at;
+        }
+    }
+    EXPECT_GT(looked_at, 10000U);
 }
 
 TEST(House, NothingIsLeftForLater) {

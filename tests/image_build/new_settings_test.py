@@ -12,15 +12,17 @@ import subprocess
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen/new-settings"
+SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen"
 # `restart` fails as often as the file has lines.
 SYSTEMCTL = """#!/bin/sh
 echo "$*" >>"$ASKED"
-[ "$1" = restart ] && [ -s "$FAILS" ] || exit 0
+[ "$*" = "restart frustumscreen.service" ] && [ -s "$FAILS" ] || exit 0
 sed -i 1d "$FAILS"
 exit 1
 """
 RESTART = "restart frustumscreen.service"
+PROVE = "restart --no-block frustumscreen-settings-proved.service"
+LIT = '{"lit": true, "trouble": null, "mode": "normal"}\n'
 
 
 class NewSettings(unittest.TestCase):
@@ -43,14 +45,20 @@ class NewSettings(unittest.TestCase):
 
     def start(self):
         """What the service manager was asked for."""
-        subprocess.run([SCRIPT], check=True, timeout=30, env={
-            **os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "ASKED": str(self.top / "asked"), "FAILS": str(self.top / "fails"),
-            "SETTINGS_FOLDER": str(self.top / "settings"), "SETTINGS_RUN": str(self.top / "run"), "SETTINGS_MEMORY": str(self.top / "memory")})
+        subprocess.run([SCRIPTS / "new-settings"], check=True, timeout=30, env=self.environment())
         self.assertFalse((self.top / "run/frustumscreen-import/settings-taken").exists())
         return self.read("asked").splitlines()
 
+    def environment(self):
+        return {**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "ASKED": str(self.top / "asked"), "FAILS": str(self.top / "fails"),
+                "SETTINGS_FOLDER": str(self.top / "settings"), "SETTINGS_RUN": str(self.top / "run"), "SETTINGS_MEMORY": str(self.top / "memory"),
+                "SETTINGS_SECONDS": "2", "WATCHDOG_STATUS": str(self.top / "watchdog.json")}
+
+    def prove(self):
+        return subprocess.Popen([SCRIPTS / "prove-settings"], env=self.environment())
+
     def test_good_ones(self):
-        self.assertEqual(self.start(), [RESTART])
+        self.assertEqual(self.start(), [RESTART, PROVE])
         self.assertEqual((self.read("settings/kiosk.toml"), self.read("memory")), ("new", "x"))
         self.assertFalse((self.top / "run/frustumscreen-import/report.json").exists(), "what the importer told is overwritten")
 
@@ -63,12 +71,31 @@ class NewSettings(unittest.TestCase):
 
     def test_after_a_fault_the_watchdog_begins_anew(self):
         self.write("run/frustumscreen-watchdog/mode", "safe\n")
-        self.assertEqual([line.split()[0] for line in self.start()], ["stop", "start", "restart"])
+        self.assertEqual([line.split()[0] for line in self.start()], ["stop", "start", "restart", "restart"])
         self.assertFalse((self.top / "memory").exists())
 
     def test_an_update_starts_the_machine_anyway(self):
         self.write("run/frustumscreen-update/installed-stick1", "")
         self.assertEqual(self.start(), [])
+
+    def test_settings_are_proved_once_the_exhibit_was_lit_with_them(self):
+        proving = self.prove()
+        with self.assertRaises(subprocess.TimeoutExpired):
+            proving.wait(3.0)  # it is not lit
+        self.assertFalse((self.top / "settings/kiosk.toml.proved").exists())
+        self.write("watchdog.json", LIT)
+        self.assertEqual(proving.wait(30.0), 0)
+        self.assertEqual(self.read("settings/kiosk.toml.proved"), "new")
+        self.assertEqual(self.prove().wait(1.5), 0, "what is proved is not proved again")
+
+    def test_settings_that_change_meanwhile_are_not_proved(self):
+        proving = self.prove()
+        with self.assertRaises(subprocess.TimeoutExpired):
+            proving.wait(1.0)
+        self.write("settings/kiosk.toml", "others")
+        self.write("watchdog.json", LIT)
+        self.assertEqual(proving.wait(30.0), 0)
+        self.assertEqual(sorted(path.name for path in (self.top / "settings").iterdir()), ["kiosk.toml", "kiosk.toml.before"])
 
 
 if __name__ == "__main__":

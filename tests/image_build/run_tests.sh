@@ -36,7 +36,7 @@ fi
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
 keys=build/image/test_keys
 if $cuts || [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
-    image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 0.2.0 --out out/image/next
+    image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 99.0.0 --out out/image/next
     FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
     export FRUSTUMSCREEN_IMAGE_NEXT FRUSTUMSCREEN_IMAGE_KEYS
 fi

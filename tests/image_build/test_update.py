@@ -10,7 +10,7 @@ import time
 from appliance import ESP, eventually
 from bench import Patience
 from image_test import ImageTest, long
-from updates import Updates, no_exhibit, no_init, no_root
+from updates import AFTER_NEXT, NEXT, THIS, Updates, no_exhibit, no_init, no_root
 import sticks  # from tests/hil, by appliance
 
 NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an image of version updates.NEXT
@@ -45,8 +45,8 @@ class Update(ImageTest):
     def was_good(self):
         """The disk as after a good start."""
         begin, _ = self.pc.partition(ESP)
-        subprocess.run(["mren", "-i", f"{self.pc.disk}@@{begin}", "::EFI/Linux/frustumscreen_0.1.0+3.efi",
-                        "::EFI/Linux/frustumscreen_0.1.0+5.efi"], check=True)
+        subprocess.run(["mren", "-i", f"{self.pc.disk}@@{begin}", f"::EFI/Linux/frustumscreen_{THIS}+3.efi",
+                        f"::EFI/Linux/frustumscreen_{THIS}+5.efi"], check=True)
 
     def say(self, what):
         print(f"\n{time.monotonic() - self.begun:6.0f} s: {what}", flush=True)
@@ -126,16 +126,16 @@ class Update(ImageTest):
         self.pc.check(f"sync {CALIBRATION}")
         kept = self.calibration()
         self.assertEqual(kept, ("calibration-0001.toml", "2026-11-25 10:12 UTC", 9))
-        self.assertEqual((self.version(), self.slot(), self.images()), ("0.1.0", "frustumscreen-a", ["frustumscreen_0.1.0+5.efi"]))
-        self.stick("good", {"frustumscreen-0.2.0.raucb": self.updates.make()})
+        self.assertEqual((self.version(), self.slot(), self.images()), (THIS, "frustumscreen-a", [f"frustumscreen_{THIS}+5.efi"]))
+        self.stick("good", {f"frustumscreen-{NEXT}.raucb": self.updates.make()})
         pack, = self.told()
-        self.assertEqual((pack["outcome"], pack["title"]), ("taken", "FrustumScreen 0.2.0"), pack)
+        self.assertEqual((pack["outcome"], pack["title"]), ("taken", f"FrustumScreen {NEXT}"), pack)
         self.starts_again()
         self.wait_until_good()
         self.say("lit again")
-        self.assertEqual((self.version(), self.slot()), ("0.2.0", "frustumscreen-b"))
+        self.assertEqual((self.version(), self.slot()), (NEXT, "frustumscreen-b"))
         self.assertEqual(self.calibration(), kept)
-        self.assertEqual(self.images(), ["frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+5.efi"])
+        self.assertEqual(self.images(), [f"frustumscreen_{THIS}+5.efi", f"frustumscreen_{NEXT}+5.efi"])
         self.assertEqual(self.pc.notes(), "")
         self.assertEqual(self.told()[0]["outcome"], "already_there")
         self.assertFalse(self.pc.resets_within(30.0), "the machine starts again, with nothing new")
@@ -149,7 +149,7 @@ class Update(ImageTest):
         for name, bundle, refusal, words in (
                 ("wrong-key", lambda: make(key="other"), "wrong_key", "not signed with the key"),
                 ("cut-off", self.updates.truncated, "not_a_pack", "cut off or damaged"),
-                ("older", lambda: make("0.0.9"), "older", "version 0.1.0 runs"),
+                ("older", lambda: make("0.0.9"), "older", f"version {THIS} runs"),
                 ("altered", self.updates.altered, "altered", "changed after it was signed")):
             with self.subTest(name):
                 told = self.refusal(name, bundle())
@@ -157,14 +157,14 @@ class Update(ImageTest):
                 self.assertIn(words, told[1])
         self.assertEqual(self.pc.check(WRITTEN_TO_B).strip(), "0", "something was written into the other slot")
         self.assertIsNotNone(self.pc.wait_until_lit())
-        self.assertEqual(self.version(), "0.1.0")
+        self.assertEqual(self.version(), THIS)
         self.assertFalse(self.pc.resets_within(20.0), "the machine starts again, with nothing new")
 
     def falls_back(self, change, between):
         """An update that is installed and started, fails three times, and is left; the stick stays in all the time."""
         self.was_good()
         self.start()
-        self.stick("bad", {"update.raucb": self.updates.make("0.3.0", change=change)})
+        self.stick("bad", {"update.raucb": self.updates.make(AFTER_NEXT, change=change)})
         pack, = self.told()
         self.assertEqual(pack["outcome"], "taken", pack)
         self.assertTrue(self.pc.resets_within(RESTART_S), "the machine does not start again")
@@ -176,11 +176,11 @@ class Update(ImageTest):
         self.pc.wait_for_start()
         self.wait_until_good()
         self.say(f"lit again, {time.monotonic() - begun:.0f} s after the update was first started")
-        self.assertEqual((self.version(), self.slot()), ("0.1.0", "frustumscreen-a"))
+        self.assertEqual((self.version(), self.slot()), (THIS, "frustumscreen-a"))
         self.assertEqual(self.pc.notes().strip(),
-                         "system: version 0.3.0 did not get the exhibit lit in 3 starts, so the one before runs")
+                         f"system: version {AFTER_NEXT} did not get the exhibit lit in 3 starts, so the one before runs")
         said = self.pc.run("frustumscreen status").output
-        self.assertIn("version 0.1.0, slot a; version 0.3.0 did not get the exhibit lit in 3 starts, so the one before runs", said)
+        self.assertIn(f"version {THIS}, slot a; version {AFTER_NEXT} did not get the exhibit lit in 3 starts, so the one before runs", said)
         pack, = self.told()
         self.assertEqual((pack["outcome"], pack["refusal"]), ("refused", "not_a_pack"))
         self.assertIn("was tried here and did not start", pack["reason"])

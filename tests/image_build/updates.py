@@ -11,8 +11,12 @@ import re
 import shutil
 import subprocess
 
-BUNDLE = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/bundle"
-NEXT = "0.2.0"
+CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUNDLE = CHECKOUT / "image_build/bundle"
+# The version of the image under test, and later ones than any release.
+THIS = re.search(r"^project\(FrustumScreen VERSION ([0-9.]+) ", (CHECKOUT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE).group(1)
+NEXT = "99.0.0"
+AFTER_NEXT = "99.1.0"
 
 
 def make_key(folder, name):

@@ -56,11 +56,11 @@ TEST(ExhibitFile, SaysWhichLineIsWrongAndWhatIsNearest) {
              {"[attract]\nen = \"\"", "is empty"},
              {"[attract]\nen = \"a\"\nEN = \"b\"", "en twice"},
              {"[[key]]\nname = \"x\"", "public_key is missing"},
-             {"[[key]]\nname = \"x\"\npublic_key = \"RWQ\"", "public_key is missing or no public key"},
+             {"[[key]]\nname = \"x\"\npublic_key = \"RWQ\"", "public_key is missing or not a public key"},
              {"[[key]]\nname = \"x\"\npublic_key = "
               "\"RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3\"\nuntil "
               "= \"2031-02-30\"",
-              "exhibit.toml:4: key[0].until is no day"},
+              "exhibit.toml:4: key[0].until is not a day"},
              {"order = [", "[toml.syntax]"},
              {"order = [\"\xff\"]", "is not UTF-8"},
              {std::string(70000, '#'), "allowed are at most 65536"},

@@ -120,7 +120,7 @@ TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
     put("keys/museum.pub", as_bytes(write_public_key(SecretKey::make().public_key())));
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
     EXPECT_NE(text("out.txt").find("until 2035-12-31"), std::string::npos) << text("out.txt");
-    EXPECT_NE(text("out.txt").find("does not count any more"), std::string::npos) << text("out.txt");
+    EXPECT_NE(text("out.txt").find("is no longer trusted"), std::string::npos) << text("out.txt");
 }
 
 TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
@@ -152,12 +152,12 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     std::filesystem::remove(folder / "stick/cup.fspack"); // it would be refused, and with it the whole stick
     ASSERT_EQ(import(), 0) << text("err.txt");
     EXPECT_NE(
-        text("out.txt").find("exhibit.toml: taken: packs of a key that does not count any more stay: cup;"),
+        text("out.txt").find("exhibit.toml: taken: packs of a key that is no longer trusted stay: cup;"),
         std::string::npos)
         << text("out.txt");
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
     EXPECT_TRUE(
-        listed_line("cup").ends_with("signed by second, which does not count any more (until 2020-01-01)"))
+        listed_line("cup").ends_with("signed by second, which is no longer trusted (until 2020-01-01)"))
         << text("out.txt");
     EXPECT_TRUE(listed_line("vase").ends_with("signed by museum")) << text("out.txt");
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys --json"), 0);

@@ -102,7 +102,7 @@ TEST_F(ImportStick, RefusesWhatIsNotTheMuseums) {
     stick.put("a.fspack", plain);
     expect_refused("a.fspack", ImportRefusal::Unsigned, "not signed");
     stick.put("a.fspack", Museum::signed_by(SecretKey::make(), plain, 1));
-    expect_refused("a.fspack", ImportRefusal::WrongKey, "none of those known");
+    expect_refused("a.fspack", ImportRefusal::WrongKey, "not one of those known");
     request.keys[0].until = std::chrono::sys_days(std::chrono::year(2030) / 12 / 31);
     request.today = std::chrono::sys_days(std::chrono::year(2100) / 1 / 1);
     stick.put("a.fspack", museum.pack("a", 1));

@@ -100,6 +100,21 @@ TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
 }
 
+TEST_F(SettingsProgram, TwoBadSticksInARowLeadBackToSettingsThatWereProved) {
+    put("settings/kiosk.toml.proved", shipped);
+    const std::string bad = "[table]\nwidth_m = 0.5\n", worse = "[table]\nwidth_m = 0.4\n";
+    for (const std::string& settings : {bad, worse}) {
+        fill(settings, key, 0);
+        EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+        EXPECT_EQ(text("settings/kiosk.toml"), settings);
+        EXPECT_EQ(text("settings/kiosk.toml.before"), shipped);
+    }
+    put("settings/kiosk.toml.proved", worse); // ten minutes later
+    fill(bad, key, 0);
+    EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+    EXPECT_EQ(text("settings/kiosk.toml.before"), worse);
+}
+
 TEST_F(SettingsProgram, TheFirstSignatureKeepsOlderOnesOutToo) {
     fill(naming(key), key, 50);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
@@ -138,13 +153,13 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
     const auto anew = [&] { std::filesystem::remove_all(folder / "stick/kiosk.toml"); };
     anew();
     std::filesystem::create_symlink(folder / "settings/kiosk.toml.before", folder / "stick/kiosk.toml");
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
     anew();
     std::filesystem::create_directory(folder / "stick/kiosk.toml");
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
     anew();
     ASSERT_EQ(::mkfifo((folder / "stick/kiosk.toml").c_str(), 0600), 0);
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
 }
 
 /// A stick that is pulled from the office computer too early has such files.

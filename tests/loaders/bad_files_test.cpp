@@ -18,7 +18,7 @@ struct BadFile {
 constexpr BadFile bad_files[] = {
     {"assimp/IndexOutOfRange/IndexOutOfRange.gltf",
      "contradict each other (meshes[0].primitives[0].indices: element"},
-    {"assimp/MissingBin/BoxTextured.gltf", "\"BoxTextured0.bin\", and there is no such file beside it"},
+    {"assimp/MissingBin/BoxTextured.gltf", "\"BoxTextured0.bin\", but there is no such file beside it"},
     {"assimp/TestNoRootNode/NoScene.gltf", "scene: 0 is out of range, the file has 0"},
     {"assimp/invalid/empty.ply", "[mesh.empty_file]"},
     {"assimp/invalid/malformed.obj", "line 23: vertex 12 is out of range"},

@@ -168,7 +168,7 @@ TEST(Exporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
     const SourceMesh both =
         obj_with("newmtl m\nmap_Kd wood.png\nmap_Ke wood.png\n", "usemtl m\n" + textured_face);
     EXPECT_TRUE(shows_wood(both));
-    EXPECT_TRUE(notes(both, SourceNote::Kind::Lost, "light of its own"));
+    EXPECT_TRUE(notes(both, SourceNote::Kind::Lost, "own light of the material"));
 }
 
 TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {

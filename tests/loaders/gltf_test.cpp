@@ -214,17 +214,17 @@ TEST(Gltf, SidecarsMustLieBesideTheModel) {
     EXPECT_TRUE(load_mesh(folder.write("model.gltf", with_uri("parts/my%20data.bin"))).has_value());
     EXPECT_TRUE(load_mesh(folder.write("model.gltf", with_uri("parts/../parts/my data.bin"))).has_value());
     for (const auto& [uri, expected] : std::vector<std::pair<std::string, std::string>>{
-             {"gone.bin", "\"gone.bin\", and there is no such file beside it"},
+             {"gone.bin", "\"gone.bin\", but there is no such file beside it"},
              {"short.bin", "36 bytes are declared, but there are only 35"},
-             {"parts", "\"parts\", and there is no such file beside it"},
-             {"../model.bin", "\"model.bin\", and there is no such file beside it"},
-             {"%2e%2e/model.bin", "\"model.bin\", and there is"},
-             {"..\\\\model.bin", "\"model.bin\", and there is"},
-             {"/etc/hostname", "\"hostname\", and there is"},
-             {"file:///etc/hostname", "\"hostname\", and there is"},
-             {"https://example.org/a.bin", "\"a.bin\", and there is"},
+             {"parts", "\"parts\", but there is no such file beside it"},
+             {"../model.bin", "\"model.bin\", but there is no such file beside it"},
+             {"%2e%2e/model.bin", "\"model.bin\", but there is"},
+             {"..\\\\model.bin", "\"model.bin\", but there is"},
+             {"/etc/hostname", "\"hostname\", but there is"},
+             {"file:///etc/hostname", "\"hostname\", but there is"},
+             {"https://example.org/a.bin", "\"a.bin\", but there is"},
              {"a%zz.bin", "hexadecimal"},
-             {"", "the file \"\", and there is no such file beside it"},
+             {"", "the file \"\", but there is no such file beside it"},
              {"data:application/octet-stream,abc", "not base64"},
              {"data:application/octet-stream;base64,A*==", "damaged"}}) {
         const std::string error = error_of(load_mesh(folder.write("model.gltf", with_uri(uri))));

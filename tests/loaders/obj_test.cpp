@@ -115,7 +115,7 @@ TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
         ASSERT_EQ(mesh->textures.size(), 1U);
         ASSERT_FALSE(mesh->notes.empty());
         EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Guessed);
-        EXPECT_NE(mesh->notes[0].text.find("Model.mtl beside it is taken"), std::string::npos);
+        EXPECT_NE(mesh->notes[0].text.find("Model.mtl beside it is used"), std::string::npos);
     }
 }
 

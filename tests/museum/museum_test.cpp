@@ -29,7 +29,7 @@ TEST(Museum, WhatSystemdMendsNeedsNoStep) {
     }
 }
 
-TEST(Museum, EachAilmentMeetsTheShortestLadder) {
+TEST(Museum, EachFaultMeetsTheShortestLadder) {
     EXPECT_EQ(steps_against(FaultKind::Freeze), Steps{Step::RestartExhibit});
     EXPECT_EQ(steps_against(FaultKind::TrackerHung), Steps{Step::ResetDevice});
     EXPECT_EQ(steps_against(FaultKind::DeviceThread), Steps{Step::ResetDevice});

@@ -126,13 +126,13 @@ TEST_F(PackTexts, other_data_than_defined_are_refused) {
     expect_fault("sections.texts.data.size", data(texts, [](Json& d) { d["size"] = 1; }));
     expect_fault("sections.texts.data.languages[0].atlas is missing",
                  data(texts, [](Json& d) { d["languages"][0].erase("atlas"); }));
-    expect_fault("the section texts names 'en' twice",
+    expect_fault("the section texts names the language 'en' twice",
                  data(texts, [](Json& d) { d["languages"][1]["language"] = "en"; }));
-    expect_fault("the section texts names other parts",
+    expect_fault("the section texts does not name exactly its own parts",
                  data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "levels/0.bin"; }));
-    expect_fault("the section texts names other parts",
+    expect_fault("the section texts does not name exactly its own parts",
                  data(texts, [](Json& d) { d["languages"].erase(0); }));
-    expect_fault("the section texts names other parts",
+    expect_fault("the section texts does not name exactly its own parts",
                  data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "texts/en/glyphs.bin"; }));
     expect_fault("texts/en/atlas.webp: there is a picture of glyphs", [&](Pack& pack) {
         data(texts, [](Json& d) {
@@ -143,8 +143,8 @@ TEST_F(PackTexts, other_data_than_defined_are_refused) {
     });
     expect_fault("texts/en/glyphs.bin",
                  [](Pack& pack) { pack.section_parts["texts/en/glyphs.bin"].resize(30); });
-    expect_fault("a key that is none",
+    expect_fault("a key that is not valid",
                  data(sounds, [](Json& d) { d["languages"][0]["sounds"][0]["key"] = "A key"; }));
-    expect_fault("the section sounds names other parts",
+    expect_fault("the section sounds does not name exactly its own parts",
                  data(sounds, [](Json& d) { d["languages"][0]["sounds"] = Json::array(); }));
 }

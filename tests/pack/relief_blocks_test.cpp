@@ -183,8 +183,8 @@ TEST(ReliefBlocks, a_section_that_contradicts_itself_is_refused) {
          {std::tuple("\"texels\":32", "\"texels\":64", "finer"),
           std::tuple("\"texels\":32", "\"texels\":31", "altered"),
           std::tuple("\"blocks\":3", "\"blocks\":2", "altered"),
-          std::tuple("\"max_box\":0.25", "\"max_box\":-1", "no measurement"),
-          std::tuple("relief_blocks/32.bin", "relief_blocks/33.bin", "other parts"),
+          std::tuple("\"max_box\":0.25", "\"max_box\":-1", "not a measured one"),
+          std::tuple("relief_blocks/32.bin", "relief_blocks/33.bin", "exactly its own parts"),
           std::tuple("\"texels\":32", "\"texels\":32,\"x\":1", "x")}) {
         const std::string message = refusal_with(from, to);
         EXPECT_TRUE(samples::is_one_line(message)) << message;

@@ -104,13 +104,13 @@ TEST(SeenErrors, ThatAreNotWhatTheFormatSaysAreRefused) {
     EXPECT_NE(refusal([](Json& d) { d["levels"].erase(0); }).find("1 levels from 2 eyes"), std::string::npos);
     EXPECT_NE(refusal([](Json& d) { d["eyes"].erase(0); }).find("2 errors from 1 eyes"), std::string::npos);
     EXPECT_NE(refusal([](Json& d) { d["eyes"] = Json::array(); }).find("0 eyes"), std::string::npos);
-    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["towards"][2] = 2.0; }).find("an eye that"),
+    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["towards"][2] = 2.0; }).find("an eye whose"),
               std::string::npos);
-    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["steepness"] = 0.5; }).find("an eye that"),
+    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["steepness"] = 0.5; }).find("an eye whose"),
               std::string::npos);
-    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["shares"][0] = -0.5; }).find("an eye that"),
+    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["shares"][0] = -0.5; }).find("an eye whose"),
               std::string::npos);
-    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["places"][0] = 3.0; }).find("an eye that"),
+    EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["places"][0] = 3.0; }).find("an eye whose"),
               std::string::npos);
     EXPECT_NE(refusal([](Json& d) { d["eyes"][0]["places"].erase(0); }), "");
     EXPECT_NE(refusal([](Json& d) { d["levels"][0]["eyes"][0]["patches_box"][7] = -1.0; }), "");

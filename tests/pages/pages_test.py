@@ -130,5 +130,16 @@ class Zone(unittest.TestCase):
                 self.assertEqual(said, f"{200 * half:.{digits}f}", begins)
 
 
+class Version(unittest.TestCase):
+    def test_changelog_and_every_program_have_the_same(self):
+        newest = re.search(r"^## (\d+\.\d+\.\d+), \d{4}-\d\d-\d\d$", (SOURCE / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertIsNotNone(newest, "CHANGELOG.md has no release")
+        programs = sorted(path for path in (BUILD / "bin").glob("frustumscreen*") if path.name != "frustumscreen-safe-words")
+        self.assertGreater(len(programs), 9)
+        for program in programs:
+            printed = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+            self.assertEqual(printed, f"{program.name} {newest.group(1)}\n")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -73,7 +73,8 @@ TEST(Cp2112, ALineThatIsNoGpioIsToldByItsNumberItsSettingAndItsFunction) {
     EXPECT_EQ(
         cp2112_remark("cp2112_gpio", clock_and_light, buttons, lamps),
         "GPIO chip cp2112_gpio: line 7 (panel.lines) is its clock output, line 0 (panel.lamps) is its TX "
-        "toggle and no GPIO until the chip was unplugged; name other lines, 2 to 6 have no such function");
+        "toggle, not a GPIO line, until the chip is unplugged; name other lines: 2 to 6 have no such "
+        "function");
     EXPECT_EQ(cp2112_remark("cp2112_gpio", clock_and_light, std::span(buttons).first(2), {}), "");
     EXPECT_EQ(cp2112_remark("cp2112_gpio", {}, buttons, lamps), "") << "nothing was read";
 }

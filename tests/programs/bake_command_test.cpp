@@ -141,7 +141,7 @@ TEST_F(BakeCommand, WhatTheFileSaysOfItselfIsTakenOverAndTold) {
     EXPECT_EQ((*pack)->title, "Jug");
     EXPECT_EQ((*pack)->id, "jar");
     EXPECT_NE(
-        text("out.txt").find("guessed the licence is \"CC0-1.0\", as you say; the file says \"CC-BY-4.0\""),
+        text("out.txt").find("guessed the licence is \"CC0-1.0\", as given; the file says \"CC-BY-4.0\""),
         std::string::npos)
         << text("out.txt");
     EXPECT_NE(text("out.txt").find("taken   the id \"jar\" from the pack's name"), std::string::npos);
@@ -199,11 +199,11 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
     EXPECT_EQ(run("frustumscreen-pack verify vase.fspack"), 0) << text("err.txt");
 
     ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt"); // with the default voice
-    EXPECT_NE(text("out.txt").find("silent  the description in 'he' is silent, and shown all the same"),
+    EXPECT_NE(text("out.txt").find("silent  the description in 'he' is silent, but it is shown"),
               std::string::npos)
         << text("out.txt");
     ASSERT_EQ(run("frustumscreen-pack explain vase.fspack"), 0);
-    EXPECT_NE(text("out.txt").find("silent: the description is shown and nobody speaks it"),
+    EXPECT_NE(text("out.txt").find("silent: the description is shown, but no voice speaks it"),
               std::string::npos);
 }
 
@@ -284,7 +284,7 @@ TEST_F(BakeCommand, NeverReplacesAFileThatTheModelNames) {
 }
 
 TEST_F(BakeCommand, ReplacesAnotherFileOnlyByForce) {
-    refused("notes.txt", "notes.txt: this file is there and is not a pack");
+    refused("notes.txt", "notes.txt: this file exists and is not a pack");
     ASSERT_EQ(bake_to("notes.txt", "--force"), 0) << text("err.txt");
     EXPECT_TRUE(load_pack(folder / "notes.txt"));
 }
@@ -301,8 +301,8 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"--caption 'en=A cat.' --caption 'en=A dog.'",
          "--caption 'en=A dog.': there is a caption in en already; write one for each language"},
-        {"--language en --language de --language en", "--language 'en': it is named already"},
-        {"--language en --language EN", "--language 'EN': it is named already"},
+        {"--language en --language de --language en", "--language 'en': it is named twice"},
+        {"--language en --language EN", "--language 'EN': it is named twice"},
         {"--language english",
          "--language 'english': there is no such language; allowed are language tags such as"},
         {"--language xx", "--language 'xx': there is no such language"},

@@ -41,7 +41,7 @@ constexpr const char* english_and_german =
 TEST_F(BakeFolder, WrongUseIsToldInOneLineWithWhatToDo) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"jug", "-o NAME.fspack, the pack to write, is required"},
-        {"--new jug2", "the scan, behind the folder of --new, is required"},
+        {"--new jug2", "the scan, after the folder of --new, is required"},
         {"-o jug.fspack", "INPUT, a scan or a folder with an artifact.toml, is required"},
         {"jug -o jug.fspack --preveiw jug.html",
          "'--preveiw' is not expected here; the nearest option is --preview"},

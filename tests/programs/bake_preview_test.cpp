@@ -117,13 +117,12 @@ TEST_F(BakePreview, AWatchedFolderIsDrawnAgainAndKeepsItsPageWhileItIsBroken) {
 
 TEST_F(BakePreview, WhatCannotBeWatchedIsSaid) {
     EXPECT_EQ(run("frustumscreen-bake --watch nowhere"), 1);
-    EXPECT_EQ(count("err.txt", "nowhere: this is no folder"), 1U) << text("err.txt");
+    EXPECT_EQ(count("err.txt", "nowhere: this is not a folder"), 1U) << text("err.txt");
     fs::remove(folder / "jug/artifact.toml");
     EXPECT_EQ(run("frustumscreen-bake --watch jug"), 1);
     EXPECT_EQ(count("err.txt", "jug: there is no artifact.toml in this folder"), 1U) << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --watch jug --preview jug/page.html"), 1);
-    EXPECT_NE(text("err.txt").find("jug/page.html: this lies in the folder that is watched"),
-              std::string::npos)
+    EXPECT_NE(text("err.txt").find("jug/page.html: this lies in the watched folder"), std::string::npos)
         << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --watch jug --siez 3"), 2);
     EXPECT_EQ(run("frustumscreen-bake --watch"), 2);

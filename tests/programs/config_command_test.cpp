@@ -132,7 +132,7 @@ TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {
     // A capital is 0.714 of the type's height, seen from 1.9 m away and 0.5 m above the table.
     const double arcmin = 60.0 * 180.0 / M_PI * 0.01 * 0.714 * 0.5 / (1.8 * 1.8 + 0.5 * 0.5);
     expect_words(page("[eye]\ndefault_m = [0, -1.8, 0.5]\n"),
-                 {fmt::format("a capital is seen at {:.0f} minutes of arc, and needs 16", arcmin)});
+                 {fmt::format("a capital is {:.0f} minutes of arc high, and needs 16", arcmin)});
 }
 
 TEST_F(ConfigCommand, JudgesAZoneThatIsTooNarrow) {

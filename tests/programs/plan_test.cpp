@@ -194,7 +194,7 @@ TEST_F(PlanAgainstShow, AnOrdinaryScene) {
     EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 25);
 }
 
-TEST_F(PlanAgainstShow, EachEconomyByItself) {
+TEST_F(PlanAgainstShow, EachCullKindByItself) {
     configure(ordinary);
     const auto everything = show(0);
     for (unsigned cull_kind = 1; cull_kind < AllCullKinds; cull_kind <<= 1U) {

@@ -43,7 +43,8 @@ TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
     EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
     write("mode", "sideways\n");
     EXPECT_EQ(status().at("mode"), "normal");
-    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set, plain and built_in are"),
+    EXPECT_NE(text("err.txt").find(
+                  "unknown mode 'sideways'; allowed are normal, last_good_set, plain and built_in"),
               std::string::npos);
     write("mode", "normal\n");
     EXPECT_EQ(status().at("mode"), "normal");

@@ -39,7 +39,7 @@ TEST(RunEnd, ARunThatShowsSomethingIsDoneWhenItIsTold) {
     }
 }
 
-TEST(RunEnd, AnExcuseFailsAfterItsMinuteAndNotBefore) {
+TEST(RunEnd, AnErrorScreenFailsAfterItsMinuteAndNotBefore) {
     EXPECT_EQ(end_of_run(lasted(seconds(59)), no_pack, false).why, RunEnd::Why::Done)
         << "it was told to stop";
     for (const Nanoseconds length : {Nanoseconds(seconds(60)), Nanoseconds(seconds(61))}) {
@@ -49,7 +49,7 @@ TEST(RunEnd, AnExcuseFailsAfterItsMinuteAndNotBefore) {
     }
 }
 
-TEST(RunEnd, ASetThatWasInstalledEndsTheExcuseWell) {
+TEST(RunEnd, ASetThatWasInstalledEndsTheErrorScreenWell) {
     for (const Nanoseconds length : {Nanoseconds(seconds(1)), Nanoseconds(minutes(2))}) {
         EXPECT_EQ(end_of_run(lasted(length), no_pack, true).why, RunEnd::Why::SetInstalled);
     }
@@ -97,7 +97,7 @@ protected:
     std::string said;
 };
 
-TEST_F(RunShow, AnExcuseSaysItsErrorInTheJournalAndOnTheTable) {
+TEST_F(RunShow, AnErrorScreenSaysItsErrorInTheJournalAndOnTheTable) {
     const std::unique_ptr<Show> cat = error_screen_for("no cat");
     ASSERT_NE(cat, nullptr);
     EXPECT_NE(said.find("no cat"), std::string::npos) << said;

@@ -26,8 +26,8 @@ struct Painting {
     [[nodiscard]] Image8 blank(const glm::u8vec4& fill) const {
         return {settings.projector.pinhole.width, settings.projector.pinhole.height, fill};
     }
-    [[nodiscard]] CastView view(const BenchPose& pose) const {
-        CastView view;
+    [[nodiscard]] RasterView view(const BenchPose& pose) const {
+        RasterView view;
         subject.show(view, settings, prop, pose);
         return view;
     }
@@ -42,9 +42,9 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
     const glm::u8vec4 untouched(1, 2, 3, 4);
     ReliefPainter painter(2);
     BlockItems items;
-    CastSamples samples;
+    RasterSamples samples;
     for (const BenchPose& pose : painting.poses) {
-        const CastView view = painting.view(pose);
+        const RasterView view = painting.view(pose);
         Image8 picture = painting.blank(untouched);
         const std::span<const PixelRectangle> painted =
             painter.paint(painting.relief, view, 1, span_of(picture));
@@ -55,7 +55,7 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
         const PixelRectangle& lit = view.lit;
         list_blocks(items, painting.relief, view);
         samples.begin(lit, 1);
-        cast(samples, painting.relief, view, items);
+        rasterize(samples, painting.relief, view, items);
         int met = 0;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
@@ -77,22 +77,22 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
 }
 
 /// The first pose's blocks, rasterized with any number of samples.
-struct PoseCast {
+struct PoseRaster {
     Painting painting;
     SampleLight light;
     BlockItems items;
-    CastSamples samples;
-    CastView view = painting.view(painting.poses[0]);
+    RasterSamples samples;
+    RasterView view = painting.view(painting.poses[0]);
 
-    PoseCast() { list_blocks(items, painting.relief, view); }
+    PoseRaster() { list_blocks(items, painting.relief, view); }
     void take(int count) {
         samples.begin(view.lit, count);
-        cast(samples, painting.relief, view, items);
+        rasterize(samples, painting.relief, view, items);
     }
 };
 
 TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
-    PoseCast pose;
+    PoseRaster pose;
     const auto& [painting, light, items, samples, view] = pose;
     for (const int count : {1, 2, 4, 8, 16}) {
         pose.take(count);
@@ -110,7 +110,7 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
 /// mean code is within the range of theirs; if they show several blocks, or some show nothing, the result is
 /// their mean light.
 TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
-    PoseCast pose;
+    PoseRaster pose;
     const auto& [painting, light, items, samples, view] = pose;
     for (const unsigned count : {2U, 4U, 16U}) {
         pose.take(static_cast<int>(count));
@@ -162,7 +162,7 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
     ReliefPainter alone(1);
     ReliefPainter together(5);
     for (const BenchPose& pose : painting.poses) {
-        const CastView view = painting.view(pose);
+        const RasterView view = painting.view(pose);
         Image8 a = painting.blank({});
         Image8 b = a;
         for (const int samples : {1, 4}) {
@@ -180,7 +180,7 @@ TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
     const Painting painting;
-    const CastView view = painting.view(painting.poses.front());
+    const RasterView view = painting.view(painting.poses.front());
     Image8 picture = painting.blank(glm::u8vec4(0));
     ReliefPainter painter(24);
     static_cast<void>(painter.paint(painting.relief, view, 4, span_of(picture)));
@@ -252,7 +252,7 @@ TEST(Painter, MoreSamplesComeNearerToSixteenRays) {
 TEST(Painter, SamplesChangeOutlinesAndLeaveWhatIsEven) {
     const Painting painting;
     ReliefPainter painter(2);
-    const CastView view = painting.view(painting.poses[0]);
+    const RasterView view = painting.view(painting.poses[0]);
     Image8 one = painting.blank({});
     Image8 many = one;
     painter.paint(painting.relief, view, 1, span_of(one));

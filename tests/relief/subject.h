@@ -5,7 +5,7 @@
 
 #include "app/bench/truth/poses.h"
 #include "app/bench/truth/truth.h"
-#include "app/relief/cast_blocks.h"
+#include "app/relief/rasterize_blocks.h"
 #include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/box_frame.h"
 #include "tests/bench/near_stage.h"
@@ -32,7 +32,8 @@ struct Subject {
         return bake_blocks({surface, frame.box_size, frustum_directions, texels});
     }
     /// Sets up the view of an eye.
-    void show(CastView& view, const Settings& settings, const PropShape& prop, const BenchPose& pose) const {
+    void show(RasterView& view, const Settings& settings, const PropShape& prop,
+              const BenchPose& pose) const {
         const TruthView from = view_of(settings, pose);
         set_up(view, prop,
                {glm::inverse(frame.box_from_file), frame.box_size, from.projector, from.prop_from_projector,

@@ -88,16 +88,16 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
             std::size_t far = 0;
             for (int pose = 0; pose < 4; ++pose) {
                 stage.shuffle(random);
-                const Image8 cast = rig.one(stage, rig.cast, LightCompensation{});
+                const Image8 raster = rig.one(stage, rig.raster, LightCompensation{});
                 const ImageFloat met = rig.places();
                 const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
                 const ImageFloat places = rig.places();
-                for (std::size_t k = 0; k < cast.texels.size(); ++k) {
-                    const bool in_cast = !std::isnan(met.texels[k].x);
+                for (std::size_t k = 0; k < raster.texels.size(); ++k) {
+                    const bool in_raster = !std::isnan(met.texels[k].x);
                     const bool in_drawn = !std::isnan(places.texels[k].x);
-                    alone += in_cast != in_drawn ? 1U : 0U;
-                    off += farthest_channel(cast.texels[k], drawn.texels[k]) > 16 ? 1U : 0U;
-                    if (in_cast && in_drawn) {
+                    alone += in_raster != in_drawn ? 1U : 0U;
+                    off += farthest_channel(raster.texels[k], drawn.texels[k]) > 16 ? 1U : 0U;
+                    if (in_raster && in_drawn) {
                         lit += 1;
                         far += glm::distance(met.texels[k], places.texels[k]) > 0.02e-3F ? 1U : 0U;
                     }
@@ -121,15 +121,15 @@ TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
     Stage stage(320, 200);
     std::mt19937 random(15);
     stage.shuffle(random);
-    const Image8 cast = rig.one(stage, rig.cast, LightCompensation{});
+    const Image8 raster = rig.one(stage, rig.raster, LightCompensation{});
     const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
-    const Image8 middle = rig.fading(stage, rig.cast, rig.drawn, 0.5);
+    const Image8 middle = rig.fading(stage, rig.raster, rig.drawn, 0.5);
     std::size_t differing = 0;
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
-        ASSERT_TRUE(farthest_channel(middle.texels[k], cast.texels[k]) <= 1 ||
+        ASSERT_TRUE(farthest_channel(middle.texels[k], raster.texels[k]) <= 1 ||
                     farthest_channel(middle.texels[k], drawn.texels[k]) <= 1)
             << k;
-        differing += cast.texels[k] != drawn.texels[k] ? 1U : 0U;
+        differing += raster.texels[k] != drawn.texels[k] ? 1U : 0U;
     }
     EXPECT_GT(lit_pixels(middle), 1000U);
     EXPECT_GT(differing, 0U) << "the two do the same work";
@@ -139,7 +139,7 @@ TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
     ReliefRig rig(1);
     GpuStore& store = rig.renderer->store();
     const std::uint64_t before = store.bytes();
-    EXPECT_EQ(store.bytes(rig.cast.drawable), 0U);
+    EXPECT_EQ(store.bytes(rig.raster.drawable), 0U);
     const Drawable drawable = store.upload(rig.relief).value();
     EXPECT_EQ(store.bytes(drawable), gpu_bytes(*rig.relief));
     EXPECT_GE(store.bytes(drawable), rig.relief->blocks.size() * 372 + rig.relief->covers.size() * 8);
@@ -183,7 +183,7 @@ TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().id, "render.no_room_for_relief") << refused.error().message;
     EXPECT_EQ(rig.renderer->store().bytes(), before);
-    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.cast)), 1000U);
+    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.raster)), 1000U);
     EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.drawn)), 1000U);
 }
 

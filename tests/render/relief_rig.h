@@ -26,8 +26,8 @@ inline Stage stage_of(const Lens& lens) {
 inline RenderNeeds needs_with_reliefs(int samples, const Pinhole& projector) {
     RenderNeeds all = needs(samples, true);
     all.bent_by = if_it_bends(projector);
-    all.draws.insert({cast_shader(false), cast_shader(true)});
-    all.casts = 2;
+    all.draws.insert({raster_shader(false), raster_shader(true)});
+    all.relief_draws = 2;
     for (ShaderKey key : needs(samples, true).draws) {
         key.blocks = key.pass == ShaderKey::Pass::Surface;
         all.draws.insert(key);
@@ -37,17 +37,17 @@ inline RenderNeeds needs_with_reliefs(int samples, const Pinhole& projector) {
 
 struct ReliefRig : Rig {
     std::shared_ptr<const BlockRelief> relief;
-    PlacedLevel cast, drawn; ///< one relief: rasterized on the processor, and drawn by the GPU
+    PlacedLevel raster, drawn; ///< one relief: rasterized on the processor, and drawn by the GPU
 
     explicit ReliefRig(int samples, int texels = 256, const Pack& shown = rings(), const Lens& lens = {})
         : Rig(320, 200, samples, shown, if_it_bends(stage_of(lens).projector)) {
         EXPECT_TRUE(renderer->prepare(needs_with_reliefs(samples, stage_of(lens).projector)));
         hit_points = HitPointRenderer::create(*renderer).value();
         relief = relief_of(pack, texels);
-        cast = placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
+        raster = placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
         drawn = placed(pack, relief, level.metres_per_box, renderer->store().upload(relief).value());
         drawn.on_gpu = true;
-        level.samples = cast.samples = drawn.samples = samples;
+        level.samples = raster.samples = drawn.samples = samples;
         plan = make_plan(prop, 2 * level.triangles->indices.size(), 2);
     }
     Image8 one(const Stage& stage, const PlacedLevel& which, std::optional<LightCompensation> light = {}) {

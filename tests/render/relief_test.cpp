@@ -33,7 +33,7 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
         for (int pose = 0; pose < 3; ++pose) {
             stage.shuffle(random);
             const std::vector<ReferenceCast::Hit> hits = hits_of(truth, stage);
-            for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+            for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
                 const Image8 picture = rig.one(stage, which);
                 const ImageFloat places = rig.places();
                 std::size_t both = 0;
@@ -80,14 +80,14 @@ TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
     Stage stage(320, 200);
     const Mass plain = cast_mass(cast, stage);
     ASSERT_GT(plain.light, 400.0);
-    for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
         const Mass shown = shown_mass(rig.one(stage, which));
         EXPECT_NEAR(shown.light, plain.light, 0.01 * plain.light) << which.on_gpu;
         EXPECT_LT(glm::distance(shown.centre(), plain.centre()), 0.05) << which.on_gpu;
     }
     rig.prop = stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
     const Mass even = cast_mass(cast, stage, [&](const glm::dvec2& at) { return evened(stage, at); });
-    for (const PlacedLevel& which : {rig.cast, rig.drawn, rig.level}) {
+    for (const PlacedLevel& which : {rig.raster, rig.drawn, rig.level}) {
         const Mass lit = shown_mass(rig.one(stage, which, LightCompensation{}));
         EXPECT_LT(glm::distance(lit.centre(), even.centre()), 0.05)
             << (which.relief ? "relief" : "mesh") << which.on_gpu;
@@ -102,7 +102,7 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
          {std::optional<LightCompensation>(), std::optional(LightCompensation{})}) {
         stage.shuffle(random);
         const Image8 mesh = rig.one(stage, rig.level, light);
-        for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+        for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
             const Image8 relief = rig.one(stage, which, light);
             std::size_t lit = 0;
             std::size_t off = 0;
@@ -133,7 +133,7 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
         ReliefRig rig(1, 128, white(rings()), lens);
         Stage stage = stage_of(lens);
         std::mt19937 random(9);
-        for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+        for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
             std::size_t both = 0;
             std::size_t soft = 0;
             std::size_t off = 0;
@@ -167,14 +167,14 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
     for (const Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const Stage stage = stage_of(lens);
-        plan_frame(rig.prop, rig.cast, stage.view(LightCompensation{1.5}), rig.plan);
+        plan_frame(rig.prop, rig.raster, stage.view(LightCompensation{1.5}), rig.plan);
         std::mt19937 random(11);
         std::vector<glm::u8vec4> codes(static_cast<std::size_t>(stage.projector.width));
         for (glm::u8vec4& each : codes) {
             each = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
         }
-        CastLight best;
-        CastLight plain(Instructions::Plain);
+        RasterLight best;
+        RasterLight plain(Instructions::Plain);
         best.begin(rig.plan, 0);
         plain.begin(rig.plan, 0);
         std::size_t shown = 0;
@@ -194,14 +194,14 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
 TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
-    const Image8 alone = rig.one(stage, rig.cast, LightCompensation{});
+    const Image8 alone = rig.one(stage, rig.raster, LightCompensation{});
     TablePicture everywhere;
     everywhere.corners_m = {glm::dvec3(-0.4, 0.4, 0.0), {0.4, 0.4, 0.0}, {0.4, -0.4, 0.0}, {-0.4, -0.4, 0.0}};
     everywhere.texture = rig.renderer->store().upload(Image<std::uint8_t>(16, 16, 255)).value();
     everywhere.on_prop = true;
     PlanView view = stage.view(LightCompensation{});
     view.on_table = {&everywhere, 1};
-    plan_frame(rig.prop, rig.cast, view, rig.plan);
+    plan_frame(rig.prop, rig.raster, view, rig.plan);
     rig.draw(Redraw::Everything);
     const Image8 both = rig.picture();
     std::size_t shown = 0;
@@ -227,7 +227,7 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     for (int pose = 0; pose < 30; ++pose) {
         stage.shuffle(random);
         PlanView view = stage.view(LightCompensation{});
-        plan_frame(rig.prop, rig.cast, view, rig.plan);
+        plan_frame(rig.prop, rig.raster, view, rig.plan);
         EXPECT_EQ(rig.draw(Redraw::Everything).draw_calls, 0);
         const Image8 alone = rig.picture();
         const double half_m = pose == 0 ? 0.4 : 0.03;
@@ -243,7 +243,7 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
         plan_frame(rig.prop, PlacedLevel{}, view, rig.plan);
         const int without = rig.draw(Redraw::Everything).draw_calls;
         const Image8 table = rig.picture();
-        plan_frame(rig.prop, rig.cast, view, rig.plan);
+        plan_frame(rig.prop, rig.raster, view, rig.plan);
         const int with = rig.draw(Redraw::Everything).draw_calls;
         const Image8 both = rig.picture();
         (with > without ? drawn : copied) += 1;
@@ -265,7 +265,7 @@ TEST(Relief, LeavesNothingBehindWhereItWas) {
     std::mt19937 random(12);
     for (int pose = 0; pose < 8; ++pose) {
         stage.shuffle(random);
-        plan_frame(rig.prop, rig.cast, stage.view(LightCompensation{}), rig.plan);
+        plan_frame(rig.prop, rig.raster, stage.view(LightCompensation{}), rig.plan);
         ASSERT_TRUE(rig.draw(Redraw::Changes).drawn);
         const Image8 moved = rig.picture();
         rig.draw(Redraw::Everything);
@@ -277,7 +277,7 @@ TEST(Relief, LeavesNothingBehindWhereItWas) {
 TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
     for (const auto& [samples, on_gpu] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
         ReliefRig rig(samples);
-        const PlacedLevel& which = on_gpu ? rig.drawn : rig.cast;
+        const PlacedLevel& which = on_gpu ? rig.drawn : rig.raster;
         Stage stage(320, 200);
         std::mt19937 random(7);
         stage.shuffle(random);
@@ -316,10 +316,10 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
     Stage stage(320, 200);
     std::mt19937 random(8);
     stage.shuffle(random);
-    const Image8 from = rig.one(stage, rig.cast, LightCompensation{});
+    const Image8 from = rig.one(stage, rig.raster, LightCompensation{});
     const Image8 to = rig.one(stage, other, LightCompensation{});
     ASSERT_NE(from.texels, to.texels);
-    const Image8 middle = rig.fading(stage, rig.cast, other, 0.5);
+    const Image8 middle = rig.fading(stage, rig.raster, other, 0.5);
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
         ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
     }
@@ -328,7 +328,7 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
 TEST(Relief, IsGoneWhenItWasReleased) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
-    for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
         ASSERT_GT(lit_pixels(rig.one(stage, which)), 1000U);
         rig.renderer->store().release(which.drawable);
         EXPECT_EQ(lit_pixels(rig.one(stage, which)), 0U);
@@ -347,7 +347,7 @@ TEST(Relief, AFrameOfItAllocatesNothing) {
         stage.shuffle(random);
         stages.push_back(stage);
     }
-    for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
+    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
         long counted = 0;
         for (int k = 0; k < 60; ++k) { // the first rounds reserve memory for the fullest view
             const Stage& from = stages[static_cast<std::size_t>(k) % stages.size()];

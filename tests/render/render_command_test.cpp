@@ -190,15 +190,15 @@ TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
     EXPECT_EQ(refusal("--config kiosk.toml run"), "frustumscreen: write run before its options");
     for (const std::string technique : {"finst", "level", "level-1", "Auto", "level0x"}) {
         EXPECT_EQ(refusal("run --pattern --config kiosk.toml --technique " + technique),
-                  "frustumscreen run: --technique: '" + technique +
-                      "' is no technique; allowed: auto, finest, level0, level1, ..., relief, "
+                  "frustumscreen run: --technique: unknown technique '" + technique +
+                      "'; allowed are auto, finest, level0, level1, ..., relief, "
                       "relief96, relief192, ..., relief-gpu, relief96-gpu, ...; frustumscreen run "
                       "--help says more");
     }
     for (const std::string seconds : {"8s", "0,5", "0", "nan", "1e9"}) {
         EXPECT_EQ(refusal("run --config kiosk.toml --seconds " + seconds),
                   "frustumscreen run: --seconds: '" + seconds +
-                      "' is not allowed; a number of seconds is wanted, 0.01 to 1000000, such as 8 or 0.5; "
+                      "' is not allowed; allowed are 0.01 to 1000000 seconds, such as 8 or 0.5; "
                       "frustumscreen run --help says more");
     }
 }

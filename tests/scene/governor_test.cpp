@@ -93,9 +93,9 @@ TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
     }
     EXPECT_EQ(on_gpu, 2U);
     EXPECT_EQ(both.size(), ladder(levels, {true}, 4, relief).size() + 2);
-    const QualityLevel cast{384, 4, true, true};
+    const QualityLevel raster{384, 4, true, true};
     const QualityLevel drawn{384, 4, true, true, true};
-    EXPECT_FALSE(cast.shows_as(drawn));
+    EXPECT_FALSE(raster.shows_as(drawn));
 }
 
 TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
@@ -192,7 +192,7 @@ struct SimulatedGpu {
     }
 };
 
-TEST(Governor, KeepsTheBestRungWhereItFits) {
+TEST(Governor, KeepsTheBestQualityLevelWhereItFits) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     const auto outcome = gpu.play(governor, 0.0, 120.0, [](double) { return 1.0; });
@@ -200,7 +200,7 @@ TEST(Governor, KeepsTheBestRungWhereItFits) {
     EXPECT_EQ(outcome.quality_share, 1.0);
 }
 
-TEST(Governor, OfSeveralGoodEnoughRungsTakesTheQuickest) {
+TEST(Governor, OfSeveralGoodEnoughQualityLevelsTakesTheQuickest) {
     SimulatedGpu gpu;
     gpu.quality_levels[3].enough = true; // the coarse level with all samples
     EXPECT_EQ(gpu.governor().index(), 3U);
@@ -261,7 +261,7 @@ TEST(Governor, DoesNotOscillateAtAnySteadyLoad) {
 
 /// The best level is slower than its initial measurement says: it is tried and left at growing intervals: 2 +
 /// 4 + ... + 2^k seconds of patience fit into the time.
-TEST(Governor, TriesARungThatNeverFitsOnlyLogarithmicallyOften) {
+TEST(Governor, TriesAQualityLevelThatNeverFitsOnlyLogarithmicallyOften) {
     for (const double lie : {1.3, 2.0, 5.0}) {
         for (const double swing : {0.0, 0.25, 0.5}) { // a load that invites another try
             SimulatedGpu gpu;
@@ -431,7 +431,7 @@ TEST(FrameTimeModel, IsStableForEveryStep) {
     }
 }
 
-TEST(FrameTimeModel, ForetellsOtherRungsAtAnotherPose) {
+TEST(FrameTimeModel, ForetellsOtherQualityLevelsAtAnotherPose) {
     SimulatedGpu gpu;
     FrameTimeModel model(gpu.times);
     // The prop is nearer: more of the artifact and 1.8 times the pixels; only level 5 is ever drawn.

@@ -116,7 +116,7 @@ TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
     EXPECT_EQ(*used.rbegin() + 1, level.mesh.vertices.size());
 }
 
-TEST(SceneLevel, OfARecordingOrWithoutEconomiesIsWhole) {
+TEST(SceneLevel, OfARecordingOrWithoutCullKindsIsWhole) {
     Settings settings = steep_table();
     const Pack pack = placed_rings();
     settings.tracker.kind = TrackerKind::Replay;

@@ -116,7 +116,7 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         ASSERT_EQ(plan.reliefs.size(), 1U);
         EXPECT_EQ(plan.reliefs.front().texels, texels);
         EXPECT_EQ(name_of(plan.quality_levels.front()), fmt::format("relief{}", texels));
-        EXPECT_EQ(plan.needs.casts, 1U);
+        EXPECT_EQ(plan.needs.relief_draws, 1U);
         EXPECT_EQ(plan.needs.samples, 1) << "its samples are taken where it is cast";
         for (const ShaderKey& key : plan.needs.draws) {
             EXPECT_NE(key.pass, ShaderKey::Pass::Surface);
@@ -148,9 +148,10 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
         EXPECT_TRUE(plan.quality_levels.front().level == 192 || technique == "relief-gpu");
         EXPECT_EQ(name_of(plan.quality_levels.front()),
                   fmt::format("relief{}-gpu", plan.reliefs.front().texels));
-        EXPECT_EQ(plan.needs.casts, 0U);
+        EXPECT_EQ(plan.needs.relief_draws, 0U);
         EXPECT_TRUE(std::none_of(plan.needs.draws.begin(), plan.needs.draws.end(), [](const ShaderKey& key) {
-            return key.pass == ShaderKey::Pass::Cast || (key.pass == ShaderKey::Pass::Surface && !key.blocks);
+            return key.pass == ShaderKey::Pass::Raster ||
+                   (key.pass == ShaderKey::Pass::Surface && !key.blocks);
         }));
     }
     for (const std::string_view wrong :
@@ -182,13 +183,13 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     ASSERT_EQ(plan.reliefs.size(), 1U);
     EXPECT_EQ(plan.reliefs.front().texels, 192U);
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
-    EXPECT_EQ(plan.needs.casts, 1U);
+    EXPECT_EQ(plan.needs.relief_draws, 1U);
     EXPECT_TRUE(fades(plan));
     // A relief outside the tolerance is neither read nor drawn.
     const ScenePlan meshes =
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 8e-3F), request(settings)).value();
     EXPECT_TRUE(meshes.reliefs.empty());
-    EXPECT_EQ(meshes.needs.casts, 0U);
+    EXPECT_EQ(meshes.needs.relief_draws, 0U);
     const ScenePlan finer =
         plan_scene(settings, outline_with_reliefs({96, 192, 384, 768}, 8e-3F, 384), request(settings))
             .value();
@@ -214,7 +215,7 @@ TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
     EXPECT_EQ(plan_scene(settings, garbage, request(settings)).value().levels.front(), 3U);
 }
 
-TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
+TEST(ScenePlan, WithoutCullKindsHoldsEverythingAndDrawsTheSame) {
     const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     const ScenePlan lean = plan_scene(settings, outline(), asked).value();
@@ -293,7 +294,7 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
             key.blocks = true;
             keys.insert(key.places ? places_of(key) : key);
         }
-        keys.insert(cast_shader(key.dithered));
+        keys.insert(raster_shader(key.dithered));
     }
     for (const ShaderKey::Pass pass :
          {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture, ShaderKey::Pass::TileClear,

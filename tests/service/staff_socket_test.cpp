@@ -117,7 +117,7 @@ TEST_F(StaffSocketTest, SomebodyElseIsRefusedWhateverTheFilesModeIs) {
                 ::_exit(3);
             }
             const std::string answer = answer_to("hello\n");
-            ::_exit(answer == "ok 1\n*" ? 0 : answer.starts_with("no this is for the staff") ? 1 : 2);
+            ::_exit(answer == "ok 1\n*" ? 0 : answer.starts_with("no only the staff may ask this") ? 1 : 2);
         }
         int status = 0;
         ::waitpid(child, &status, 0);

@@ -139,7 +139,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[projector]\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 2,0,1.2,1]",
          {":2: projector.table_from_projector throws its picture beside the table"}},
         {"[projector]\nposition_m = [0.7, 0, 1.5]",
-         {":2: projector.position_m throws its picture so that the prop, 0.3 m wide, nowhere stands in it"}},
+         {":2: projector.position_m throws its picture so that the prop, 0.3 m wide, cannot stand in it "
+          "anywhere"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 1]",
          {":3: projector.aim_m gives no direction"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 5, 1]",
@@ -169,7 +170,7 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[panel]\nlines = [\"red\", \"4\", \"red\"]", {":2: panel.lines names \"red\" again"}},
         {"[panel]\nlines = [\"0\", \"1\", \"00\"]", {":2: panel.lines names \"00\" again"}},
         {"[panel]\nlines = [\"3\", \"4\"]\nlamps = [\"5\", \"3\"]",
-         {":3: panel.lamps names \"3\" again", "none of panel.lines"}},
+         {":3: panel.lamps names \"3\" again", "not in panel.lines"}},
         {"[panel]\nlines = [\"3\", \"4\"]\nlamps = [\"5\", \"5\"]", {":3: panel.lamps names \"5\" again"}},
         {"[panel]\nkeys = [\"KEY_L\", \"KEY_R\", \"KEY_L\"]",
          {":2: panel.keys names \"KEY_L\" again", "a key of its own"}},

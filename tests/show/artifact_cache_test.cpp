@@ -1,4 +1,4 @@
-// Artifacts that come and go while the exhibit runs, from packs in a folder.
+// Artifacts loaded and released while the exhibit runs, from packs in a folder.
 
 #include "app/show/live_exhibit.h"
 #include "tests/show/comings.h"
@@ -14,7 +14,7 @@ TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
     EXPECT_EQ(show->state({}).loaded, 1U);
     await(1);
     await(4);
-    EXPECT_EQ(show->artifacts()[2], ArtifactState::Away); // nobody wants it yet
+    EXPECT_EQ(show->artifacts()[2], ArtifactState::Away); // not requested yet
     EXPECT_EQ(show->artifacts()[3], ArtifactState::Away);
     EXPECT_EQ(show->state({}).loaded, 3U);
     rest();
@@ -25,7 +25,7 @@ TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
     start(5, false);
     rest(); // until the first has faded in
     const std::array<Command, 2> twice{Command::NextArtifact, Command::NextArtifact};
-    step(twice); // to the third, which nobody has loaded ahead
+    step(twice); // to the third, which was not loaded ahead
     bool stood_in = false;
     double last = 0.0;
     while (true) {
@@ -59,7 +59,7 @@ TEST_F(Comings, EachShowsItsOwnPicture) {
         EXPECT_GT(blues[k], blues[k - 1] + 5) << k;
     }
     rest();
-    EXPECT_EQ(show->state({}).loaded, 5U); // there is room for all
+    EXPECT_EQ(show->state({}).loaded, 5U); // all fit
 }
 
 TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
@@ -74,11 +74,11 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
     EXPECT_EQ(show->state({}).left_out->front().pack, files.files()[1].string());
     EXPECT_NE(show->state({}).left_out->front().reason.find("damaged"), std::string::npos)
         << show->state({}).left_out->front().reason;
-    step(next); // passes over them
+    step(next); // skips it
     await(2);
     rest();
     EXPECT_EQ(step().artifact, 2U);
-    EXPECT_EQ(step().lamps & 3U, 3U); // there is another one still
+    EXPECT_EQ(step().lamps & 3U, 3U); // there is still another one
 }
 
 TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPlan) {

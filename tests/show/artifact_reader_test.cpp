@@ -1,4 +1,4 @@
-// The reader's thread, with work that the test makes up.
+// The reader's thread, with work invented by the test.
 
 #include "app/pack/pack_relief.h"
 #include "app/residency/artifact_reader.h"
@@ -19,7 +19,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Waits as long as it takes: a test that fails is ended from outside.
+/// Waits without a limit: a failing test is ended from outside.
 std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
     while (true) {
         if (auto answer = reader.take()) {
@@ -30,7 +30,7 @@ std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
 }
 
 Result<ArtifactReader::Prepared> numbered(std::size_t artifact) {
-    return bad_input("test.refusal", std::to_string(artifact)); // the answer that is made quickest
+    return bad_input("test.refusal", std::to_string(artifact)); // the quickest answer
 }
 
 TEST(ArtifactReader, AnswersWhatIsAskedFor) {
@@ -50,7 +50,7 @@ TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
     std::atomic<int> given_up_count = 0;
     ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
         ++begun;
-        while (artifact == 1 && !given_up()) { // it would never end by itself
+        while (artifact == 1 && !given_up()) { // does not end by itself
             std::this_thread::yield();
         }
         given_up_count += artifact == 1 ? 1 : 0;
@@ -85,7 +85,7 @@ TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
     EXPECT_TRUE(gave_up) << "the reader is gone, and its thread still works";
 }
 
-/// A hand that presses faster than anything is read: every answer is one that was asked for, and the last wish is met.
+/// Requests faster than the reader: every answer was requested, and the last request is answered.
 TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
     std::mt19937 random(3);
     for (int round = 0; round < 50; ++round) {
@@ -130,7 +130,7 @@ TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
     }
 }
 
-/// The relief's own colours are a dark artifact's here, so an exposure of its own would be a much brighter one.
+/// The relief's own colours are those of a darker artifact, so its own exposure would be much brighter.
 TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
     const synthetic::ShownPacks packs(1);
     KnownArtifact known = packs.known(0);
@@ -152,8 +152,8 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
     EXPECT_EQ(exposure("relief96"), of_mesh);
 }
 
-/// The governor measures what its quality levels draw; the relief lies in the GPU's memory only where one of them draws it there.
-TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
+/// The governor measures what its quality levels draw; the relief is in the GPU memory only if one of them draws it there.
+TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOther) {
     const synthetic::ShownPacks packs(1);
     KnownArtifact known = packs.known(0);
     Pack pack = synthetic::numbered_pack(0);

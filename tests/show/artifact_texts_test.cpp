@@ -1,5 +1,5 @@
-// Texts that come and go with their artifacts, from packs in a folder; bytes are asked of OpenGL, pictures are compared with those
-// of an exhibit that had the texts from the start.
+// Texts that are loaded and released with their artifacts, from packs in a folder. OpenGL reports the bytes; pictures
+// are compared with those of an exhibit that had the texts from the start.
 
 #include "app/residency/loaded.h"
 #include "tests/show/comings.h"
@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// The first has the least to say.
+/// The first pack has the shortest texts.
 Pack narration_pack(std::size_t number) {
     Pack pack = numbered_pack(number);
     pack.languages = {"en", "de"};
@@ -36,7 +36,7 @@ protected:
         devices.language = other_languages;
         Comings::start(packs, waits);
     }
-    /// The coverage of texts in the GPU's memory, by what the exhibit knows of their sizes.
+    /// Bytes of the texts' coverage in the GPU's memory, from the exhibit's sizes.
     [[nodiscard]] std::uint64_t coverage_bytes(const std::vector<glm::dvec2>& widths) const {
         const double texels_per_m =
             settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
@@ -70,9 +70,9 @@ TEST_F(TextsComing, AtTheStartThereIsTheCaptionOfTheFirstArtifactInTheHousesLang
     const ShowUse use = show->use();
     EXPECT_EQ(use.text_gpu_bytes, caption_bytes(0, 0));
     EXPECT_EQ(use.gpu_bytes, use.planned_gpu_bytes);
-    EXPECT_EQ(use.captions, 10U); // that may come to be shown
+    EXPECT_EQ(use.captions, 10U); // that may be shown
     start(1, false, false);
-    EXPECT_EQ(show->use().gpu_bytes, use.gpu_bytes); // as if there were no others
+    EXPECT_EQ(show->use().gpu_bytes, use.gpu_bytes); // independent of the other packs
 }
 
 TEST_F(TextsComing, NeighboursBringTheirCaptionsAndTheChosenOneAllThatIsToldOfIt) {
@@ -89,7 +89,7 @@ TEST_F(TextsComing, NeighboursBringTheirCaptionsAndTheChosenOneAllThatIsToldOfIt
 }
 
 TEST_F(TextsComing, AnArtifactThatGoesGivesBackTheBytesOfItsTexts) {
-    settings.exhibit.memory_mb = 0; // nothing but what is shown
+    settings.exhibit.memory_mb = 0; // only what is shown
     start(5, true);
     rest();
     const ShowUse first = show->use();
@@ -113,15 +113,15 @@ TEST_F(TextsComing, AnotherLanguageComesAndIsTheSamePicture) {
     const Image8 german = picture();
     settings.exhibit.language = "en";
     start(1, false);
-    while (show->use().text_gpu_bytes < bytes_of(0, 0) + caption_bytes(0, 1)) { // or forever
+    while (show->use().text_gpu_bytes < bytes_of(0, 0) + caption_bytes(0, 1)) { // may loop forever
         std::this_thread::sleep_for(milliseconds(1));
         step();
     }
     rest();
     EXPECT_NE(picture().texels, german.texels);
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + caption_bytes(0, 1));
-    step(language); // its caption is there; what is told comes now
-    while (show->use().text_gpu_bytes < bytes_of(0, 0) + bytes_of(0, 1)) { // or forever
+    step(language); // its caption is loaded; the narration is loaded next
+    while (show->use().text_gpu_bytes < bytes_of(0, 0) + bytes_of(0, 1)) { // may loop forever
         std::this_thread::sleep_for(milliseconds(1));
         step();
     }

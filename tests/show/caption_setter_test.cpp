@@ -1,4 +1,4 @@
-// Captions from glyph runs where the pack has them, else in the kiosk's typeface.
+// Captions from glyph runs if the pack has them, otherwise in the kiosk's typeface.
 #include "app/residency/caption_setter.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 constexpr double em_m = 0.010;
 constexpr double texels_per_m = 2000.0;
 
-/// One letter, a filled square as large as the type size, on one line.
+/// A letter that is a filled square as large as the type size, on one line.
 GlyphText letter(const std::string& key) {
     return {
         key, TextDirection::LeftToRight, {{4 * em_units, em_units, em_units, {{em_units, 1}}, {{0, 0, 0}}}}};

@@ -1,4 +1,4 @@
-/// A show of packs in a folder, stepped as a run's loop does.
+/// A show of packs in a folder, stepped as in the run loop.
 #pragma once
 
 #include "app/render/read_back.h"
@@ -43,7 +43,7 @@ protected:
                                      Redraw::Everything));
         return presentation;
     }
-    /// Steps until the artifact is there, or forever.
+    /// Steps until the artifact is ready; may loop forever.
     void await(std::size_t artifact) {
         while (show->artifacts()[artifact] == ArtifactState::Away) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -55,7 +55,7 @@ protected:
             step();
         }
     }
-    /// The brightest texel's blue, which says which artifact is shown; nothing if the picture is dark.
+    /// The blue of the brightest texel, which identifies the artifact; nothing if the picture is dark.
     std::optional<int> shown_blue() {
         const Image8 picture = read_colour(display->framebuffer(), 320, 200);
         std::optional<int> blue;

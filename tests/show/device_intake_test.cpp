@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Answers each poll with these samples, and with an error every other time.
+/// Answers each poll with these samples, and every other poll with an error as well.
 class FalteringTracker final : public Tracker {
 public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
@@ -95,7 +95,7 @@ TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
     EXPECT_FALSE(status.devices.sound.ok) << "there is none";
 }
 
-/// Of every state: an id of its own, and away where the device's own health says that nothing comes from it.
+/// Each state has its own id, and counts as away if the device's own health says that it delivers nothing.
 template <typename State, typename Health>
 void expect_conditions(State last, std::string_view subject, Health away) {
     std::set<std::string_view> ids;

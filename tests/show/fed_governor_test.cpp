@@ -1,4 +1,4 @@
-// What a show is told of its frames' times reaches the governor of the artifact that is shown.
+// Frame times reported to a show reach the governor of the shown artifact.
 
 #include "tests/show/comings.h"
 
@@ -7,11 +7,11 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// A tenth of a second a frame is allowed: a machine that runs tests takes less, so the finer level comes first, and what is told of
-/// it decides.
+/// A frame may take 0.1 s; a machine that runs tests is faster, so the finer level comes first, and the reported
+/// times decide.
 TEST_F(Comings, FramesThatTakeTooLongLeadToTheCoarserLevel) {
     settings.projector.refresh_hz = 10.0;
-    settings.render.error_tolerance_px = 0.12; // of 2.2 mm: the finer level keeps to it, the coarser does not
+    settings.render.error_tolerance_px = 0.12; // of 2.2 mm: the finer level is within it, the coarser is not
     start(1, true);
     LevelState levels;
     const auto tell = [&](double ms) {

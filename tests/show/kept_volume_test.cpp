@@ -1,4 +1,4 @@
-// The staff's volume over restarts, and settings that come between.
+// The staff's volume over restarts, and with changed settings in between.
 
 #include "app/show/kept_volume.h"
 #include "tests/base/temporary_folder.h"

@@ -1,4 +1,4 @@
-// The staff's picture, over an exhibit that only keeps a record of what it was asked.
+// The staff picture, over an exhibit that only records its calls.
 
 #include "app/render/read_back.h"
 #include "app/show/live_exhibit.h"
@@ -21,11 +21,11 @@ using std::chrono::seconds;
 const MonotonicTime start{seconds(100)};
 
 struct Record {
-    std::vector<int> ages; ///< of the buffers it was given
+    std::vector<int> ages; ///< of the buffers passed in
     int times = 0;
 };
 
-/// Draws nothing, and keeps what it was asked for.
+/// Draws nothing, and records its calls.
 class RecordingStage final : public ExhibitStage {
 public:
     explicit RecordingStage(Record& record) : record_(record) {}
@@ -62,7 +62,7 @@ protected:
     DrawResult frame(std::span<const Command> commands = {}, const TrackedState& tracked_state = {}) {
         show->step(now, commands, tracked_state);
         if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
-            show->tell(status); // as the run's loop does
+            show->tell(status); // as the run loop does
         }
         const DrawResult drawn =
             show->draw(now, tracked_state, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
@@ -74,12 +74,12 @@ protected:
         return drawn;
     }
     [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
-    /// The pattern's outermost pixels are white.
+    /// True if the pattern's outermost pixels are white.
     [[nodiscard]] bool pattern_is_on() const {
         const Image8 now_shown = picture();
         return now_shown.at(0, 100).r == 255 && now_shown.at(319, 199).r == 255;
     }
-    /// Presses the second button, and waits until what is shown has followed.
+    /// Presses the second button, and waits until the shown page has followed.
     void turn_page() {
         frame(next);
         now += StaffTool::between_views;
@@ -97,17 +97,17 @@ protected:
 TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
     frame(chord);
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1}));
-    EXPECT_EQ(record.times, 2); // its time is none of the governor's
+    EXPECT_EQ(record.times, 2); // the pattern's time does not reach the governor
     EXPECT_FALSE(pattern_is_on());
     turn_page();
     EXPECT_TRUE(pattern_is_on());
     EXPECT_EQ(record.ages.size(), 2U);
     frame(chord);
     frame();
-    EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds nothing of its own
+    EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds no picture of its own
 }
 
-/// Every page is another picture; of the lights, all white and all black are that, once their words have gone.
+/// Every page has its own picture; the white and black lights are exactly that, once their words have gone.
 TEST_F(Live, EveryPageIsAnotherPicture) {
     frame(chord);
     std::vector<std::vector<glm::u8vec4>> seen{picture().texels};
@@ -125,7 +125,7 @@ TEST_F(Live, EveryPageIsAnotherPicture) {
         now += StaffTool::words_stay;
         frame();
         const Image8 shown = picture();
-        // The first row has the code for the watchdog.
+        // The first row contains the watchdog's code.
         return std::all_of(shown.texels.begin() + shown.width, shown.texels.end(),
                            [code](const glm::u8vec4& texel) {
                                return texel.r == code && texel.g == code && texel.b == code;
@@ -170,7 +170,7 @@ TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
     now = end - milliseconds(1);
     frame();
     EXPECT_EQ(record.ages.size(), 2U);
-    frame(); // past it
+    frame(); // after it
     EXPECT_EQ(record.ages.size(), 3U);
     frame(chord);
     frame(chord);
@@ -213,7 +213,7 @@ TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
     EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
 }
 
-/// Artifacts as white as can be, everywhere.
+/// A stage whose artifacts are fully white everywhere.
 class WhiteStage final : public ExhibitStage {
 public:
     [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation& presentation, const glm::dvec3&,
@@ -238,7 +238,7 @@ double luminance_of(const glm::u8vec4& colour) {
     return 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
 }
 
-/// Fingers on all buttons, mostly after the chord and then the quickest press there is; what the pixels show.
+/// All buttons, mostly the fastest possible presses after the chord; the pixels are checked.
 TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
     int most = 0;
     int patterns = 0;
@@ -248,12 +248,12 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
                                              sample::exhibit(3, {"en", "de"}), "a driver");
         now = start;
         ButtonTimes times;
-        times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: none is ignored
+        times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: off
         Buttons buttons(3, times);
         std::array<bool, 3> levels{};
         std::vector<PanelEvent> events;
         MonotonicTime chord_until = start;
-        std::optional<MonotonicTime> lost; // in half of the runs the prop comes and goes, too
+        std::optional<MonotonicTime> lost; // in half of the runs the prop also comes and goes
         MonotonicTime prop_turns = start;
         std::array<std::vector<Luminance>, 40> places; // spread over the picture and on its border
         while (now < start + seconds(40)) {
@@ -265,7 +265,7 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
             events.clear();
             buttons.sample(now, levels, events);
             std::vector<Command> commands;
-            for (const PanelEvent& event : events) { // as the run's loop does
+            for (const PanelEvent& event : events) { // as the run loop does
                 if (event.kind == PressKind::Chord) {
                     commands.push_back(Command::StaffMode);
                     ++patterns;

@@ -1,4 +1,4 @@
-// A mark of light lies on nothing that visitors are shown.
+// A drift mark overlaps nothing that visitors are shown.
 #include "app/show/mark_show.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What is done with a stick, as the importer's report says it: on the table in pixels, aloud in samples, in the journal and the status.
+// The import of a stick, from the importer's report: in the table's pixels, in audio samples, in the journal and the
+// status.
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
@@ -77,7 +78,7 @@ protected:
                 with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
             "kiosk.toml");
         settings.panel.script = {{1.0, 0}, {2.0, 1}};
-        ArtifactShowOptions options{packs.files(), "level0", 1, AllCullKinds}; // frame times choose no level
+        ArtifactShowOptions options{packs.files(), "level0", 1, AllCullKinds}; // no governor
         options.waits = true;
         now = MonotonicTime(seconds(100));
         auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
@@ -95,7 +96,7 @@ protected:
         while (now < end) {
             now += milliseconds(20);
             tracked_state.table_from_prop.translation.x =
-                now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // somebody is there
+                now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // a visitor is present
             show->step(now, std::exchange(commands, {}), tracked_state);
             std::vector<std::int16_t> block(sample_rate_hz / 50);
             mixer.mix(block);
@@ -110,7 +111,7 @@ protected:
         static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 0}, Redraw::Everything));
         return read_colour(display->framebuffer(), width, height);
     }
-    /// Codes of the pixels that two pictures differ in, by place: 0 where they do not.
+    /// Codes of the pixels in which two pictures differ, by place: 0 where they are equal.
     static Image<std::uint8_t> difference(const Image8& without, const Image8& with) {
         Image<std::uint8_t> light(width, height);
         for (int y = 0; y < height; ++y) {
@@ -170,7 +171,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
         const double px_per_m =
             settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
         const int left = left_of(light);
-        const int ring_px = static_cast<int>(0.034 * px_per_m); // 16 mm to each side, then letters
+        const int ring_px = static_cast<int>(0.034 * px_per_m); // 16 mm on each side, then letters
         int full = 0;
         int empty = 0;
         for (int y = 0; y < height; ++y) {
@@ -239,7 +240,7 @@ TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     ASSERT_EQ(lit(difference(without, picture())), 0)
         << "the first has gone, and the second is not there yet";
     wait(milliseconds(20), std::array{Command::NextArtifact});
-    wait(seconds(2)); // what of it was there already fades
+    wait(seconds(2)); // the earlier notice has begun to fade
     EXPECT_EQ(lit(difference(without, picture())), 0);
     EXPECT_EQ(show->state().artifact, shown);
 }
@@ -295,7 +296,7 @@ TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
 
 TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
     const Image8 without = picture();
-    for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall's clock may have been set
+    for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall clock may have been set
         put(report, done_with(3));
         fs::last_write_time(report, fs::file_time_type::clock::now() - age);
         start(true);
@@ -311,7 +312,7 @@ TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
     ASSERT_EQ(::stat(report.c_str(), &before), 0);
     wait(seconds(1));
     EXPECT_EQ(picture().texels, without.texels);
-    std::ofstream(report, std::ios::in | std::ios::binary) << json; // the same file of the same size
+    std::ofstream(report, std::ios::in | std::ios::binary) << json; // a file of the same size
     const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
     ASSERT_EQ(::utimensat(AT_FDCWD, report.c_str(), times.data(), 0), 0);
     wait(seconds(6));

@@ -1,4 +1,4 @@
-// When portions begin: in the recording's pauses where there are some nearby, else by their share.
+// Start times of portions: in the recording's pauses if any are near, otherwise by their share.
 #include "app/residency/portion_times.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ using std::chrono::seconds;
 
 namespace {
 
-/// Silence of a length, with pauses around some times.
+/// Silence of a length, with pauses around given times.
 Prompt prompt(double length_s, const std::vector<std::pair<double, double>>& pauses_s) {
     Prompt made;
     made.samples.resize(static_cast<std::size_t>(length_s * sample_rate_hz));
@@ -38,7 +38,7 @@ TEST(PortionTimes, are_shares_of_the_speech_without_pauses) {
 }
 
 TEST(PortionTimes, are_moved_to_the_longest_pause_nearby) {
-    // A comma at 10 s, the sentence's end at 11 s; what is left is shared anew from there.
+    // A comma at 10 s, the sentence's end at 11 s; the rest is divided again from there.
     expect_times(portion_times(shares, prompt(20.0, {{9.9, 10.1}, {10.7, 11.3}, {15.4, 15.8}})),
                  {0.0, 11.0, 15.6});
     expect_times(portion_times(shares, prompt(20.0, {{3.0, 4.0}, {18.0, 19.0}})), {0.0, 10.0, 15.0});

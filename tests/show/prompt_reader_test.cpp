@@ -1,4 +1,4 @@
-// Prompts that a thread of its own reads: what comes, what is kept, what is silent, and that nobody waits.
+// Recordings read on a thread of its own: which arrive, which are kept, which are silent, without waiting.
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
 #include "app/residency/prompt_reader.h"
@@ -26,7 +26,7 @@ SharedRecording in_memory(const std::string& name, Bytes opus) {
         PromptRecording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
 }
 
-/// Asks until there is an answer; the tests' own time limit ends what never comes.
+/// Polls until there is an answer; the tests' own time limit ends an endless wait.
 SharedReading wait_for(PromptReader& reader, const SharedRecording& recording) {
     SharedReading reading = reader.find(recording);
     while (!reading) {
@@ -114,7 +114,7 @@ TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
         words.push_back(in_memory("word " + std::to_string(k), fixture("tone.opus")));
         reader.want(SpokenUse::Word, words.back());
         wait_for(reader, words.back());
-        if (k > 0) { // the first is wanted again and again
+        if (k > 0) { // the first is requested repeatedly
             reader.want(SpokenUse::Word, words.front());
             wait_for(reader, words.front());
         }

@@ -1,4 +1,4 @@
-// The policy of what is in memory, held against a search through all sets of artifacts.
+// The cache policy, compared with a search through all sets of artifacts.
 
 #include "app/residency/residency.h"
 
@@ -16,7 +16,7 @@ struct Scene {
     std::vector<std::size_t> wanted;
     std::uint64_t budget = 0;
 
-    /// What may exceed the budget: the shown one, and the one that is waited for.
+    /// The artifacts that may exceed the budget: the shown one, and the one that is waited for.
     [[nodiscard]] std::vector<std::size_t> needed() const {
         return wanted.empty() ? std::vector{shown} : std::vector{shown, wanted.front()};
     }
@@ -34,11 +34,11 @@ bool may_exceed(const Scene& scene, std::size_t artifact) {
     return artifact == scene.shown || (!scene.wanted.empty() && artifact == scene.wanted.front());
 }
 
-/// Of all sets that the budget allows, the best: rather one urgent artifact than all that are less so.
+/// The best set within the budget: one urgent artifact outweighs all less urgent ones.
 unsigned best_set(const Scene& scene) {
     std::vector<std::size_t> order{scene.shown};
     order.insert(order.end(), scene.wanted.begin(), scene.wanted.end());
-    const auto value = [&](unsigned set) { // the more urgent, the higher the digit
+    const auto value = [&](unsigned set) { // higher digits for more urgent ones
         std::uint64_t digits = 0;
         for (const std::size_t artifact : order) {
             digits = 2 * digits + ((set >> artifact) & 1U);
@@ -75,7 +75,7 @@ void settle(Scene& scene) {
             ASSERT_TRUE(released.loaded);
             ASSERT_NE(*step.release, scene.shown);
             for (std::size_t k = 0; k < scene.artifacts.size();
-                 ++k) { // whatever else could go was shown later
+                 ++k) { // everything else that could be released was shown later
                 const bool stays = ((best_set(scene) >> k) & 1U) != 0 || k == scene.shown;
                 if (scene.artifacts[k].loaded && !stays) {
                     ASSERT_GE(scene.artifacts[k].last_shown, released.last_shown);
@@ -125,7 +125,7 @@ TEST(Residency, KeepsWhatItHasWhileThereIsRoom) {
     Scene scene{{{4, true, false, 3}, {4, true, false, 1}, {4, true, false, 2}}, 0, {0}, 12};
     EXPECT_EQ(scene.step(), ResidencyStep{});
     scene.budget = 11;
-    EXPECT_EQ(scene.step(), (ResidencyStep{1, std::nullopt})); // shown least recently
+    EXPECT_EQ(scene.step(), (ResidencyStep{1, std::nullopt})); // least recently shown
 }
 
 TEST(Residency, WaitsForNothingThatIsLeftOut) {

@@ -22,7 +22,7 @@ HoursSettings from_ten_to_six() {
     return settings;
 }
 
-/// Both clocks go on together, unless the wall's is set.
+/// Both clocks advance together, unless the wall clock is set.
 struct Kiosk {
     explicit Kiosk(const HoursSettings& settings = from_ten_to_six(), std::string_view missing_zone = {})
         : run(settings, no_offset, missing_zone) {}

@@ -1,4 +1,4 @@
-// An artifact's levels on the display, with frame times that the test makes up.
+// An artifact's levels on the display, with frame times invented by the test.
 
 #include "app/render/read_back.h"
 #include "app/residency/run_levels.h"
@@ -14,7 +14,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// Rings at two levels: the coarse one's points are points of the fine one, so the box is the same.
+/// Rings at two levels: the coarse points are points of the fine level, so the box is the same.
 Pack two_levels() {
     Pack pack = rings(24, 12);
     const Pack coarse = rings(12, 4);
@@ -31,7 +31,7 @@ Pack two_levels() {
 }
 
 constexpr double deadline_ms = 16.0;
-/// Of a GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
+/// A GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
 const std::vector<QualityLevelTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
 
 struct Show {
@@ -60,7 +60,7 @@ struct Show {
         RunLevels made = upload(technique).value();
         made.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
         if (made.uses().size() > 1) {
-            made.start(gpu_times); // not what this machine happened to take
+            made.start(gpu_times); // independent of this machine's speed
         }
         return made;
     }
@@ -77,7 +77,7 @@ struct Show {
         draw(levels);
         return read_colour(display->framebuffer(), 320, 200);
     }
-    /// Frames that take `ms` each, of a prop that turns a little from frame to frame.
+    /// Draws frames of `ms` each, with a prop that moves slightly from frame to frame.
     void play(RunLevels& levels, int frames, double ms) {
         for (int k = 0; k < frames; ++k) {
             stage.table_from_prop.translation.x = 1e-4 * (frame % 2);
@@ -98,12 +98,12 @@ TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
     const double mm_per_box = 1e3 * place(show.pack, show.stage.prop).metres_per_box;
     ASSERT_TRUE(levels.state().error);
     EXPECT_NEAR(levels.state().error->mean_mm, 6e-4 * mm_per_box,
-                5e-5 * mm_per_box); // along the rays, and pixels
+                5e-5 * mm_per_box); // along the rays, plus pixel rounding
     EXPECT_GT(levels.state().error->p95_mm, 2e-3 * mm_per_box);
     show.stage.table_from_prop.translation.x = 3.0; // beside the picture
     show.draw(levels);
     EXPECT_FALSE(levels.state().error);
-    // All are within a tolerance of 10 mm: the finer one is not even loaded.
+    // All levels are within a tolerance of 10 mm: the finer one is not even loaded.
     const RunLevels coarse = show.upload("auto", 10.0).value();
     EXPECT_EQ(coarse.uses().size(), 1U);
     EXPECT_EQ(coarse.state().level, "level0");
@@ -121,7 +121,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
     }
     ASSERT_GT(frames, 10);
     ASSERT_LT(frames, 100); // two seconds of the test's clock
-    // At rest in the middle of the fade: it goes on by itself and ends at the coarse level.
+    // At rest in the middle of the fade: the fade continues by itself and ends at the coarse level.
     const int start = show.frame;
     const Image8 to = show.picture(coarse);
     const Image8 from = show.picture(fine);
@@ -137,13 +137,13 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
         }
         EXPECT_GE(coming, last_coming) << k;
         last_coming = coming;
-        levels.record_time(show.now(), 9.0); // a frame of two levels teaches nothing
+        levels.record_time(show.now(), 9.0); // a frame of two levels is ignored by the governor
     }
     EXPECT_EQ(show.picture(levels).texels, to.texels);
     EXPECT_EQ(levels.state().level, "level0");
     EXPECT_EQ(levels.state().switches, 1U);
     EXPECT_FALSE(show.draw(levels).drawn); // at rest again
-    // And back, when there is time.
+    // Back to the fine level when frames are fast.
     show.play(levels, 1200, 3.0);
     EXPECT_EQ(levels.state().level, "level1");
     EXPECT_EQ(levels.state().switches, 2U);

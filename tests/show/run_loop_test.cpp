@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Is in State::Fault from `fault_from` to `fault_until`.
+/// Stays in State::Fault from `fault_from` to `fault_until`.
 class FaultyShow final : public Show {
 public:
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
@@ -50,7 +50,7 @@ private:
     MonotonicTime now_;
 };
 
-/// On a clock that steps by one frame.
+/// Runs on a clock that advances by one frame.
 Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start,
                             VisitBook* visits = nullptr) {
     LoopOptions options;
@@ -74,7 +74,7 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
     return run_fast(show, inputs, seconds(200), start);
 }
 
-/// Somebody uses it from the 10th second to the 30th; it rests from the 50th on.
+/// In use from the 10th second to the 30th; at rest from the 50th on.
 class UsedShow final : public Show {
 public:
     explicit UsedShow(MonotonicTime start) : start_(start) {}
@@ -102,7 +102,7 @@ private:
     MonotonicTime start_, now_;
 };
 
-/// Nobody is there until `comes`; notes the marks of light that it is told to show.
+/// No visitor until `comes`; records the drift marks.
 class QuietShow final : public Show {
 public:
     void set_mark(const std::optional<ShownMark>& mark) override {
@@ -146,7 +146,7 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     EXPECT_FALSE(run->status.drifted);
 }
 
-/// Has something new to draw in every third frame.
+/// Draws something new in every third frame.
 class TimedShow final : public Show {
 public:
     void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
@@ -195,7 +195,7 @@ TEST(RunLoop, GoesOnWhereSomethingComesBack) {
     EXPECT_NEAR(run->status.uptime_s.value_or(0.0), 200.0, 0.1);
 }
 
-/// The picture's time is simulated, the book's thread is not.
+/// The picture's time is simulated, that of the visit book's thread is not.
 TEST(RunLoop, CountsVisits) {
     std::string folder = (std::filesystem::temp_directory_path() / "visits.XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder.data()), nullptr);

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A projector that shows the code that a test gives it.
+/// A projector that shows a code given by the test.
 class FakeProjector final : public Display {
 public:
     std::uint8_t code = 0;
@@ -52,7 +52,7 @@ protected:
         ::unsetenv("NOTIFY_SOCKET");
         ::unsetenv("WATCHDOG_USEC");
     }
-    /// Presents at 60 Hz for so long; the meals in it.
+    /// Presents at 60 Hz for `length`; returns how often the watchdog was fed.
     int meals_in(seconds length, bool shows_another) {
         int meals = 0;
         for (const MonotonicTime end = now + length; now < end; now += milliseconds(16)) {
@@ -99,7 +99,7 @@ TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
     EXPECT_LE(meals, 11);
     EXPECT_EQ(ready, 1);
     ::testing::internal::CaptureStderr();
-    (void)meals_in(seconds(4), false); // drawn and presented, but the projector stays at one picture
+    (void)meals_in(seconds(4), false); // drawn and presented, but the projector keeps one picture
     EXPECT_EQ(meals_in(seconds(10), false), 0);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(),
               "frustumscreen: watchdog: not fed: the picture that is presented is not the one that was "
@@ -116,9 +116,10 @@ TEST_F(RunWatchTest, NotesADiskThatHangsAndThatItAnswersAgain) {
     watch->note(status);
     status.library_hangs = false;
     watch->note(status);
-    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
-              "frustumscreen: set: the library's disk does not answer; no other set can come until it does\n"
-              "frustumscreen: set: the library's disk answers again\n");
+    EXPECT_EQ(
+        ::testing::internal::GetCapturedStderr(),
+        "frustumscreen: set: the library's disk does not answer; no other set can come until it answers\n"
+        "frustumscreen: set: the library's disk answers again\n");
 }
 
 TEST_F(RunWatchTest, NotesEachChangeOnce) {
@@ -132,7 +133,7 @@ TEST_F(RunWatchTest, NotesEachChangeOnce) {
     watch->note(status);
     status.tracker = Sentence("no tracker is connected");
     watch->note(status);
-    status.level = "level1"; // no line of its own
+    status.level = "level1"; // has no line of its own
     watch->note(status);
     status.sound = Sentence("its sound goes to default");
     watch->note(status);

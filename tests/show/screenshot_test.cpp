@@ -1,4 +1,4 @@
-// The hand-over of the presented picture between the render thread and the one who asks.
+// The hand-over of the presented picture from the render thread to a requesting thread.
 #include "app/render/probe.h"
 #include "app/show/screenshot.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -27,7 +27,7 @@ protected:
         glClear(GL_COLOR_BUFFER_BIT);
         ASSERT_TRUE(display->present(monotonic_now()));
     }
-    /// Serves until somebody who asks on another thread has his answer.
+    /// Serves until a request on another thread is answered.
     [[nodiscard]] Result<Image8> asked() {
         std::future<Result<Image8>> answer = std::async(std::launch::async, [this]() -> Result<Image8> {
             const Result<const Image8*> taken = screenshot.take(std::stop_token());
@@ -61,7 +61,7 @@ TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
     EXPECT_GE(monotonic_now() - start, Screenshot::between_pictures);
 }
 
-/// A display whose picture cannot be read until somebody lets it.
+/// A display whose picture cannot be read until the test releases it.
 class HeldDisplay : public Display {
 public:
     explicit HeldDisplay(Display& held) : held_(held) {}
@@ -93,7 +93,7 @@ TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
         return was;
     });
     while (answered.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
-        screenshot.serve(held); // it takes the question, and hangs until the one who asks has given up
+        screenshot.serve(held); // takes the request, and hangs until it is given up
     }
     EXPECT_FALSE(answered.get());
     draw(false, true, false);
@@ -104,13 +104,13 @@ TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
 
 TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
     draw(true, true, true);
-    screenshot.serve(*display); // nobody asked
+    screenshot.serve(*display); // without a request
     const Result<const Image8*> none = screenshot.take(std::stop_token());
     ASSERT_FALSE(none);
     EXPECT_EQ(
         none.error().message,
         "the exhibit hands out no picture; it hangs, is ending, or shows the staff what its camera sees");
-    screenshot.serve(*display); // the question was taken back
+    screenshot.serve(*display); // the request was withdrawn
     draw(false, true, false);
     const Result<Image8> later = asked();
     ASSERT_TRUE(later);

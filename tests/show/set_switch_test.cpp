@@ -1,4 +1,4 @@
-// Sets of packs that are installed while the exhibit runs: real packs, a real library's files, a display without a screen.
+// Sets of packs installed while the exhibit runs: real packs, a real library's files, a display without a screen.
 
 #include "app/library/set_file.h"
 #include "app/pack/container/sha256.h"
@@ -26,7 +26,7 @@ using std::chrono::seconds;
 
 namespace fs = std::filesystem;
 
-/// With an id of its own, as curators' packs have.
+/// A pack with an id of its own, as curators' packs have.
 Bytes pack_of(std::size_t number) {
     Pack pack = numbered_pack(number);
     pack.id = fmt::format("rings-{}", number);
@@ -44,16 +44,17 @@ protected:
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(320, 200);
         options.technique = "finest"; // no governor: pictures can be compared
         options.other_sets = true;
-        options.waits = true; // for the texts that a picture is to have
+        options.waits = true; // for the texts of a compared picture
         devices.other_packs = true;
     }
     void TearDown() override {
-        sets.reset(); // before the show that it is about
+        sets.reset(); // before the show, which it uses
         show.reset();
         fs::remove_all(folder);
     }
 
-    /// Of packs, by their numbers; `spoiled` counts from 0: its levels are damaged, its manifest is not.
+    /// A set of packs, by their numbers; `spoiled` is an index of a pack whose levels are damaged, but not its
+    /// manifest.
     InstalledSet put(std::uint64_t number, const std::vector<std::size_t>& packs,
                      std::optional<std::size_t> spoiled = {}) {
         InstalledSet set;
@@ -119,9 +120,9 @@ protected:
             step();
         }
     }
-    /// Goes on until it is so, for at most ten seconds of the wall's clock.
+    /// The wall-clock limit of `await`, which steps until `is_so`.
     static constexpr Nanoseconds only_a_hang =
-        seconds(300); ///< takes longer, on a busy machine under a sanitizer too
+        seconds(300); ///< reached only in a hang, even on a busy machine under a sanitizer
     bool await(const std::function<bool()>& is_so) {
         const MonotonicTime begin = monotonic_now();
         while (!is_so() && monotonic_now() - begin < only_a_hang) {
@@ -130,7 +131,7 @@ protected:
         }
         return is_so();
     }
-    /// The same without a step.
+    /// Waits as `await`, without steps.
     static bool await_there(const std::function<bool()>& is_so, Nanoseconds longest = only_a_hang) {
         const MonotonicTime begin = monotonic_now();
         while (monotonic_now() - begin < longest) {
@@ -145,7 +146,7 @@ protected:
         return await([&] { return switches >= number; });
     }
     [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
-    /// What an exhibit that was started with these packs alone shows.
+    /// The picture of an exhibit that was started with these packs alone.
     Image8 picture_of(const std::vector<std::size_t>& packs) {
         ArtifactShowOptions own = options;
         own.other_sets = false;
@@ -252,7 +253,7 @@ TEST_F(SetSwitching, ANewSetsPicturesLieOnTheTableAsAfterAStart) {
 }
 
 TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
-    settings.exhibit.table_pictures = false; // the others' names would differ
+    settings.exhibit.table_pictures = false; // otherwise names would differ
     install(put(1, {0, 1, 2}));
     start();
     visit();
@@ -306,7 +307,7 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
     start();
     visit();
     const Image8 before = picture();
-    install(put(2, {3, 4}, 1), one); // the second one's levels are read when they are wanted
+    install(put(2, {3, 4}, 1), one); // the second pack's levels are read on request
     ASSERT_TRUE(await_switches(1));
     ASSERT_TRUE(await_switches(2));
     rest();
@@ -319,7 +320,7 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
 
 TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     install(put(2, {3}), put(1, {0}));
-    const fs::path left = folder / "shown/verdict.json.part4194305"; // of no process
+    const fs::path left = folder / "shown/verdict.json.part4194305"; // of a process that does not exist
     fs::create_directory(left.parent_path());
     ASSERT_TRUE(write_file(left, {}));
     for (int begun = 1; begun <= max_starts; ++begun) {
@@ -327,7 +328,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
         step();
         EXPECT_EQ(show->set().number, 2U);
         EXPECT_EQ(verdict().starts, begun);
-        sets.reset(); // no verdict comes of it
+        sets.reset(); // no verdict results
         show.reset();
     }
     start();
@@ -398,7 +399,7 @@ TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
     install(one);
     start();
     sets.reset();
-    settings.exhibit.words = folder / "none.fswords"; // of which a note is made
+    settings.exhibit.words = folder / "none.fswords"; // missing, which gives a note
     settings.exhibit.guidance = true;
     LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
                                     start_library(folder), 1, milliseconds(2)});
@@ -437,7 +438,7 @@ TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
         set.number = number;
         install(set);
         ASSERT_TRUE(await_switches(number - 1)) << number;
-        ASSERT_TRUE(await([&] { // its artifacts are there, and nothing of the old ones
+        ASSERT_TRUE(await([&] { // its artifacts are loaded, and the old ones are released
             return show->state(shown).loaded == 2 && show->use().gpu_bytes == show->use().planned_gpu_bytes;
         })) << number;
         std::uint64_t& gpu = gpu_bytes.at(number % 2);

@@ -1,4 +1,4 @@
-// What becomes of an installed set, over time and over starts.
+// The verdict on an installed set, over time and over starts.
 
 #include "app/show/set_trial.h"
 
@@ -38,7 +38,7 @@ TEST(SetTrial, IsGoodWhenItWasShownForHalfAMinuteInOnePiece) {
     EXPECT_EQ(trial.verdict().state, TrialState::Good);
     EXPECT_FALSE(trial.on_trial());
     EXPECT_EQ(trial.target().number, 8U);
-    trial.shown(start + seconds(31), 8, "one pack went bad later"); // that is no reason to go back any more
+    trial.shown(start + seconds(31), 8, "one pack went bad later"); // a later fault is no reason to go back
     EXPECT_EQ(trial.verdict().state, TrialState::Good);
 }
 
@@ -52,9 +52,9 @@ TEST(SetTrial, ASilenceOrTimeThatGoesBackBeginsTheHalfMinuteAnew) {
 
     SetTrial jumping(on_trial(), std::nullopt);
     show(jumping, start + hours(1000), seconds(20));
-    show(jumping, start, seconds(29)); // no monotonic clock does that; nothing comes of it
+    show(jumping, start, seconds(29)); // a monotonic clock never does that; it has no effect
     EXPECT_EQ(jumping.verdict().state, TrialState::Trying);
-    jumping.shown(start + hours(2000), 8, ""); // nor of a leap
+    jumping.shown(start + hours(2000), 8, ""); // a jump has no effect either
     EXPECT_EQ(jumping.verdict().state, TrialState::Trying);
 }
 
@@ -74,7 +74,7 @@ TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
     trial.shown(start + milliseconds(29'500), 8, "vase.fspack: it is damaged");
     EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Bad, 1, "vase.fspack: it is damaged"}));
     EXPECT_EQ(trial.target().number, 7U);
-    show(trial, start + seconds(30), seconds(60), 8); // it stays on show until the other one is there
+    show(trial, start + seconds(30), seconds(60), 8); // it stays on show until the other one is ready
     show(trial, start + seconds(90), seconds(60), 7);
     EXPECT_EQ(trial.verdict().state, TrialState::Bad);
 }
@@ -105,7 +105,7 @@ TEST(SetTrial, StartsWithoutAVerdictAreCountedAndTheFourthGoesBack) {
     std::optional<SetVerdict> kept;
     for (int begun = 1; begun <= max_starts; ++begun) {
         SetTrial trial(on_trial(), kept);
-        show(trial, start, seconds(10)); // then the exhibit crashes
+        show(trial, start, seconds(10)); // the exhibit crashes afterwards
         EXPECT_EQ(trial.target().number, 8U);
         EXPECT_EQ(trial.verdict().starts, begun);
         kept = trial.verdict();
@@ -128,10 +128,10 @@ TEST(SetTrial, AGoodSetsStartsAreNotCounted) {
 TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
     SetTrial trial({set_of(7), std::nullopt}, SetVerdict{7, TrialState::Good, 1, ""});
     trial.take(on_trial());
-    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Trying, 1, ""})); // its coming is its first start
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Trying, 1, ""})); // its first start
     EXPECT_EQ(trial.target().number, 8U);
     show(trial, start, seconds(30));
-    trial.take({set_of(8), std::nullopt}); // the importer lets go of the one before
+    trial.take({set_of(8), std::nullopt}); // the importer drops the previous set
     EXPECT_EQ(trial.verdict().state, TrialState::Good);
 }
 
@@ -144,14 +144,14 @@ TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
     EXPECT_FALSE(trial.on_trial());
     show(trial, start, seconds(60), 7);
     EXPECT_EQ(trial.target().number, 7U);
-    trial.take({set_of(8), std::nullopt}); // the importer lets go of the one before
+    trial.take({set_of(8), std::nullopt}); // the importer drops the previous set
     EXPECT_EQ(trial.target().number, 7U);
-    trial.take({set_of(9), set_of(8)}); // a newer one comes
+    trial.take({set_of(9), set_of(8)}); // a newer set arrives
     EXPECT_EQ(trial.target().number, 9U);
     EXPECT_EQ(trial.told(), trial.verdict());
 
     const SetTrial tried(on_trial(), SetVerdict{8, TrialState::Trying, 2, ""}, Trust::Before);
-    EXPECT_EQ(tried.verdict().starts, 2); // it is not begun with
+    EXPECT_EQ(tried.verdict().starts, 2); // the exhibit does not begin with it
     const SetTrial alone({set_of(8), std::nullopt}, std::nullopt, Trust::Before);
     EXPECT_EQ(alone.target().number, 8U);
     EXPECT_EQ(alone.told().state, TrialState::Trying);
@@ -168,7 +168,7 @@ TEST(SetTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
     EXPECT_TRUE(trial.on_trial());
     trial.refuse(1, "a pack cannot be shown");
     EXPECT_EQ(trial.target(), InstalledSet());
-    trial.refuse(0, "neither can one of the settings'"); // there is nothing else
+    trial.refuse(0, "neither can one of the settings'"); // there is no other set
     EXPECT_EQ(trial.target(), InstalledSet());
 }
 

@@ -1,4 +1,4 @@
-/// Packs in a folder of their own, each of rings at two levels and of another colour; removed at the end.
+/// Packs in a folder of their own, each with rings at two levels and its own colour; removed at the end.
 #pragma once
 
 #include "app/pack/pack_file.h"
@@ -15,7 +15,7 @@
 
 namespace frustumscreen::synthetic {
 
-/// Rings at two levels, white but for one channel that says its number.
+/// Rings at two levels, white except for one channel that encodes the number.
 inline Pack numbered_pack(std::size_t number) {
     Pack pack = rings(24, 12);
     const Pack coarse = rings(12, 4);
@@ -47,12 +47,11 @@ public:
     ShownPacks& operator=(const ShownPacks&) = delete;
 
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
-    /// Levels and textures are damaged, the manifest is not.
-    /// Alters the colours, which every level needs.
+    /// Damages the colours, which every level needs; the manifest stays intact.
     void damage(std::size_t number) const {
         Bytes bytes = read_file(files_[number], 1U << 24U).value();
         const std::size_t name = as_text(bytes).find("textures/0");
-        bytes[name + 32] ^= std::byte{0x40}; // some way into what follows the name
+        bytes[name + 32] ^= std::byte{0x40}; // inside the data that follow the name
         static_cast<void>(write_file(files_[number], bytes));
     }
     [[nodiscard]] KnownArtifact known(std::size_t number) const {

@@ -1,4 +1,4 @@
-// What the exhibit decides to say, as it is heard: in a WAV's samples, with prompts that nothing else resembles.
+// The exhibit's decisions about speech, as heard: in a WAV's samples, with prompts that resemble nothing else.
 #include "app/show/speaker.h"
 #include "app/show/test_tone.h"
 #include "firmware_host/sound/mixer.h"
@@ -25,7 +25,7 @@ SharedRecording recording_of(const std::string& name) {
         PromptRecording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
 }
 
-/// One word of advice and one description; the second artifact has none.
+/// A stage with one word of advice and one description; the second artifact has none.
 class SpeakingStage final : public ExhibitStage {
 public:
     DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&, const RenderTarget&,
@@ -54,7 +54,7 @@ protected:
         presentation.says.reset();
         presentation.falls_silent = false;
         std::vector<std::int16_t> block(sample_rate_hz / 50);
-        mixer.mix(block); // as WavSound does: first what is due, then the new wish
+        mixer.mix(block); // as WavSound: first the samples that are due, then the new request
         mixer.follow(speaker.wish());
         heard.insert(heard.end(), block.begin(), block.end());
         speaker.hear(mixer.report(Nanoseconds(0)));
@@ -136,7 +136,7 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     frames(10);
     leave(true);
     frame();
-    leave(false); // it took too long
+    leave(false); // no pause came in time
     frames(3);
     EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
 }
@@ -186,7 +186,7 @@ TEST_F(Speaking, a_step_allocates_nothing) {
     presentation.says = WordIndex{};
     frames(2);
     tell();
-    frames(2); // both are read now
+    frames(2); // both recordings are decoded
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "a sanitizer allocates by itself";
     }
@@ -237,7 +237,7 @@ TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) 
     presentation = {};
     stage.words = 1;
     waiting.forget();
-    waiting.step(presentation, stage); // the stage says if it is asked for what it has not
+    waiting.step(presentation, stage); // the stage fails the test for an unknown recording
 }
 
 TEST_F(Speaking, a_description_ends_with_its_set) {
@@ -245,7 +245,7 @@ TEST_F(Speaking, a_description_ends_with_its_set) {
     frames(10);
     ASSERT_TRUE(sounds());
     speaker.forget();
-    tell(); // the new set's, of the same index
+    tell(); // the new set's description, with the same index
     stage.description = recording_of("tone.opus");
     const Prompt truth = *read_opus(fixture("tone.opus"));
     frames(20);
@@ -262,14 +262,14 @@ TEST_F(Speaking, the_staff_are_left_in_peace) {
     EXPECT_FALSE(sounds());
 }
 
-/// Each tone that is asked for begins at once, whatever is heard of the one before; leaving the picture ends it.
+/// Each requested tone begins at once, also while the previous one is heard; leaving the picture ends it.
 TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
     presentation.staff = true;
     frames(3);
     EXPECT_FALSE(sounds());
     presentation.staff_tones = 1;
     const SharedPrompt tone = test_tone();
-    // Where its first note ends and its second begins, 0.4 s after it began; a note repeats itself.
+    // The end of its first note and the beginning of its second, 0.4 s after its start; a note repeats itself.
     const std::vector<std::int16_t> part(tone->samples.begin() + 18200, tone->samples.begin() + 20200);
     const auto heard_times = [&] {
         std::size_t times = 0;
@@ -294,7 +294,7 @@ TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
     frames(5);
     EXPECT_FALSE(sounds());
     EXPECT_EQ(heard_times(), 2U);
-    presentation.staff = true; // it comes again, and what was asked for before is not played again
+    presentation.staff = true; // the picture returns, and earlier requests are not played again
     frames(10);
     EXPECT_FALSE(sounds());
 }

@@ -1,9 +1,11 @@
-// The staff's pages: their QR code is read by another program (zbarimg, of the ZBar project), and no word lies on another thing.
+// The staff's pages: another program (zbarimg, of the ZBar project) reads their QR code, and no word overlaps
+// anything.
 
 #include "app/show/exhibit_place.h"
 #include "app/show/qr_code.h"
 #include "app/show/staff_picture.h"
 #include "app/status/status_card.h"
+#include "firmware_host/base/version.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -35,7 +37,7 @@ Image8 grown(const Image<std::uint8_t>& code, int module_px) {
     return picture;
 }
 
-/// As a telephone held above the table takes it: turned, darker, with noise.
+/// The picture as taken by a telephone held above the table: turned, darker, with noise.
 Image8 photographed(const Image8& picture, double turn_deg) {
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0.0, 6.0);
@@ -73,7 +75,7 @@ protected:
         facts.prop = {240.0, 1.0, 0.04, 0.01};
         facts.speaks = facts.calibrates = true;
     }
-    /// What zbarimg reads; several codes, or none, is none.
+    /// The text read by zbarimg; empty for several codes or none.
     [[nodiscard]] std::string read(const Image8& picture) const {
         const std::filesystem::path file = folder / "picture.png";
         EXPECT_TRUE(write_file(file, encode_png(picture)));
@@ -112,7 +114,7 @@ TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
     EXPECT_GT(qr_code(std::string(max_qr_bytes, 'x')).width, 0);
 }
 
-/// A cable lies on it, and the telephone is turned.
+/// A cable covers a part, and the telephone is turned.
 TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAnySide) {
     Image8 code = grown(qr_code(example_card), 5);
     const int below_finders = code.height / 2;
@@ -141,7 +143,7 @@ TEST_F(StaffPicture, TheStatusPageHasACodeThatIsReadHoweverMuchThereIsToSay) {
     }
 }
 
-/// Along the picture's edge nothing is written: there a word would be cut off, or lie beside the table.
+/// The picture's border stays free of words: there a word would be cut off, or lie beside the table.
 TEST_F(StaffPicture, WordsStayWithinThePicture) {
     facts.lines.assign(25, "packs: set 3, 2 packs: Amphora, Nautilus cup; the newest is set 3, good; and "
                            "what else there is to say of them");
@@ -216,7 +218,7 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
               fmt::format("FrustumScreen {}, 1970-01-01 00:00\nwell\nprojector: lit\ntracker: is "
                           "???here???\ncalibration in use: none\n"
                           "packs: set 3: amphora 01234567\nit runs for 10 h 0 min\n",
-                          FRUSTUMSCREEN_VERSION));
+                          project_version()));
     for (StatusLine& line : lines) {
         line.text = std::string(1000, 'x');
     }
@@ -251,7 +253,7 @@ TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
     EXPECT_EQ(calibration_line(settings, first_of_may).find("ago"), std::string::npos);
 }
 
-/// Where the buttons can measure the table, and nobody has.
+/// The buttons can measure the table, and it has not been measured.
 TEST(StaffStays, UntilTheTableIsMeasured) {
     Settings settings;
     settings.tracker.kind = TrackerKind::Usb;

@@ -1,5 +1,4 @@
-// What lies on the table, as pixels: pictures where their places are, in their colours, nothing of them on the prop, and a ring
-// that fills.
+// The pictures on the table, as pixels: at their places, in their colours, not on the prop, and a ring that fills.
 
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
@@ -25,7 +24,7 @@ using std::chrono::milliseconds;
 constexpr int width = 960;
 constexpr int height = 600;
 
-/// Saturated, so that captions and titles are told apart from pictures.
+/// A saturated colour, so that captions and titles are distinct from pictures.
 glm::u8vec4 colour_of(std::size_t artifact) {
     const auto part = [&](std::size_t k) {
         return static_cast<std::uint8_t>(30 + (artifact * 67 + k * 101) % 190);
@@ -33,7 +32,7 @@ glm::u8vec4 colour_of(std::size_t artifact) {
     return {part(0), part(1), static_cast<std::uint8_t>(artifact % 2 == 0 ? 0 : 250), 255};
 }
 
-/// Rings with a picture of one colour: its left half covers its texels wholly, its right half only by half.
+/// Rings with a picture of one colour: the left half is opaque, the right half half transparent.
 Pack pack_of(std::size_t artifact, bool with_picture) {
     Pack pack = rings(12, 4);
     pack.levels[0].error = {1e-4F, 3e-4F, 1e-3F, 1.0F};
@@ -88,7 +87,7 @@ protected:
                                      {display->framebuffer(), redraw == Redraw::Changes ? 1 : 0}, redraw));
         return read_colour(display->framebuffer(), width, height);
     }
-    /// Straight below the lens: independent of the program's own projection.
+    /// The pixel of a table point for a lens that looks straight down, independent of the program's own projection.
     [[nodiscard]] glm::dvec2 pixel_of(const glm::dvec2& table_m) const {
         const Pinhole& p = settings.projector.pinhole;
         const glm::dvec3 lens = settings.projector.table_from_projector.translation;
@@ -102,7 +101,7 @@ protected:
     [[nodiscard]] static bool within(const TableRectangle& rectangle, const glm::dvec2& at, double margin_m) {
         return clearance(rectangle.corners(), std::span(&at, 1)) <= margin_m;
     }
-    /// The colour at a share of the place's picture, as the reader sees it: from its left, from its top.
+    /// The colour at a point of the place's picture, in fractions from its left and top as the reader sees it.
     [[nodiscard]] glm::u8vec4 seen_at(const Image8& image, const TablePlace& place, double u,
                                       double v) const {
         const std::array<glm::dvec2, 4> c = place.picture.corners();
@@ -132,7 +131,7 @@ protected:
         EXPECT_GE(lit, 2);
         expect_black_elsewhere(image);
     }
-    /// But for the prop: its shadow is compared with an exhibit without pictures.
+    /// Expects black except at the pictures and the prop, whose shadow is compared with an exhibit without pictures.
     void expect_black_elsewhere(const Image8& image) {
         const auto shadow = hidden_by_prop(make_prop(settings.prop), shown.table_from_prop,
                                            settings.projector.table_from_projector.translation);
@@ -161,7 +160,7 @@ protected:
         EXPECT_GT(outside, width * height / 4);
     }
 
-    bool waits = false; ///< for all that is loaded ahead
+    bool waits = false; ///< for everything that is loaded ahead
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<ArtifactShow> show;
@@ -237,7 +236,7 @@ TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
                 }
             }
         }
-        if (shown.table->ring_full > 0.15) { // it has come up
+        if (shown.table->ring_full > 0.15) { // the ring has appeared
             EXPECT_NEAR(1.0 * white / (white + faint), shown.table->ring_full, 0.05);
             EXPECT_GT(white, last);
             last = white;
@@ -290,7 +289,7 @@ TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
 }
 
 TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
-    waits = true; // the next artifact and the one before are loaded ahead; taking in another one allocates
+    waits = true; // the next and the previous artifact are loaded ahead; receiving another one allocates
     make(12);
     wait(milliseconds(1500));
     static_cast<void>(picture());

@@ -1,4 +1,5 @@
-// What the camera sees reaches the staff's picture while they hold their buttons, and nothing of it is left before and after.
+// The camera's picture reaches the staff picture while they hold their buttons, and nothing of it remains before or
+// after.
 
 #include "app/render/read_back.h"
 #include "app/show/live_exhibit.h"
@@ -27,9 +28,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr int width = 640, height = 400;               // of the projector's picture
-constexpr glm::ivec2 room(width / 3, height * 3 / 10); // what a viewfinder may take of it
+constexpr glm::ivec2 room(width / 3, height * 3 / 10); // the largest part of it for a viewfinder
 
-/// No two rows or columns of it are alike, and none of its codes is 0.
+/// A frame whose rows and columns all differ, without code 0.
 CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
     CameraFrame frame{MonotonicTime{}, seed, frame_width, frame_height, {}};
     frame.luma.resize(static_cast<std::size_t>(frame_width * frame_height));
@@ -53,7 +54,7 @@ Grey turned_clockwise(const Grey& picture) {
     return turned;
 }
 
-/// Each pixel's code differs by no more than rounding from the mean of its square of `turned`, around it all is black.
+/// Each pixel's code equals the mean of its square of `turned`, up to rounding; everything around is black.
 void expect_mean_of(const Grey& turned, int by, const Image8& shown) {
     const glm::ivec2 size(turned.width / by, turned.height / by);
     const glm::ivec2 corner((shown.width - size.x) / 2, shown.height - size.y);
@@ -113,7 +114,7 @@ TEST(Viewfinder, IsTurnedClockwiseByQuarters) {
     }
 }
 
-/// A camera and a projector above the table, each turned about the vertical by quarters; a lamp lies at its far side.
+/// A camera and a projector above the table, each turned about the vertical by quarters; a lamp lies at the far side.
 TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
     constexpr int side = 60;
     for (int camera = 0; camera < 4; ++camera) {
@@ -128,7 +129,7 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
             settings.projector.table_from_projector = hung(projector);
             settings.camera.pinhole = {side, side, 60.0, 60.0, side / 2.0, side / 2.0};
             settings.camera.table_from_camera = hung(camera);
-            // Where the far side lies in the two pictures, by hand: it is above where neither is turned.
+            // The far side in the two pictures, by hand: at the top if neither is turned.
             const auto seen_at = [](int quarters) {
                 const double angle = 0.5 * std::numbers::pi * quarters + 0.1;
                 return glm::dvec2(std::sin(angle), -std::cos(angle));
@@ -151,7 +152,7 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
     }
 }
 
-/// The bytes of the object itself: its picture is a part of it.
+/// True if the object's own bytes contain the frame; its picture is a part of the object.
 bool holds(const Viewfinder& viewfinder, const CameraFrame& frame) {
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(&viewfinder);
     return std::search(begin, begin + sizeof(viewfinder), frame.luma.begin(), frame.luma.begin() + 8) !=
@@ -198,7 +199,7 @@ TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     EXPECT_EQ(taken, 20);
-    // The call that says so comes while it writes: each later one tries again.
+    // The call `want(false)` comes while the camera's thread writes: each later call tries again.
     for (int k = 0; k < 1000; ++k) {
         viewfinder.want(false);
         std::this_thread::sleep_for(std::chrono::microseconds(100));
@@ -211,7 +212,7 @@ TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
         << "of 76 800 bytes of a frame that has no zero";
 }
 
-/// Staff who press both buttons at the start, and let go.
+/// Staff who press both buttons at the start, and release them.
 class HeldPanel final : public Panel {
 public:
     HeldPanel(MonotonicTime start, Nanoseconds held) : start_(start), held_(held) {}
@@ -232,7 +233,7 @@ private:
     bool said_ = false;
 };
 
-/// A camera that is in the state that a test says.
+/// A camera in a state given by the test.
 class StatedCamera final : public Camera {
 public:
     [[nodiscard]] bool poll(CameraFrame& /*frame*/) override { return false; }
@@ -243,7 +244,7 @@ public:
     CameraState now = CameraState::Running;
 };
 
-/// Hands everything on to a show, gives the viewfinder a frame before each picture, and looks at the picture.
+/// Passes everything on to a show, gives the viewfinder a frame before each picture, and examines the picture.
 class LookedAt final : public Show {
 public:
     LookedAt(Show& show, Viewfinder* viewfinder) : show_(show), viewfinder_(viewfinder) {}
@@ -291,7 +292,7 @@ protected:
         inputs.viewfinder = std::make_unique<Viewfinder>(room, 0);
         inputs.panel = std::make_unique<HeldPanel>(start, seconds(3));
     }
-    /// Of the same settings, or without a camera.
+    /// A pattern with the fixture's settings, or without a camera.
     std::unique_ptr<PatternShow> pattern() {
         auto made = PatternShow::create(settings);
         EXPECT_TRUE(made);
@@ -310,7 +311,7 @@ protected:
             run_loop(settings, *display, inputs, show, options, no_file, watch, start);
         EXPECT_TRUE(result) << result.error().message;
     }
-    /// The camera's part of the picture: at the lower right, with the line below it.
+    /// The camera's part of the picture: at the lower right, with the line below.
     static Image8 part_of(const Image8& picture) {
         Image8 part(room.x, room.y);
         for (int y = 0; y < room.y; ++y) {
@@ -320,7 +321,7 @@ protected:
         }
         return part;
     }
-    /// Without the watchdog's code.
+    /// Compares without the watchdog's code.
     static bool are_equal(const Image8& a, const Image8& b) {
         return std::equal(a.texels.begin() + width, a.texels.end(), b.texels.begin() + width);
     }
@@ -349,7 +350,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
     long allocated = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
         const Image8 picture = read_colour(fb, width, height);
-        const bool is_held = now - start < seconds(3) && now > start; // the first frame tells the state
+        const bool is_held = now - start < seconds(3) && now > start; // the first frame establishes the state
         ASSERT_EQ(looked.held, is_held);
         if (!is_held) {
             ++without;
@@ -361,7 +362,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
         grey.texels = looked.frame.luma;
         expect_mean_of(grey, 2, part_of(picture));
         allocated += with > 2 ? looked.allocated : 0;
-        looked.frame = frame_of(2 * room.x, 2 * room.y, static_cast<std::uint32_t>(++with)); // and another
+        looked.frame = frame_of(2 * room.x, 2 * room.y, static_cast<std::uint32_t>(++with)); // a new frame
     };
     run(looked, seconds(6));
     EXPECT_GT(with, 170);
@@ -371,7 +372,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
     }
 }
 
-/// A visitor who holds two buttons sees nothing of it: the staff's picture comes with the chord.
+/// A visitor who holds two buttons does not see the camera's picture: the staff picture appears with the chord.
 TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     settings.panel.kind = PanelKind::Gpio;
     settings.panel.lines = {"4", "5", "6"};
@@ -390,7 +391,7 @@ TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     with_viewfinder();
     LiveExhibit live(settings, std::make_unique<Nothing>(), sample::exhibit(3, {"en"}), "a driver");
     LookedAt looked(live, inputs.viewfinder.get());
-    looked.frame = frame_of(room.x, room.y, 11); // not shrunk, so that it is found in the viewfinder
+    looked.frame = frame_of(room.x, room.y, 11); // not shrunk, so that its bytes can be found
     int with = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
         const bool is_held = now - start > HeldPanel::chord + milliseconds(20) && now - start < seconds(3);
@@ -449,7 +450,7 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
 
 TEST_F(ViewfinderRun, NoScreenshotHasIt) {
     with_viewfinder();
-    Screenshot asked(width, height, std::chrono::hours(1)); // the frames' own time counts, not the wall's
+    Screenshot asked(width, height, std::chrono::hours(1)); // measured by frame time, not by the wall clock
     screenshot = &asked;
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
@@ -465,7 +466,7 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
                 const Result<const Image8*> picture = asked.take(std::stop_token());
                 return picture ? **picture : Image8();
             });
-            std::this_thread::sleep_for(milliseconds(50)); // it asks
+            std::this_thread::sleep_for(milliseconds(50)); // the request is made
         }
         ASSERT_NE(got.wait_for(milliseconds(0)), std::future_status::ready);
     };
@@ -477,7 +478,8 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
         << "that of after the buttons were let go";
 }
 
-/// How often the bytes occur in this process's own memory. `needle` is kept in disguise, so that it is not found itself.
+/// The number of times that the bytes occur in this process's memory. `needle` is kept encoded, so that it does not
+/// match itself.
 std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
     constexpr std::uint8_t disguise = 0x5A;
     std::ifstream maps("/proc/self/maps");
@@ -513,7 +515,7 @@ std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
     return found;
 }
 
-/// The whole process is looked through, with the driver that draws on the processor.
+/// Searches the whole process, including the driver that draws on the processor.
 TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "the sanitizers keep freed memory as it is";
@@ -536,11 +538,11 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
     std::size_t while_held = 0, colour_while_held = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned) {
         if (now - start > milliseconds(500) && while_held == 0) {
-            wait_until_drawn(); // the driver draws on threads of its own
+            wait_until_drawn(); // the driver draws on its own threads
             while_held = occurrences(grey);
             colour_while_held = occurrences(colour);
         }
-        if (now - start > seconds(3)) { // the test's own copy
+        if (now - start > seconds(3)) { // erases the test's own copy
             std::fill(looked.frame.luma.begin(), looked.frame.luma.end(), std::uint8_t{1});
         }
     };

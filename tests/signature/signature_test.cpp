@@ -150,7 +150,7 @@ TEST(Signature, OfAnotherKeyIsOfNobody) {
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {}), SignatureFault::UnknownKey,
                    "[signature.unknown_key]");
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {other}), SignatureFault::UnknownKey,
-                   "the key E68B78C87897BA2, which is none of those known here (Another)");
+                   "the key E68B78C87897BA2, which is not one of those known here (Another)");
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {other, minisigns_key()}));
     // The id names a key but proves nothing.
     TrustedKey same_id = other;

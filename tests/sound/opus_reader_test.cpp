@@ -102,8 +102,8 @@ TEST(OpusReader, WhatIsOrClaimsToBeTooLongIsRefused) {
 }
 
 TEST(OpusReader, WhatIsNoRecordingIsRefusedInOneSentence) {
-    EXPECT_NE(refusal({}).find("no Ogg Opus"), std::string::npos);
-    EXPECT_NE(refusal(as_bytes("RIFF....WAVEfmt ")).find("no Ogg Opus"), std::string::npos);
+    EXPECT_NE(refusal({}).find("not an Ogg Opus"), std::string::npos);
+    EXPECT_NE(refusal(as_bytes("RIFF....WAVEfmt ")).find("not an Ogg Opus"), std::string::npos);
     const Bytes whole = fixture("tone.opus");
     for (std::size_t length = 0; length < whole.size(); length += 7) { // cut at any place
         const Result<Prompt> prompt = read_opus(std::span(whole).first(length));

@@ -1,4 +1,4 @@
-// What a text may contain.
+// The characters that a text may contain.
 #include "assets_baked/texts/check_text.h"
 #include "tests/base/told.h"
 

@@ -49,8 +49,8 @@ TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_
     }
     EXPECT_TRUE(spoken->silent.empty());
     ASSERT_EQ(spoken->notes.size(), 1U);
-    EXPECT_NE(spoken->notes[0].find("en/description.wav: nobody hears this recording"), std::string::npos);
-    EXPECT_TRUE(spoken->notes[0].ends_with("mine.wav goes before it")) << spoken->notes[0];
+    EXPECT_NE(spoken->notes[0].find("en/description.wav: this recording is not used"), std::string::npos);
+    EXPECT_TRUE(spoken->notes[0].ends_with("mine.wav is used instead")) << spoken->notes[0];
 }
 
 TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_recording_is_refused) {
@@ -61,7 +61,7 @@ TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_rec
     const Result<SpokenArtifact> spoken = speak_artifact(captions, sources);
     ASSERT_TRUE(spoken) << spoken.error().message;
     EXPECT_EQ(spoken->silent,
-              (std::vector<std::string>{"the description in 'en' is silent, and shown all the same: cat "
+              (std::vector<std::string>{"the description in 'en' is silent, but it is shown: cat "
                                         "finds nothing to speak in '***'"}));
     sources.recordings = {{"en", folder / "silence.wav"}};
     const Result<SpokenArtifact> refused = speak_artifact(captions, sources);
@@ -81,10 +81,10 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
     ASSERT_TRUE(spoken) << spoken.error().message;
     EXPECT_TRUE(spoken->languages.empty());
     EXPECT_EQ(spoken->silent,
-              (std::vector<std::string>{"the description in 'en', 'it' is silent, and shown all the "
-                                        "same: there is no recording and no voice"}));
+              (std::vector<std::string>{"the description in 'en', 'it' is silent, but it is shown: "
+                                        "there is no recording and no voice"}));
     ASSERT_EQ(spoken->notes.size(), 1U);
-    EXPECT_NE(spoken->notes.front().find("de/description.wav: nobody can read what is spoken here"),
+    EXPECT_NE(spoken->notes.front().find("de/description.wav: there is no text of this recording"),
               std::string::npos)
         << spoken->notes.front();
 }
@@ -128,9 +128,9 @@ TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_nam
     for (const std::string& note : spoken->notes) {
         told.push_back(note.substr(sources.folder.string().size() + 1));
     }
-    const std::string nobody = ": nobody hears this recording: ";
+    const std::string nobody = ": this recording is not used: ";
     const std::string unknown = nobody + "no text has this name; the nearest name of a text is ";
-    const std::string second = nobody + sources.folder.string() + "/en/description.wav goes before it";
+    const std::string second = nobody + sources.folder.string() + "/en/description.wav is used instead";
     EXPECT_EQ(told, (std::vector<std::string>{"de/descripton.wav" + unknown + "de/description.wav",
                                               "description.wav" + unknown + "de/description.wav",
                                               "en/description.flac" + second, "en/description.mp3" + second,

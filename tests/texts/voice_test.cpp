@@ -115,8 +115,8 @@ TEST_F(Voices, what_one_complains_of_without_end_is_kept_nowhere) {
 }
 
 TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
-    EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this is no recording that can be read"));
-    EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this is no recording that can be read"));
+    EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this recording cannot be read"));
+    EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this recording cannot be read"));
     ASSERT_TRUE(write_file(folder / "silent.wav", wav16(std::vector<double>(9600, 0.0))));
     EXPECT_TRUE(contains(refusal("cat silent.wav"), "voice.sh finds nothing to speak in 'A text.'"));
     ASSERT_TRUE(write_file(folder / "empty.wav", wav({}, {})));
@@ -145,9 +145,8 @@ TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_sil
     EXPECT_EQ(languages[0].sounds.size(), 1U);
     EXPECT_TRUE(languages[0].sounds.contains("help"));
     ASSERT_EQ(silent->size(), 1U);
-    EXPECT_EQ(
-        silent->front(),
-        "1 of 2 words in 'de' are silent, and shown all the same: there are no recordings and no voice");
+    EXPECT_EQ(silent->front(),
+              "1 of 2 words in 'de' are silent, but they are shown: there are no recordings and no voice");
 }
 
 TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
@@ -172,7 +171,7 @@ TEST_F(Voices, a_bad_recording_is_named) {
     const Result<std::vector<std::string>> silent =
         speak_words(languages, {folder, Voice(program("cat good.wav")), {}});
     ASSERT_FALSE(silent);
-    EXPECT_TRUE(contains(silent.error().message, "de/help.wav: this is no recording that can be read"))
+    EXPECT_TRUE(contains(silent.error().message, "de/help.wav: this recording cannot be read"))
         << silent.error().message;
 }
 

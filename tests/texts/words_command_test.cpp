@@ -102,7 +102,7 @@ TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
     }
     const std::string command = "frustumscreen-bake --words mine --languages de -o out.fswords --speech none";
     ASSERT_EQ(run(command), 0) << text("err.txt");
-    EXPECT_NE(text("err.txt").find("mine/de/advice.lift.wav: nobody hears this recording: no text has this "
+    EXPECT_NE(text("err.txt").find("mine/de/advice.lift.wav: this recording is not used: no text has this "
                                    "name; the nearest name of a text is de/advice.lower.wav"),
               std::string::npos)
         << text("err.txt");
@@ -123,12 +123,12 @@ TEST_F(WordsCommand, only_words_are_replaced_by_words) {
         EXPECT_EQ(text(file), before) << more;
         EXPECT_NE(text("err.txt").find(words), std::string::npos) << text("err.txt");
     };
-    refused("-o notes.txt", "notes.txt", "notes.txt: this file is there and is not a file of words");
-    refused("-o mine/de.toml", "mine/de.toml", "mine/de.toml: this file is there and is not a file of words");
+    refused("-o notes.txt", "notes.txt", "notes.txt: this file exists and is not a file of words");
+    refused("-o mine/de.toml", "mine/de.toml", "mine/de.toml: this file exists and is not a file of words");
     refused("-o mine/de.toml --force", "mine/de.toml", "would replace the input mine/de.toml");
     refused("-o mine/de/attract_line.wav --force", "mine/de/attract_line.wav",
             "would replace the input mine/de/attract_line.wav");
-    refused("-o out.fswords --preview notes.txt", "notes.txt", "this file is there and is not a PNG picture");
+    refused("-o out.fswords --preview notes.txt", "notes.txt", "this file exists and is not a PNG picture");
     refused("-o new --preview ./new", "new", "[words.same_name]");
     for (int time = 0; time < 2; ++time) {
         EXPECT_EQ(run(command + "-o out.fswords --preview words.png"), 0) << text("err.txt");
@@ -149,7 +149,7 @@ TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
     EXPECT_TRUE(baked("pt"));
     EXPECT_TRUE(baked("de"));
     EXPECT_NE(
-        text("err.txt").find("mine/german.toml: nobody reads this file; name it after its language, such as "
+        text("err.txt").find("mine/german.toml: this file is not used; name it after its language, such as "
                              "de.toml"),
         std::string::npos)
         << text("err.txt");
@@ -180,7 +180,7 @@ TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
     EXPECT_NE(text("err.txt").find("sh: ends with status 1"), std::string::npos) << text("err.txt");
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
     EXPECT_EQ(run("frustumscreen-bake --words --languages ../de -o out.fswords"), 1);
-    EXPECT_NE(text("err.txt").find("--languages: '../de' is no language"), std::string::npos)
+    EXPECT_NE(text("err.txt").find("--languages: '../de' is not a language"), std::string::npos)
         << text("err.txt");
     EXPECT_EQ(run("frustumscreen-bake --words --languages de,DE -o out.fswords"), 1);
     EXPECT_NE(text("err.txt").find("'DE' is named twice"), std::string::npos) << text("err.txt");

@@ -88,7 +88,7 @@ TEST(ConvertRecording, RefusalsNameTheLine) {
     EXPECT_NE(refusal("0 0 0 nan 0 0 0 1\n").find("walk.txt:1: z is \"nan\""), std::string::npos);
     EXPECT_NE(refusal("1e300 0 0 0 0 0 0 1\n").find("walk.txt:1: t is \"1e300\""), std::string::npos);
     EXPECT_NE(refusal("0 0 0 0 0 0 0 0\n").find("walk.txt:1: the quaternion is zero"), std::string::npos);
-    EXPECT_NE(refusal("# nothing\n").find("walk.txt: no pose in it"), std::string::npos);
+    EXPECT_NE(refusal("# nothing\n").find("walk.txt: it holds no pose"), std::string::npos);
 }
 
 /// Numbers of rows as in INDEX.tsv.

@@ -260,8 +260,9 @@ TEST(PacketFile, EveryChangedBitEndsTheRecordingThere) {
 TEST(PacketFile, WhatIsNoRecordingIsRefusedInPlainWords) {
     const std::string csv = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
     EXPECT_FALSE(is_packet_recording(as_bytes(csv)));
-    EXPECT_NE(PacketReader::open(as_bytes(csv), "a.csv").error().message.find("a.csv: this is no recording"),
-              std::string::npos);
+    EXPECT_NE(
+        PacketReader::open(as_bytes(csv), "a.csv").error().message.find("a.csv: this is not a recording"),
+        std::string::npos);
     Bytes later;
     append_packet_header(later);
     later[8] = std::byte{2};

@@ -80,7 +80,7 @@ TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
     EXPECT_EQ(outcome.exhibit_memory, 0.0);
     EXPECT_FALSE(outcome.projector);
     EXPECT_FALSE(outcome.hottest_c);
-    EXPECT_FALSE(view.means().device);
+    EXPECT_FALSE(view.capabilities().device);
     EXPECT_TRUE(notes_of(outcome).empty());
 }
 
@@ -119,16 +119,16 @@ TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
     EXPECT_EQ(failures, 5003U);
 }
 
-TEST_F(KioskOfFiles, MeansAreWhatIsThere) {
+TEST_F(KioskOfFiles, CapabilitiesAreWhatIsThere) {
     KioskView view(places_, boot_id(root_));
-    EXPECT_FALSE(view.means().device);
-    EXPECT_FALSE(view.means().last_good_set);
+    EXPECT_FALSE(view.capabilities().device);
+    EXPECT_FALSE(view.capabilities().last_good_set);
     write(places_.device, "");
     write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": null}");
-    EXPECT_TRUE(view.means().device);
-    EXPECT_FALSE(view.means().last_good_set);
+    EXPECT_TRUE(view.capabilities().device);
+    EXPECT_FALSE(view.capabilities().last_good_set);
     write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": {\"number\": 2}}");
-    EXPECT_TRUE(view.means().last_good_set);
+    EXPECT_TRUE(view.capabilities().last_good_set);
 }
 
 TEST_F(KioskOfFiles, NotesAreForStaff) {

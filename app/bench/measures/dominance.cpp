@@ -100,7 +100,7 @@ LimitVerdict judge_level(const SetUpResult& result, const TechniqueResult& level
 
 bool is_judged_peer(TechniqueKind kind) {
     return kind != TechniqueKind::Floor && !is_judged_level(kind) && kind != TechniqueKind::Auto &&
-           kind != TechniqueKind::ReliefCast && kind != TechniqueKind::ReliefGpu;
+           kind != TechniqueKind::ReliefRaster && kind != TechniqueKind::ReliefGpu;
 }
 
 bool is_judged_level(TechniqueKind kind) {

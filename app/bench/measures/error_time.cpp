@@ -56,7 +56,7 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
         added = set.add_relief_peers(truth, mesh, prop_from_artifact, choice.relief_texels);
     }
     if (added && choice.relief_cast) {
-        added = set.add_relief_casts(pack, choice.cast_texels, picture);
+        added = set.add_relief_rasters(pack, choice.cast_texels, picture);
     }
     if (added && choice.relief_gpu) {
         added = set.add_reliefs_on_gpu(pack, picture);

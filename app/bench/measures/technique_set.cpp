@@ -4,7 +4,7 @@
 #include "app/bench/techniques/level_of_detail.h"
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
-#include "app/bench/techniques/relief_cast.h"
+#include "app/bench/techniques/relief_raster.h"
 #include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/scene_plan.h"
@@ -33,7 +33,7 @@ constexpr std::array<std::pair<TechniqueKind, std::string_view>, 12> kind_names 
     {TechniqueKind::Lod, "LOD"},
     {TechniqueKind::TwoPassLod, "two-pass LOD"},
     {TechniqueKind::Relief, "relief"},
-    {TechniqueKind::ReliefCast, "relief cast"},
+    {TechniqueKind::ReliefRaster, "relief cast"},
     {TechniqueKind::ReliefGpu, "relief on GPU"},
 }};
 
@@ -57,9 +57,11 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
 }
 
 /// The first match, which is the best quality level of its kind.
-std::optional<QualityLevel> quality_level_that(const std::vector<QualityLevel>& quality_levels, bool casts) {
-    const auto found = std::find_if(quality_levels.begin(), quality_levels.end(),
-                                    [casts](const QualityLevel& each) { return each.relief == casts; });
+std::optional<QualityLevel> quality_level_that(const std::vector<QualityLevel>& quality_levels,
+                                               bool is_raster) {
+    const auto found =
+        std::find_if(quality_levels.begin(), quality_levels.end(),
+                     [is_raster](const QualityLevel& each) { return each.relief == is_raster; });
     return found != quality_levels.end() ? std::optional(*found) : std::nullopt;
 }
 
@@ -134,9 +136,9 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
     if (!added || !relief) {
         return added;
     }
-    PictureOptions cast = options;
-    cast.samples = relief->samples;
-    return add_pack_reliefs(pack, TechniqueKind::Auto, cast,
+    PictureOptions raster = options;
+    raster.samples = relief->samples;
+    return add_pack_reliefs(pack, TechniqueKind::Auto, raster,
                             [&](std::uint32_t texels) { return texels == relief->level; });
 }
 
@@ -221,7 +223,7 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
                                       const std::string& name) {
     TechniqueResult result = described(kind, -1, relief.blocks.size());
     result.samples = options.samples > 0 ? options.samples : pack.samples;
-    if (kind != TechniqueKind::ReliefCast) {
+    if (kind != TechniqueKind::ReliefRaster) {
         result.bytes = bytes_of(relief);
         TRY(result.drawn_as,
             keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box)));
@@ -273,10 +275,10 @@ Result<void> TechniqueSet::add_reliefs_on_gpu(const Pack& pack, const PictureOpt
     return add_pack_reliefs(pack, TechniqueKind::ReliefGpu, options, [](std::uint32_t) { return true; });
 }
 
-Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,
-                                            const PictureOptions& options) {
+Result<void> TechniqueSet::add_relief_rasters(const Pack& pack, const std::vector<int>& texels,
+                                              const PictureOptions& options) {
     for (const int size : texels) {
-        TRY_VOID(add_relief(pack, TechniqueKind::ReliefCast, blocks_of_pack(pack, size), std::nullopt,
+        TRY_VOID(add_relief(pack, TechniqueKind::ReliefRaster, blocks_of_pack(pack, size), std::nullopt,
                             options, fmt::format("relief cast {}", size)));
     }
     return {};

@@ -38,9 +38,9 @@ enum class TechniqueKind {
     RayCast, ///< the method that computes the truth, as a peer
     Lod,
     TwoPassLod,
-    Relief,     ///< relief images, marched or warped
-    ReliefCast, ///< layered relief that is not in the pack; `triangles` counts blocks
-    ReliefGpu,  ///< the pack's layered relief, drawn by the GPU; `triangles` counts blocks
+    Relief,       ///< relief images, marched or warped
+    ReliefRaster, ///< layered relief that is not in the pack; `triangles` counts blocks
+    ReliefGpu,    ///< the pack's layered relief, drawn by the GPU; `triangles` counts blocks
 };
 /// The name in tables and files.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
@@ -96,8 +96,8 @@ public:
     /// The pack's reliefs, drawn by the GPU.
     [[nodiscard]] Result<void> add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options);
     /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
-    [[nodiscard]] Result<void> add_relief_casts(const Pack& pack, const std::vector<int>& texels,
-                                                const PictureOptions& options);
+    [[nodiscard]] Result<void> add_relief_rasters(const Pack& pack, const std::vector<int>& texels,
+                                                  const PictureOptions& options);
 
     /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
     [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);

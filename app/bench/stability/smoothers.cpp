@@ -144,7 +144,7 @@ StabilityResult load_responses(const StabilityOptions&) {
 /// One quality level is twice as slow as measured: first only its own factor learns this, then the load
 /// gradually takes it over. The level's expected time is exact at any step; the share of the load begins to
 /// grow at learning_s, to within one step.
-StabilityResult rung_response(const StabilityOptions&) {
+StabilityResult quality_level_response(const StabilityOptions&) {
     StabilityResult result;
     double off = 0.0;
     double off_shared = 0.0;
@@ -260,7 +260,7 @@ std::vector<StabilityCase> smoother_cases() {
             {theme, "step response, the same", FloatingPoint::Strict, step_response},
             {theme, "goals that jump, the same", FloatingPoint::Strict, no_overshoot},
             {theme, "frame times: the load doubles", FloatingPoint::Strict, load_responses},
-            {theme, "frame times: a rung was measured wrong", FloatingPoint::Strict, rung_response},
+            {theme, "frame times: a rung was measured wrong", FloatingPoint::Strict, quality_level_response},
             {theme, "frame times: garbage", FloatingPoint::Free, garbage}};
 }
 

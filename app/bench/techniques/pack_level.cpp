@@ -101,7 +101,7 @@ public:
     void draw_shown(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.shown); }
     [[nodiscard]] int draw_white(const BenchPose& pose) override {
         draw(placed_.white, pose, {});
-        return plan_.cast_count > 0 ? plan_.casts.front().samples : plan_.samples;
+        return plan_.relief_draw_count > 0 ? plan_.relief_draws.front().samples : plan_.samples;
     }
     [[nodiscard]] LightAim light(const BenchPose& pose) const override {
         const TruthView view = frustumscreen::view_of(stage_.settings, pose);
@@ -188,8 +188,8 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
         shader.blocks = true;
         needs = needs_of(stage, samples_of(options, pack), shader);
     } else {
-        needs.draws = {cast_shader(false)};
-        needs.casts = 1;
+        needs.draws = {raster_shader(false)};
+        needs.relief_draws = 1;
     }
     TRY(Renderer renderer, Renderer::create(stage.width(), stage.height(), needs));
     TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));

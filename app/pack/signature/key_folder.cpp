@@ -22,7 +22,7 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
             continue;
         }
         if (files.size() == max_trusted_keys) {
-            return bad_input("keys.too_many", "{}: it has more than {} public keys; take some away",
+            return bad_input("keys.too_many", "{}: it has more than {} public keys; remove some",
                              folder.string(), max_trusted_keys);
         }
         files.push_back(entry->path());

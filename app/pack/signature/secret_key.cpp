@@ -241,9 +241,9 @@ Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::str
     const std::span<const std::uint8_t, crypto_sign_SECRETKEYBYTES> both_halves(hidden.data() + 8,
                                                                                 crypto_sign_SECRETKEYBYTES);
     if ((!left_out && checksum != checksum_of(open)) || !is_whole(both_halves)) {
-        return bad_input("key.wrong_password",
-                         encrypted ? "the password is another one, or the key's file is damaged"
-                                   : "the key's file is damaged; take your copy of it");
+        return bad_input("key.wrong_password", encrypted
+                                                   ? "the password is wrong, or the key's file is damaged"
+                                                   : "the key's file is damaged; use your copy of it");
     }
     SecretKey key;
     std::copy_n(hidden.begin(), key.id_.size(), key.id_.begin());

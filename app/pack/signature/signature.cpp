@@ -105,14 +105,15 @@ Result<ReadSignature> read_signature(std::string_view text) {
     read.global_signature = *global_signature;
     read.trusted_comment = lines[2].substr(trusted_prefix.size());
     if (read.algorithm != of_the_hash && read.algorithm != of_the_bytes) {
-        return damaged("is of an algorithm that is not minisign's");
+        return damaged("has an algorithm that is not minisign's");
     }
     if (read.trusted_comment.size() > max_comment_bytes || !is_comment(read.trusted_comment)) {
-        return damaged("has a trusted comment that is too long or holds bytes that are no text");
+        return damaged("has a trusted comment that is too long or holds bytes that are not text");
     }
     const std::optional<std::uint64_t> serial = serial_in(read.trusted_comment);
     if (!serial) {
-        return damaged("has no serial in its trusted comment, or two (wanted is serial:N or timestamp:N)");
+        return damaged(
+            "has no serial in its trusted comment, or two; allowed is one serial:N or timestamp:N");
     }
     read.serial = *serial;
     return read;
@@ -167,8 +168,8 @@ tl::unexpected<SignatureRefusal> refused_as_unknown(const ReadSignature& read,
                        ? fmt::format("it is signed with the key {}, and no key is known here; put the "
                                      "museum's public key into the settings",
                                      id)
-                       : fmt::format("it is signed with the key {}, which is none of those known here ({}); "
-                                     "sign it with one of them",
+                       : fmt::format("it is signed with the key {}, which is not one of those known here "
+                                     "({}); sign it with one of them",
                                      id, names_of(keys)));
 }
 
@@ -185,8 +186,8 @@ std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
 Result<PublicKey> parse_public_key(std::string_view text) {
     const auto refused = [] {
         return bad_input("key.not_public_key",
-                         "this is not a minisign public key; take the file NAME.pub that "
-                         "frustumscreen-pack keygen wrote, or its line of 56 letters, which begins with RW");
+                         "this is not a minisign public key; use the file NAME.pub that frustumscreen-pack "
+                         "keygen wrote, or its line of 56 letters, which begins with RW");
     };
     if (text.size() > max_public_key_bytes) {
         return refused();

@@ -7,6 +7,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -74,7 +75,7 @@ int run(int argc, char** argv) {
 
     CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
                     "frustumscreen-artifact"};
-    app.set_version_flag("--version", "frustumscreen-artifact " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-artifact"));
     const CommandOption name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
     app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %").capture_default_str();
     const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");

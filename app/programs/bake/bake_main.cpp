@@ -12,6 +12,7 @@
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +64,7 @@ int bake_and_report(const BakeArguments& arguments) {
     const Result<std::uint64_t> page_bytes = write_preview(*request, *done);
     if (!page_bytes) {
         return status_of({page_bytes.error().kind, page_bytes.error().id,
-                          fmt::format("{} is written, and its preview is not: {}", done->file.string(),
+                          fmt::format("{} is written, but its preview is not: {}", done->file.string(),
                                       page_bytes.error().message)});
     }
     done->page = request->preview;
@@ -108,17 +109,16 @@ int run(int argc, char** argv) {
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
-    app.footer(
-        "frustumscreen-bake --watch FOLDER looks at a folder and draws its page again whenever it changes; "
-        "--batch DIR "
-        "bakes a collection; --words bakes the exhibit's own words. Each says more with --help behind it.");
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
+    app.footer("frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
+               "changes; --batch DIR bakes a collection; --words bakes the exhibit's own words. Add --help "
+               "to each of them to read more.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {
                 throw missing(arguments.new_folder.empty()
                                   ? "INPUT, a scan or a folder with an artifact.toml,"
-                                  : "the scan, behind the folder of --new,");
+                                  : "the scan, after the folder of --new,");
             }
             if (arguments.output.empty() && arguments.new_folder.empty()) {
                 throw missing("-o NAME.fspack, the pack to write,");

@@ -46,8 +46,8 @@ Result<void> check_preview(const BakeRequest& request) {
     if (!request.force && std::filesystem::exists(request.preview, ignored) &&
         !begins_as_page(request.preview)) {
         return bad_input("preview.not_a_page",
-                         "{}: this file is there and is not a page; choose another name for the "
-                         "preview, or add --force to replace it",
+                         "{}: this file exists and is not a page; choose another name for the preview, or "
+                         "add --force to replace it",
                          request.preview.string());
     }
     if (const auto drawn = SurfacelessDisplay::create(16, 16); !drawn) {

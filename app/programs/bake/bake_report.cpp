@@ -4,6 +4,7 @@
 #include "app/pack/pack_texts.h"
 #include "assets_baked/bake/box_frame.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>
@@ -163,7 +164,7 @@ PreviewFacts preview_facts(const BakeResult& result) {
     facts.seconds = result.seconds;
     facts.size_m = size_m(result);
     facts.stands = standing_text(result);
-    facts.program = "frustumscreen-bake " FRUSTUMSCREEN_VERSION;
+    facts.program = name_and_version("frustumscreen-bake");
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
         const PackLevel& level = result.pack.levels[k];

@@ -92,10 +92,9 @@ Result<SourceMesh> load(const BakeRequest& request) {
     mesh.notes.insert(mesh.notes.end(), looks.begin(), looks.end());
     mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
     if (mesh.is_unlit && !request.options.unlit) {
-        mesh.notes.push_back(
-            {SourceNote::Kind::Guessed,
-             "its colours have their light already, as the file says (KHR_materials_unlit): it is "
-             "baked as with --unlit"});
+        mesh.notes.push_back({SourceNote::Kind::Guessed,
+                              "the file says that its colours already contain light "
+                              "(KHR_materials_unlit): it is baked as with --unlit"});
     }
     return mesh;
 }
@@ -138,8 +137,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     result.missing = missing_in(pack, request.rights);
     if (request.output.extension() != ".fspack" && !request.watched) {
         result.missing.push_back(
-            fmt::format("the name's end: a kiosk looks at *.fspack alone and passes {} over; "
-                        "call it {}.fspack",
+            fmt::format("the name's end: a kiosk takes only *.fspack and ignores {}; call it {}.fspack",
                         request.output.filename().string(), request.output.stem().string()));
     }
     put_sounds(pack, words.spoken);
@@ -157,8 +155,8 @@ Result<void> check_output(const BakeRequest& request) {
     if (!request.force && std::filesystem::exists(request.output, ignored) &&
         !begins_as_pack(request.output)) {
         return bad_input("bake.not_a_pack",
-                         "{}: this file is there and is not a pack; choose another name for the "
-                         "output, or add --force to replace it",
+                         "{}: this file exists and is not a pack; choose another name for the output, or add "
+                         "--force to replace it",
                          request.output.string());
     }
     return {};

@@ -12,6 +12,7 @@
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/base/time.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>
@@ -62,7 +63,7 @@ Result<void> check_output_folder(const std::filesystem::path& folder) {
 /// Identifies the build of the program, because another build may bake other packs.
 Result<std::string> program_key() {
     Result<std::string> hash = hash_of_file("/proc/self/exe");
-    return hash ? Result<std::string>("frustumscreen-bake " FRUSTUMSCREEN_VERSION " " + *hash) : hash;
+    return hash ? Result<std::string>(name_and_version("frustumscreen-bake") + " " + *hash) : hash;
 }
 
 Result<BatchPlan> plan_of(const Arguments& arguments, std::vector<BatchObject> objects) {
@@ -198,12 +199,12 @@ int batch_command(int argc, char** argv) {
                     "left; what fails stops "
                     "nothing else. A run that was ended goes on where it was.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty() || arguments.output.empty()) {
-                throw WrongUse{
-                    "--batch needs the folder DIR of the objects behind it, and -o that of the packs"};
+                throw WrongUse{"--batch needs DIR, the folder of the objects, after it; -o needs the folder "
+                               "of the packs"};
             }
         })) {
         return *end;

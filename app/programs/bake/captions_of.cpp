@@ -28,8 +28,7 @@ Result<void> add_language(const std::string& written, const std::vector<PackCapt
                          allowed_language_tags);
     }
     if (caption_in(captions, language) != nullptr) {
-        return bad_input("captions.language_twice",
-                         found + ": it is named already; write each language once");
+        return bad_input("captions.language_twice", found + ": it is named twice; write each language once");
     }
     const auto in_file = std::find_if(from_file.begin(), from_file.end(), [&](const PackCaption& caption) {
         return caption.language == language;

@@ -32,7 +32,7 @@ public:
             taken_.push_back(fmt::format("{} \"{}\"", what, printable(from_file, 200)));
         } else if (value != from_file) {
             notes_.push_back({SourceNote::Kind::Guessed,
-                              fmt::format("the {} is \"{}\", as you say; the file says \"{}\"", what,
+                              fmt::format("the {} is \"{}\", as given; the file says \"{}\"", what,
                                           printable(value, 100), printable(from_file, 100))});
         }
     }

@@ -10,6 +10,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/run_program.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <fmt/format.h>
@@ -164,8 +165,8 @@ Result<void> check_is_outside(const std::filesystem::path& written, const std::f
             .lexically_relative(std::filesystem::weakly_canonical(folder, none));
     if (!written.empty() && !way.empty() && *way.begin() != "..") {
         return bad_input("watch.output_inside",
-                         "{}: this lies in the folder that is watched; name a place outside {}",
-                         written.string(), folder.string());
+                         "{}: this lies in the watched folder; name a place outside {}", written.string(),
+                         folder.string());
     }
     return {};
 }
@@ -177,7 +178,7 @@ Result<void> work(Arguments arguments) {
     }
     if (!std::filesystem::is_directory(arguments.folder, none)) {
         return bad_input("watch.no_folder",
-                         "{}: this is no folder; --watch takes the folder of an artifact, and "
+                         "{}: this is not a folder; --watch needs the folder of an artifact, and "
                          "frustumscreen-bake --new FOLDER SCAN makes one",
                          arguments.folder.string());
     }
@@ -189,8 +190,8 @@ Result<void> work(Arguments arguments) {
     const PassingFolder passing;
     if (arguments.pack.empty() && passing.path().empty()) {
         return fail(ErrorKind::Internal, "watch.no_temporary_place",
-                    "there is no place for passing files; set TMPDIR to a folder that can be "
-                    "written, or name a pack with -o");
+                    "there is no folder for temporary files; set TMPDIR to a folder that can be written, or "
+                    "name a pack with -o");
     }
     return Watching(arguments, arguments.pack.empty() ? passing.path() / "coarse.fspack" : arguments.pack)
         .run();
@@ -204,7 +205,7 @@ int watch_command(int argc, char** argv) {
                     "browser that has the page "
                     "open shows each new one by itself.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");
@@ -212,7 +213,7 @@ int watch_command(int argc, char** argv) {
     add_bake_options(app, arguments.bake);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty()) {
-                throw WrongUse{"--watch needs the FOLDER of an artifact behind it"};
+                throw WrongUse{"--watch needs FOLDER, the folder of an artifact, after it"};
             }
         })) {
         return *end;

@@ -13,6 +13,7 @@
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,10 +54,10 @@ Result<void> tell(const std::vector<std::string>& notes, bool strict) {
 Result<void> check_folder(const std::filesystem::path& folder) {
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        return bad_input(
-            "words.no_folder",
-            "{}: this is no folder; name one with files such as de.toml, or none for the built-in words",
-            folder.string());
+        return bad_input("words.no_folder",
+                         "{}: this is not a folder; name a folder with files such as de.toml, or leave it "
+                         "out to use the built-in words",
+                         folder.string());
     }
     return {};
 }
@@ -68,7 +69,7 @@ Result<std::vector<std::string>> named_languages(const std::vector<std::string>&
         const std::string found = fmt::format("--languages: '{}'", printable(each, 40));
         const std::optional<std::string> language = parse_language_tag(each);
         if (!language) {
-            return bad_input("words.language", "{} is no language; allowed are {}", found,
+            return bad_input("words.language", "{} is not a language; allowed are {}", found,
                              allowed_language_tags);
         }
         if (std::find(languages.begin(), languages.end(), *language) != languages.end()) {
@@ -116,8 +117,8 @@ Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, 
     std::error_code ignored;
     if (!force && std::filesystem::exists(output, ignored) && !is_of_kind) {
         return bad_input("words.not_replaced",
-                         "{}: this file is there and is not {}; choose another name for the output, "
-                         "or add --force to replace it",
+                         "{}: this file exists and is not {}; choose another name for the output, or add "
+                         "--force to replace it",
                          output.string(), kind);
     }
     return {};
@@ -200,7 +201,7 @@ int words_command(int argc, char** argv) {
     Arguments arguments;
     CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
         .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();

@@ -29,7 +29,7 @@ WordsFolder list_words_folder(const fs::path& folder) {
         const std::optional<std::string> language = parse_language_tag(name);
         if (language != name) {
             listed.notes.push_back(
-                fmt::format("{}: nobody reads this file; name it after its language, such as {}.toml",
+                fmt::format("{}: this file is not used; name it after its language, such as {}.toml",
                             printable(file.string(), 300), language.value_or("de")));
         } else if (std::find(listed.languages.begin(), listed.languages.end(), name) ==
                    listed.languages.end()) {

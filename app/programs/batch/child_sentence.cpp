@@ -31,7 +31,7 @@ std::string signal_sentence(int signal, const ProgramLimits& limits) {
     return fmt::format("the bake was ended by signal {} ({}){}", signal, ::strsignal(signal),
                        limits.memory_bytes > 0 || signal == SIGKILL
                            ? "; perhaps it had too little memory: allow more, or fewer bakes at a time"
-                           : "; keep the scan and report it, for this is a fault of the program");
+                           : "; this is a fault of the program: keep the scan and report it");
 }
 
 } // namespace
@@ -45,7 +45,7 @@ std::string sentence_of(const ProgramEnd& end, const ProgramLimits& limits) {
     case ProgramEnd::How::TooMuch:
         return "the bake wrote too much and was ended; keep the scan and report it";
     case ProgramEnd::How::GivenUp:
-        return "the bake was ended, as nobody waits for it any more";
+        return "the bake was ended on request";
     case ProgramEnd::How::ByItself:
         break;
     }

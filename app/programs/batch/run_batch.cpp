@@ -81,7 +81,7 @@ BatchRow bake(const BatchPlan& plan, const BatchObject& object, const Outputs& o
 /// pack's hash before the bake, if it existed.
 std::string with_old_pack(std::string sentence, const Outputs& outputs, const Result<std::string>& before) {
     const Result<std::string> now = hash_of_file(outputs.pack);
-    return before && now && *before == *now ? std::move(sentence) + " (the pack of before is still there)"
+    return before && now && *before == *now ? std::move(sentence) + " (the previous pack is still there)"
                                             : sentence;
 }
 

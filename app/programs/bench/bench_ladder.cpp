@@ -30,7 +30,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const Result<void> written =
         write_all(arguments.out, {{"ladder.csv", dark_times_csv(runs, arguments.days)},
                                   {"ladder_policies.csv", museum_csv(runs, arguments.days)},
-                                  {"ladder_ailments.csv", faults_csv(runs, fault_events)}});
+                                  {"ladder_faults.csv", faults_csv(runs, fault_events)}});
     return written ? draw_all(arguments.out, {"ladder.csv"}) : written;
 }
 

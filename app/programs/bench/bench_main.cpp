@@ -2,6 +2,7 @@
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ int run(int argc, char** argv) {
         " shimmer, numerical stability, latency; which set-up suits a table; what the"
         " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
         "frustumscreen-bench");
-    app.set_version_flag("--version", "frustumscreen-bench " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bench"));
     app.require_subcommand();
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),

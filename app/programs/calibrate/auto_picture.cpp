@@ -137,7 +137,7 @@ Message choice_of(const TouchCalibration& found) {
         return found.repeat.empty()
                    ? Message{"calibration.more_rests", "Next goes on with four more rests."}
                    : Message{"calibration.repeat",
-                             "Next takes as many anew in their place. Back goes on with four more rests."};
+                             "Next replaces the doubtful rests. Back goes on with four more rests."};
     case Verdict::Refused:
         break;
     }

@@ -8,6 +8,7 @@
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/version.h"
 
 namespace frustumscreen {
 namespace {
@@ -19,7 +20,7 @@ int run(int argc, char** argv) {
         "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
         "the eyes' place in the head's sensor (eye); and what is kept (kept).",
         "frustumscreen-calibrate");
-    app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-calibrate"));
     app.require_subcommand();
     app.footer("Status 0: a calibration that is good or usable; 1: points are to be done again, or say "
                "nothing (with --json the "

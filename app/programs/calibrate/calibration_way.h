@@ -45,7 +45,8 @@ enum class WayEnd {
         return *end;
     }
     return fail(ErrorKind::BadInput, "calibrate.ended_early",
-                problem.empty() ? "it ended before a calibration was kept; the one before counts" : problem);
+                problem.empty() ? "it ended before a calibration was kept; the previous one is still used"
+                                : problem);
 }
 
 } // namespace frustumscreen

@@ -95,10 +95,10 @@ Result<int> from_file(const Settings& settings, const CalibrateRequest& request)
     TRY(const auto reported, read_points(request, parse_sights));
     const std::optional<EyeFit> fit = fit_reported(reported, settings);
     if (!fit) {
-        return bad_input("calibrate.cross_without_light",
-                         "{}: the light of a cross does not come down on the table; u_px, v_px "
-                         "is its pixel in the picture",
-                         request.from.string());
+        return bad_input(
+            "calibrate.cross_without_light",
+            "{}: the light of a cross does not meet the table; u_px, v_px is its pixel in the picture",
+            request.from.string());
     }
     if (request.json) {
         fmt::print("{}\n", eye_json(*fit).dump(2));

@@ -25,8 +25,8 @@ constexpr std::array<WordMessage<EyePrompt>, 9> eye_messages{{
      {"calibration.eyes.head_not_seen",
       "The tracker does not see the sensor on your head. Look at its cable, and come nearer."}},
     {EyePrompt::OffTable,
-     {"calibration.eyes.off_table", "The prop does not stand on the table as that was calibrated. Stand it "
-                                    "upright; if it is, put the picture right first (table --touch-up)."}},
+     {"calibration.eyes.off_table", "The prop does not stand as the table was measured. Stand it upright; if "
+                                    "it is upright, put the picture right first (table --touch-up)."}},
     {EyePrompt::NoRoom,
      {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
     {EyePrompt::HeadMoved,

@@ -51,7 +51,7 @@ std::string kept_text(const std::vector<KeptCalibration>& kept, FileTree& folder
                                read->made, name_of(read->method), read->places, read->mean_mm, read->worst_mm)
                  : fmt::format("{}: cannot be used: {}\n", each.name, read.error().message);
     }
-    return text + "The first one that can be used counts.\n";
+    return text + "The exhibit uses the first one that can be used.\n";
 }
 
 Result<int> show_kept(const CalibrateRequest& request) {
@@ -67,7 +67,7 @@ Result<int> show_kept(const CalibrateRequest& request) {
         TRY(const KeptCalibration undone, undo_calibration(*tree));
         fmt::print(
             stderr,
-            "frustumscreen-calibrate: {} is undone; the exhibit takes the one before when it starts again\n",
+            "frustumscreen-calibrate: {} is undone; the exhibit uses the previous one when it starts again\n",
             undone.name);
     }
     TRY(const std::vector<KeptCalibration> kept, list_calibrations(*tree));
@@ -99,7 +99,7 @@ Result<void> keep_next(const Settings& settings, Calibration next) {
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     next.made = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
     TRY(const KeptCalibration kept, keep_calibration(*tree, next));
-    fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit takes it when it starts again\n",
+    fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit uses it when it starts again\n",
                (folder / kept.name).string());
     return {};
 }
@@ -132,10 +132,9 @@ Result<void> keep_corners(const Settings& settings, const CornerCalibration& cal
 }
 
 std::string why_no_eye(const Settings& settings) {
-    return settings.calibration.used
-               ? ""
-               : "no calibration is kept with which the eye could be kept: keep one first, "
-                 "by touch --keep or table";
+    return settings.calibration.used ? ""
+                                     : "no calibration is kept, and the eyes' place is kept only with one; "
+                                       "keep a calibration first, with touch --keep or table";
 }
 
 Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m) {
@@ -148,7 +147,7 @@ void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function
     CommandLine command = app.add_subcommand(
         "kept", "lists the calibrations that this kiosk keeps, the newest first; undoes the newest");
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    command.add_flag("--undo", request.undo, "the one before the newest counts again");
+    command.add_flag("--undo", request.undo, "the exhibit uses the one before the newest again");
     command.add_flag("--json", request.json, "for programs");
     command.callback([&] { chosen = [&] { return end_with(show_kept(request)); }; });
 }

@@ -84,9 +84,8 @@ std::optional<double> sensor_height(const Settings& settings, const CalibrateReq
     return above_m != 0.0 ? std::optional(above_m) : std::nullopt;
 }
 
-constexpr const char* no_sensor_height =
-    "nobody knows how high the sensor is above the prop's bottom; measure it with a ruler and set "
-    "calibration.sensor_height_m";
+constexpr const char* no_sensor_height = "the sensor's height above the prop's bottom is not known; measure "
+                                         "it with a ruler and set calibration.sensor_height_m";
 
 nlohmann::ordered_json list_json(std::span<const Cross> crosses) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -257,7 +256,7 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     command
         .add_option("--touches", request.touches,
-                    "how many crosses, 6 to 30; this and the next two are else as the settings have them")
+                    "how many crosses, 6 to 30; left out: this and the next two are as in the settings")
         .within(6, 30);
     command
         .add_option("--block", request.block_m, "how high a block raises the prop for half of them, metres")

@@ -61,8 +61,8 @@ TableWords words_of_begin(const TouchProcedure& procedure) {
              fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
                          "the picture right; that takes about two minutes. {}",
                          procedure.count(), boards),
-             "Next begins. Back goes on to measuring the whole table anew, or out. A minute without a press "
-             "returns to the exhibit."}};
+             "Next begins. Back goes on to measuring the whole table anew; from there Back leaves. A minute "
+             "without a press returns to the exhibit."}};
     }
     return {"calibration.begin",
             {"Staff: measure the table anew",

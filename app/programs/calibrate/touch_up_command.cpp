@@ -64,8 +64,8 @@ CalibratedTable kept_table_of(const Settings& settings) {
 
 tl::unexpected<Error> none_kept(const Settings& settings) {
     return fail(ErrorKind::BadConfiguration, "calibrate.none_kept",
-                "{}: no calibration is kept there that could be touched up: keep one first, by touch "
-                "--keep or table",
+                "{}: no calibration is kept there, so there is nothing to touch up; keep one first, with "
+                "touch --keep or table",
                 settings.calibration.folder.string());
 }
 

@@ -18,7 +18,7 @@ namespace frustumscreen {
     const auto check = [](const std::string& text) {
         return is_technique(text)
                    ? std::string()
-                   : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ..., "
+                   : fmt::format("unknown technique '{}'; allowed are auto, finest, level0, level1, ..., "
                                  "relief, relief96, relief192, ..., relief-gpu, relief96-gpu, ...",
                                  text);
     };
@@ -32,8 +32,7 @@ namespace frustumscreen {
         const std::from_chars_result read = std::from_chars(text.data(), end, seconds);
         const bool well = read.ec == std::errc{} && read.ptr == end && seconds >= low && seconds <= high;
         return well ? std::string()
-                    : fmt::format("'{}' is not allowed; a number of seconds is wanted, {} to {:.0f}, such as "
-                                  "8 or 0.5",
+                    : fmt::format("'{}' is not allowed; allowed are {} to {:.0f} seconds, such as 8 or 0.5",
                                   text, low, high);
     };
     return {check, fmt::format("in [{} - {:.0f}]", low, high)};

@@ -45,7 +45,7 @@ std::string no_command(const CLI::App& app, const std::string& word) {
     }
     const bool is_option = word.empty() || word.starts_with('-');
     const std::string what =
-        is_option ? "a command is missing" : fmt::format("'{}' is no command", printable(word, 100));
+        is_option ? "a command is missing" : fmt::format("unknown command '{}'", printable(word, 100));
     return fmt::format("{}; the commands are {}", what, commands);
 }
 

@@ -5,6 +5,7 @@
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/camera/v4l2_camera.h"
 #include "firmware_host/display/kms_display.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -200,7 +201,7 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
     }
     TRY(GrowingFile file, GrowingFile::create(path));
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
-                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
+                                          project_version(), fmt::gmtime(std::time(nullptr)));
     return std::make_unique<PacketRecorder>(std::move(file), about, monotonic_now());
 }
 

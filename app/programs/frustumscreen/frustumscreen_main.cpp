@@ -12,6 +12,7 @@
 #include "app/programs/frustumscreen/run_command.h"
 #include "app/programs/frustumscreen/states/states_command.h"
 #include "app/programs/frustumscreen/status/status_command.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ int dispatch(int argc, char** argv) {
     const std::string_view first = words.empty() ? "" : words[0];
     const Command* const command = command_named(first);
     if (first == "--version" || (command != nullptr && words.size() == 2 && words[1] == "--version")) {
-        fmt::print("frustumscreen {}\n", FRUSTUMSCREEN_VERSION);
+        fmt::print("frustumscreen {}\n", project_version());
         return 0;
     }
     if (command != nullptr) {

@@ -18,6 +18,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/local_time.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/crash_record.h"
 #include "firmware_host/sound/silent_sound.h"
 #include "firmware_host/sound/wav_sound.h"
@@ -46,7 +47,7 @@ void record_crashes_of(const RunPlaces& places) {
     const std::string system =
         image.there() ? fmt::format("{}, image {}", system_name(), image.version) : system_name();
     record_crashes({places.cache.empty() ? std::filesystem::path() : places.cache / "crashes",
-                    FRUSTUMSCREEN_VERSION, system});
+                    project_version(), system});
 }
 
 /// Reads the settings and packs of the watchdog's mode, and makes the folders for the run's output.
@@ -111,7 +112,7 @@ struct OpenExhibit {
     DevicePlan devices;
     std::unique_ptr<Show> show;
     std::optional<Error> error_screen;   ///< why there is nothing to show; shown instead
-    std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the excuse
+    std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the error screen
     MonotonicTime start;
     Inputs inputs;
 };

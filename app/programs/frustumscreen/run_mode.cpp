@@ -47,10 +47,9 @@ Mode read_run_mode(const std::filesystem::path& file) {
     word = word.substr(0, word.find_first_of(" \r\n"));
     const std::optional<Mode> mode = mode_named(word);
     if (!mode) {
-        say_line("frustumscreen",
-                 fmt::format(
-                     "{}: '{}' is no mode; normal, last_good_set, plain and built_in are; the mode is normal",
-                     file.string(), word));
+        say_line("frustumscreen", fmt::format("{}: unknown mode '{}'; allowed are normal, last_good_set, "
+                                              "plain and built_in; the mode is normal",
+                                              file.string(), word));
     }
     // A person who starts the exhibit while the safe picture is shown wants the exhibit.
     return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
@@ -66,7 +65,7 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal)
     }
     TRY(UsedSettings used, use_settings(places.config, fallback));
     if (mode != Mode::Normal) {
-        journal.note(LogPriority::Warning, fmt::format("the watchdog wants the mode {}", word_of(mode)));
+        journal.note(LogPriority::Warning, fmt::format("the watchdog asks for the mode {}", word_of(mode)));
     }
     if (!used.instead.empty()) {
         journal.note(LogPriority::Error, used.instead);

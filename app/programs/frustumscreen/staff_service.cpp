@@ -22,7 +22,7 @@ std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path
     Result<std::unique_ptr<StaffSocket>> socket = StaffSocket::open(
         path, [&screenshot](std::string_view question, const std::stop_token& stop) -> Result<Bytes> {
             if (question != screenshot_question) {
-                return bad_input("staff.no_question", "'{}' is no question; ask '{}'",
+                return bad_input("staff.no_question", "unknown question '{}'; ask '{}'",
                                  printable(question, 64), screenshot_question);
             }
             TRY(const Image8* const picture, screenshot.take(stop));

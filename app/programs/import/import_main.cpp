@@ -4,6 +4,7 @@
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/stick_label.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ int say(const ImportReport& report, const ImportArguments& arguments) {
     }
     if (report.stage != ImportStage::Failed) {
         if (report.packs.empty() && !arguments.json) {
-            fmt::print("no pack (*.fspack) was found; packs lie on the stick itself, or one folder down\n");
+            fmt::print("no pack (*.fspack) was found; put packs into the stick's root, or one folder down\n");
         }
         return 0;
     }
@@ -65,7 +66,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
         "frustumscreen-import");
-    app.set_version_flag("--version", "frustumscreen-import " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-import"));
     ImportArguments arguments;
     std::string unsigned_packs = "refuse";
     bool to_list = false;

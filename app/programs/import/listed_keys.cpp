@@ -49,7 +49,7 @@ std::string text_of(const ListedKey& key, bool knows_settings) {
         key.from.empty()
             ? "of the settings"
             : fmt::format("brought{} by a set signed with {}{}", key.since.empty() ? "" : " on " + key.since,
-                          key.from, key.counts || !knows_settings ? "" : ", which does not count any more");
+                          key.from, key.counts || !knows_settings ? "" : ", which is no longer trusted");
     return fmt::format("key {} ({}), {}, {}\n", printable(key.name, 100), key.id,
                        key.until.empty() ? "no end" : "until " + key.until, from);
 }

@@ -58,7 +58,7 @@ std::string text_of(const ListedSigner& signer) {
     if (signer.counts.value_or(true)) {
         return "signed by " + who;
     }
-    return fmt::format("signed by {}, which does not count any more{}", who,
+    return fmt::format("signed by {}, which is no longer trusted{}", who,
                        signer.until.empty() ? "" : fmt::format(" (until {})", signer.until));
 }
 

@@ -40,7 +40,7 @@ private:
 
 /// {id, name, counts}, or null.
 [[nodiscard]] nlohmann::ordered_json json_of(const ListedSigner& signer);
-/// "signed by second, which does not count any more"
+/// "signed by second, which is no longer trusted"
 [[nodiscard]] std::string text_of(const ListedSigner& signer);
 
 } // namespace frustumscreen

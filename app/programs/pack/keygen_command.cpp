@@ -24,7 +24,7 @@ Result<void> check_free(const std::string& file) {
     struct stat status {};
     if (::lstat(file.c_str(), &status) == 0) {
         return bad_input("key.there_already",
-                         "{}: it is there already, and keys are never replaced; take another name", file);
+                         "{}: this key exists, and keys are never replaced; choose another name", file);
     }
     return {};
 }

@@ -10,6 +10,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/output_file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -154,7 +155,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Packs for FrustumScreen: are they sound, what do they hold, how do they look, who signed them?",
         "frustumscreen-pack");
-    app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-pack"));
     app.require_subcommand();
     Request request;
     add_looking_commands(app, request);

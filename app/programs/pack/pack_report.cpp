@@ -278,8 +278,9 @@ std::string speech_text(const Pack& pack, const PackCaption& caption) {
     if (!keys.empty()) {
         return fmt::format("          spoken: {}\n", fmt::join(keys, ", "));
     }
-    return caption.description.empty() ? ""
-                                       : "          silent: the description is shown and nobody speaks it\n";
+    return caption.description.empty()
+               ? ""
+               : "          silent: the description is shown, but no voice speaks it\n";
 }
 
 std::string on_one_line(std::string text) {
@@ -309,7 +310,7 @@ std::string description_text(const Pack& pack, double mm) {
     const ScanRights rights = scan_rights(pack).value_or(ScanRights());
     if (!rights.author.empty() || !rights.source.empty()) {
         text += fmt::format("          by {}, from {}\n",
-                            rights.author.empty() ? "nobody named" : printable(rights.author, 200),
+                            rights.author.empty() ? "no name stated" : printable(rights.author, 200),
                             rights.source.empty() ? "a place not stated" : printable(rights.source, 200));
     }
     text += fmt::format("  baked for a {}, {}, {} texels along the longest edge of a face\n", pack.prop_kind,

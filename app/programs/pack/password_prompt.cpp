@@ -48,7 +48,7 @@ Result<Password> read_line() {
         }
         if (got <= 0 && line.empty()) {
             return bad_input("password.none",
-                             "no password came; type it, or give it in one line on standard input");
+                             "no password was given; type it, or give it in one line on standard input");
         }
         if (got <= 0 || letter == '\n') {
             return Password(std::move(line));
@@ -56,7 +56,7 @@ Result<Password> read_line() {
         if (line.size() == longest_password) {
             sodium_memzero(line.data(), line.size());
             return bad_input("password.too_long",
-                             "the password is longer than 1024 bytes; take a shorter one");
+                             "the password is longer than 1024 bytes; choose a shorter one");
         }
         line += letter;
     }

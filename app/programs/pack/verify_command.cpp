@@ -76,7 +76,7 @@ std::string signature_words(const SoundPack& sound) {
         return "unsigned";
     }
     return sound.signer.empty()
-               ? fmt::format("signed with the key {}, serial {}, which nobody checked (name its --key)",
+               ? fmt::format("signed with the key {}, serial {}, not checked (name its --key)",
                              sound.claim->key_id, sound.claim->serial)
                : fmt::format("signed by {}, serial {}", printable(sound.signer), sound.claim->serial);
 }

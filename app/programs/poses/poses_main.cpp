@@ -7,6 +7,7 @@
 #include "app/tracking/registered_tracker.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/tracker/convert_recording.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -179,7 +180,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Pose files for FrustumScreen: from recordings of other trackers, simulated, and along a path.",
         "frustumscreen-poses");
-    app.set_version_flag("--version", "frustumscreen-poses " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-poses"));
     app.require_subcommand();
     ConvertRequest to_convert;
     SimulateRequest to_simulate;

@@ -6,6 +6,7 @@
 #include "app/programs/safe/show_safe_picture.h"
 #include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,8 @@ std::string read_size(const std::string& text, Size& size) {
     good = good && std::min(size.width, size.height) >= min_side &&
            std::max(size.width, size.height) <= max_side;
     return good ? std::string()
-                : fmt::format("'{}' is no size; allowed are {} to {} pixels a side, such as 1280x800", text,
-                              min_side, max_side);
+                : fmt::format("'{}' is not a size; allowed are {} to {} pixels a side, such as 1280x800",
+                              text, min_side, max_side);
 }
 
 Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
         "needs a graphics "
         "card's driver and nothing else: no settings, no packs, no OpenGL.",
         "frustumscreen-safe");
-    app.set_version_flag("--version", "frustumscreen-safe " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-safe"));
     SafeArguments arguments;
     arguments.languages = safe_languages();
     std::string png;

@@ -96,8 +96,8 @@ Result<void> check_folder(const std::filesystem::path& folder, const std::filesy
     }
     if (const auto cameras = folder / visitor_cameras_name; std::filesystem::exists(cameras)) {
         return bad_input("sheet.visitors_pictures",
-                         "{}: these pictures show what the visitor sees; a sheet is made of the "
-                         "projector's, from render without --view visitor",
+                         "{}: these pictures show what the visitor sees; a sheet needs the projector's "
+                         "pictures, from render without --view visitor",
                          cameras.string());
     }
     if (!std::filesystem::exists(pose_file)) {
@@ -128,7 +128,7 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         if (!columns) {
             columns.emplace(fields);
             if (!columns->has("t_us") || !columns->has("ms")) {
-                return bad_input("sheet.no_time_columns", "{}:{}: the header names no t_us or no ms", name,
+                return bad_input("sheet.no_time_columns", "{}:{}: the header lacks t_us or ms", name,
                                  line_number);
             }
             continue;

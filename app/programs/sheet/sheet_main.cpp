@@ -9,6 +9,7 @@
 #include "app/programs/sheet/sheet_picture.h"
 #include "app/programs/sheet/sheet_table.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         "Makes a contact sheet (projector's picture and visitor's view), an animation and a table of frame "
         "times from pictures of 'frustumscreen run' or 'render'.",
         "frustumscreen-sheet");
-    app.set_version_flag("--version", "frustumscreen-sheet " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-sheet"));
     app.add_option("--config", request.config, "the settings that the pictures were made with").required();
     app.add_option("--frames", request.folders, "folders with frame_00000.png ...").required();
     app.add_option("--poses", request.poses, "a pose file for each folder (default: its poses.csv)");

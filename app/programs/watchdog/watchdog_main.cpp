@@ -11,6 +11,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/this_boot.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -91,7 +92,8 @@ private:
         if (act.step == Step::Reboot) {
             faults_.keep(now, true);
             if (!memory_.keep(now, since_boot(), ladder_.memory(), true)) {
-                journal_.note(LogPriority::Error, "the reboot could not be written down, so it is not done");
+                journal_.note(LogPriority::Error,
+                              "the reboot cannot be recorded, so the computer is not restarted");
                 return;
             }
         }
@@ -165,7 +167,7 @@ int run(int argc, char** argv) {
     CommandLine app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
                     "manager starts it.",
                     "frustumscreen-watchdog");
-    app.set_version_flag("--version", "frustumscreen-watchdog " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-watchdog"));
     Arguments arguments;
     app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
         .capture_default_str();

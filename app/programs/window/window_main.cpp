@@ -13,6 +13,7 @@
 #include "app/show/pattern_show.h"
 #include "app/show/run_loop.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -42,7 +43,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         "prop; "
         "wheel or right drag: turn it; middle drag: move the eye; 1, 2, 3: the buttons; H: help; Esc: end.",
         "frustumscreen-window");
-    app.set_version_flag("--version", "frustumscreen-window " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-window"));
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique,

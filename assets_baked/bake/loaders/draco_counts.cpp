@@ -76,7 +76,7 @@ void skip_all_metadata(Cursor& cursor, const std::string& place) {
 
 DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     if (stream.size() < 11 || std::memcmp(stream.data(), "DRACO", 5) != 0) {
-        refuse_damage("{}: is no Draco stream", place);
+        refuse_damage("{}: is not a Draco stream", place);
     }
     Cursor cursor(stream, place);
     cursor.skip(5);
@@ -87,9 +87,8 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     const auto flags = cursor.take<std::uint16_t>();
     if (major != 2 || minor != 2) {
         refuse("mesh.draco_version",
-               "it is packed with Draco {1}.{2}, only 2.2 can be read; export it with a newer program, or "
-               "without "
-               "Draco ({0})",
+               "it is packed with Draco {1}.{2}; only 2.2 can be read: export it with a newer program, or "
+               "without Draco ({0})",
                place, major, minor);
     }
     if (geometry != 1 || method > 1) {

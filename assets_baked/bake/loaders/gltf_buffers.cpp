@@ -67,7 +67,7 @@ void check_form(const GltfMeshopt& meshopt, const std::string& place) {
         refuse_contradiction("{}.byteStride: {} is not allowed in this mode", place, stride);
     }
     if (meshopt.mode == MeshoptMode::Triangles && meshopt.count % 3 != 0) {
-        refuse_contradiction("{}.count: {} is no multiple of 3", place, meshopt.count);
+        refuse_contradiction("{}.count: {} is not a multiple of 3", place, meshopt.count);
     }
     const bool filter_fits = meshopt.filter == MeshoptFilter::None ||
                              (attributes && (meshopt.filter == MeshoptFilter::Exponential || stride == 8 ||

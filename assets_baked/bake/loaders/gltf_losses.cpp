@@ -34,8 +34,7 @@ void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn
                       LoadNotes& notes) {
     if (const std::size_t maps = count(model, drawn_materials, &GltfMaterial::normal_map); maps > 0) {
         notes.lost(
-            "the normal maps of {}: detail that is drawn in and not in the triangles; a scan with more "
-            "triangles has it",
+            "the normal maps of {}: their detail is not in the triangles; a scan with more triangles has it",
             counted(maps, "material", "materials"));
     }
     if (const std::size_t maps = count(model, drawn_materials, &GltfMaterial::occlusion_map); maps > 0) {
@@ -44,12 +43,12 @@ void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn
     }
     if (const std::size_t glowing = count(model, drawn_materials, &GltfMaterial::emission_is_colour);
         glowing > 0) {
-        notes.guessed("{} no colour but {} own light (emission), which is taken for it",
+        notes.guessed("{} no colour; {} own light (emission) is used as the colour",
                       counted(glowing, "material has", "materials have"), glowing == 1 ? "its" : "their");
     }
     if (const std::size_t unlit = count(model, drawn_materials, &GltfMaterial::unlit);
         unlit > 0 && unlit < drawn_materials.size()) {
-        notes.lost("that {} unlit (KHR_materials_unlit): the museum light falls on all of them alike",
+        notes.lost("that {} unlit (KHR_materials_unlit): the museum light falls on all materials alike",
                    counted(unlit, "material is", "materials are"));
     }
     if (!model.variants.empty()) {

@@ -165,7 +165,7 @@ GltfBufferView view_from(const JsonPlace& place, const GltfModel& model) {
 ComponentType component_type_from(const JsonPlace& place) {
     const std::uint64_t number = place.whole();
     if (number < 5120 || number > 5126 || number == 5124) {
-        refuse_damage("{}: {} is no component type of glTF 2.0", place.path(), number);
+        refuse_damage("{}: {} is not a component type of glTF 2.0", place.path(), number);
     }
     return static_cast<ComponentType>(number);
 }

@@ -40,7 +40,7 @@ glm::dmat4 transform_from(const JsonPlace& place) {
         const std::vector<double> xyzw = rotation->numbers(4);
         const glm::dquat quaternion(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
         if (glm::length(quaternion) < 1e-6) {
-            refuse_contradiction("{}: is no rotation, its length is zero", rotation->path());
+            refuse_contradiction("{}: is not a rotation: its length is zero", rotation->path());
         }
         transform *= glm::mat4_cast(glm::normalize(quaternion));
     }

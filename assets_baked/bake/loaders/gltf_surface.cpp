@@ -17,7 +17,7 @@ Wrap wrap_from(const JsonPlace& sampler, std::string_view key) {
     case 33648:
         return Wrap::Mirror;
     default:
-        refuse_damage("{}.{}: {} is no wrapping mode of glTF 2.0", sampler.path(), key, value);
+        refuse_damage("{}.{}: {} is not a wrapping mode of glTF 2.0", sampler.path(), key, value);
     }
 }
 

@@ -64,14 +64,12 @@ Format format_of(ByteView file, const std::filesystem::path& path) {
         return Format::Obj;
     }
     if (extension == ".ply") {
-        refuse("mesh.no_ply",
-               "it is no PLY file, whatever its name says (it does not begin with \"ply\"); export it again");
+        refuse("mesh.no_ply", "it is not a PLY file, although its name says so (it does not begin with "
+                              "\"ply\"); export it again");
     }
     if (extension == ".glb" || extension == ".gltf") {
-        refuse("mesh.no_gltf",
-               "it is no glTF file, whatever its name says (it begins neither with \"glTF\" nor with a JSON "
-               "object); "
-               "export it again");
+        refuse("mesh.no_gltf", "it is not a glTF file, although its name says so (it begins neither with "
+                               "\"glTF\" nor with a JSON object); export it again");
     }
     refuse("mesh.unknown_format",
            "it is neither glTF, OBJ, PLY nor STL; export it as one of these, best as .glb");

@@ -40,7 +40,7 @@ public:
         }
         note_losses();
         if (!colours_.empty() && mesh_.codes_to_linear()) {
-            notes_.guessed("the colours at its points are read as 0 to 255, since some are above 1");
+            notes_.guessed("the colours at its points are read as 0 to 255, because some are above 1");
         }
         return mesh_.finish(!positions_.empty());
     }
@@ -59,7 +59,8 @@ private:
                         counted(corners_at_0_, "corner", "corners"));
         }
         if (!unknown_.empty()) {
-            notes_.lost("lines that no OBJ has: {}", printable(fmt::format("{}", fmt::join(unknown_, ", "))));
+            notes_.lost("lines that the OBJ format does not have: {}",
+                        printable(fmt::format("{}", fmt::join(unknown_, ", "))));
         }
     }
 

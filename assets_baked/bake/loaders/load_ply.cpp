@@ -96,14 +96,14 @@ private:
             }
         }
         if (coloured && mesh_.codes_to_linear()) {
-            files_.notes.guessed("the colours at its points are read as 0 to 255, since some are above 1");
+            files_.notes.guessed("the colours at its points are read as 0 to 255, because some are above 1");
         }
         surface_.at_vertices(coloured, textured);
     }
 
     void note_unknown(std::string_view where, const std::vector<std::string>& names) {
         if (!names.empty()) {
-            files_.notes.lost("numbers at its {} that mean nothing to this program: {}", where,
+            files_.notes.lost("numbers at its {} that this program does not know: {}", where,
                               printable(fmt::format("{}", fmt::join(names, ", "))));
         }
     }
@@ -204,7 +204,7 @@ private:
     void note_unread(const PlyElement& element, bool is_shown, std::size_t corner_list) {
         if (!is_shown) {
             if (element.count > 0 && element.name != "edge" && element.name != "camera") {
-                files_.notes.lost("the part \"{}\" of the file, which means nothing to this program",
+                files_.notes.lost("the part \"{}\" of the file, which this program does not know",
                                   printable(element.name));
             }
             return;

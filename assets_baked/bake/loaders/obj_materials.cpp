@@ -87,11 +87,11 @@ void ObjMaterials::read_library(const std::string& name, const std::string& plac
     tinyobj::LoadMtl(&names, &materials, &stream, &warnings, &errors);
     const std::string shown_name = printable(last_part(name));
     if (!mtl.unknown.empty()) {
-        files_.notes.lost("lines of {} that no .mtl has: {}", shown_name,
+        files_.notes.lost("lines of {} that the .mtl format does not have: {}", shown_name,
                           printable(fmt::format("{}", fmt::join(mtl.unknown, ", "))));
     }
     if (mtl.kd_in_codes) {
-        files_.notes.guessed("the colours of {} are read as 0 to 255, since some are above 1", shown_name);
+        files_.notes.guessed("the colours of {} are read as 0 to 255, because some are above 1", shown_name);
     }
     for (const auto& [material, index] : names) {
         if (!material.empty() && index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
@@ -108,7 +108,7 @@ void ObjMaterials::note_missing_library(std::string_view name, const std::string
     missing_library_ = true;
     if (!files_.pictures.has_curators()) { // the curator's own picture stands for the colours
         files_.notes.lost(
-            "the colours: it names \"{}\" for them, and there is no such file beside it; put it there ({})",
+            "the colours: it names \"{}\" for them, but there is no such file beside it; put it there ({})",
             printable(last_part(name)), place);
     }
 }
@@ -218,11 +218,11 @@ SourceMaterial ObjMaterials::made_from(const Material& material) {
     }
     const std::string name = printable(source.name);
     if (has_picture || (!is_black(made.base_colour) && source.emissive_texname.empty())) {
-        files_.notes.lost("the light of its own of the material \"{}\" (Ke, map_Ke)", name);
+        files_.notes.lost("the own light of the material \"{}\" (Ke, map_Ke)", name);
         return made;
     }
     files_.notes.guessed(
-        "the material \"{}\" has no colour but its own light (Ke, map_Ke), which is taken for it", name);
+        "the material \"{}\" has no colour; its own light (Ke, map_Ke) is used as the colour", name);
     made.base_colour = is_black(emission) ? glm::vec4(1.0F) : emission;
     if (!source.emissive_texname.empty()) {
         made.texture = texture(material, source.emissive_texname, source.emissive_texopt, "map_Ke");

@@ -58,7 +58,7 @@ PlyType type_from(std::string_view name, std::size_t line) {
             return type;
         }
     }
-    refuse_damage("line {}: \"{}\" is no type of PLY", line, name.substr(0, 40));
+    refuse_damage("line {}: \"{}\" is not a type of PLY", line, name.substr(0, 40));
 }
 
 PlyProperty property_from(WordReader& words, std::size_t line) {

@@ -129,7 +129,7 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
     const std::optional<std::filesystem::path> path = find(name);
     if (!path) {
         refuse("mesh.side_file_missing",
-               "it names the file \"{}\", and there is no such file beside it; put it there ({})",
+               "it names the file \"{}\", but there is no such file beside it; put it there ({})",
                printable(last_part(name)), place);
     }
     if (const auto known = read_.find(*path); known != read_.end() && known->second) {
@@ -137,7 +137,7 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
     }
     const std::string relative = path->lexically_relative(folder_.empty() ? "." : folder_).string();
     if (std::filesystem::path(with_slashes(name)).lexically_normal() != relative) {
-        notes_.guessed("it names the file \"{}\"; {} beside it is taken", printable(name), relative);
+        notes_.guessed("it names the file \"{}\"; {} beside it is used", printable(name), relative);
     }
     Result<Bytes> bytes = read_file(*path);
     if (!bytes) {

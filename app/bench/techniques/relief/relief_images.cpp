@@ -40,7 +40,7 @@ glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const gl
     return count > 0 ? sum / static_cast<float>(count) : glm::clamp(colour_of_middle, 0.0F, 1.0F);
 }
 
-void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
+void rasterize_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
     const int texels = image.depth.width;
     const auto [across, down] = image_axes(image.axis);
     const glm::dvec3 size = box.high - box.low;
@@ -119,7 +119,7 @@ ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& nor
     ReliefImage image{axis, normal[axis] > 0.0, {texels, texels}, {texels, texels, no_depth}};
     parallel_for(static_cast<std::size_t>(texels), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
-            cast_row(truth, box, static_cast<int>(row), image);
+            rasterize_row(truth, box, static_cast<int>(row), image);
         }
     });
     for (int y = 1; y + 1 < texels; ++y) { // the rim is empty
@@ -153,7 +153,8 @@ Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
     return box;
 }
 
-ReliefImages cast_relief_images(const Truth& truth, const Box& artifact, const PropShape& prop, int texels) {
+ReliefImages rasterize_relief_images(const Truth& truth, const Box& artifact, const PropShape& prop,
+                                     int texels) {
     // A flat artifact also needs a box with a volume.
     const glm::dvec3 size = artifact.high - artifact.low;
     const double longest = std::max({size.x, size.y, size.z});

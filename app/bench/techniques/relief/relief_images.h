@@ -7,7 +7,7 @@
 ///          An image along axis a has the other two axes, in ascending order, as its columns and rows: texel
 ///          (i, j) has its middle at ((i + 0.5) / texels, (j + 0.5) / texels).
 /// Shape    every image is [texels][texels], row-major.
-/// Threads  values; `cast_relief_images` uses every core inside.
+/// Threads  values; `rasterize_relief_images` uses every core inside.
 /// Source   Oliveira, Bishop & McAllister, Relief texture mapping, 2000; Kim, Shin & Kim, Using relief
 ///          texture for interactive and tangible virtual environments, 2008.
 #pragma once
@@ -48,8 +48,8 @@ struct ReliefImages {
 [[nodiscard]] Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
 
 /// `artifact`: its box in the prop's frame. At least 8 texels.
-[[nodiscard]] ReliefImages cast_relief_images(const Truth& truth, const Box& artifact, const PropShape& prop,
-                                              int texels);
+[[nodiscard]] ReliefImages rasterize_relief_images(const Truth& truth, const Box& artifact,
+                                                   const PropShape& prop, int texels);
 
 /// Dual-depth relief (Policarpo, Oliveira & Comba 2005): where material may be along an axis, from the two
 /// images that look along it; codes 0..65535 of box coordinates, (65535, 0) = no material. A side without an

@@ -15,7 +15,7 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
                                                   const SourceMesh& mesh,
                                                   const glm::dmat4& prop_from_artifact, int texels) {
     const ReliefImages images =
-        cast_relief_images(truth, placed_box(mesh, prop_from_artifact), stage.prop, texels);
+        rasterize_relief_images(truth, placed_box(mesh, prop_from_artifact), stage.prop, texels);
     std::vector<ReliefPeer> peers;
     std::array<Result<std::unique_ptr<Technique>>, 4> marches{
         make_linear_march(stage, images, {32, 5}), make_linear_march(stage, images, {128, 6}),

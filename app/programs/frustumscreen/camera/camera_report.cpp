@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 std::string mode_text(const CameraMode& mode) {
     const std::string rate =
-        mode.rate_hz > 0.0 ? fmt::format(" at {:.4g} Hz", mode.rate_hz) : " at a rate that it does not say";
+        mode.rate_hz > 0.0 ? fmt::format(" at {:.4g} Hz", mode.rate_hz) : " at an unknown rate";
     return fmt::format("{} {} x {}{}", name_of(mode.format), mode.width, mode.height, rate);
 }
 
@@ -78,8 +78,8 @@ std::string camera_text(const CameraReport& report, const CameraSettings& wished
     if (report.set_up) {
         add(text, "taken", fmt::format("{}: \"{}\"", report.set_up->path, report.set_up->name));
         add(text, "mode",
-            fmt::format("{}; wished {} x {} at {:.4g} Hz", mode_text(report.set_up->mode), wished.width,
-                        wished.height, wished.rate_hz));
+            fmt::format("{}; the settings ask for {} x {} at {:.4g} Hz", mode_text(report.set_up->mode),
+                        wished.width, wished.height, wished.rate_hz));
         for (const LockedControl& control : report.set_up->controls) {
             add(text, control.name, control_text(control));
         }

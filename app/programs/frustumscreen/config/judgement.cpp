@@ -66,10 +66,9 @@ void judge_letters(const Settings& settings, Page& page) {
     const double em = em_m(settings);
     const double px = em * px_per_m;
     const double arcmin = em * arcmin_per_em_m(settings.eye);
-    page.text +=
-        fmt::format("  Letters are set {:.3g} mm high, {:.0f} pixels. Whose eyes are at eye.default_m sees a "
-                    "capital at {:.0f} minutes of arc.\n",
-                    1e3 * em, px, arcmin);
+    page.text += fmt::format("  Letters are set {:.3g} mm high, {:.0f} pixels. For eyes at eye.default_m a "
+                             "capital is {:.0f} minutes of arc high.\n",
+                             1e3 * em, px, arcmin);
     if (px < min_em_px) {
         page.faults.push_back(
             fmt::format("A caption's letters are {:.0f} pixels high, too few to read: they need {:g}. Hang "
@@ -79,9 +78,8 @@ void judge_letters(const Settings& settings, Page& page) {
     }
     if (arcmin < min_capital_arcmin) {
         page.faults.push_back(fmt::format(
-            "A caption is too small for eyes at eye.default_m: a capital is seen at {:.0f} "
-            "minutes of arc, and needs "
-            "{:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
+            "A caption is too small for eyes at eye.default_m: a capital is {:.0f} minutes of arc high, and "
+            "needs {:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
             arcmin, min_capital_arcmin, rounded_up(min_capital_arcmin / arcmin_per_em_m(settings.eye))));
     }
 }
@@ -193,10 +191,10 @@ void judge_words(const Settings& settings, const std::vector<NamedPack>& packs, 
     const std::string instead = there[caption_for(missing.front(), there)];
     std::vector<std::string> all = there;
     all.insert(all.end(), missing.begin(), missing.end());
-    page.faults.push_back(fmt::format(
-        "The exhibit's own words lack {}: who reads captions in it is invited and advised in {}. Bake them: "
-        "frustumscreen-bake --words --languages {} -o {}.",
-        fmt::join(missing, ", "), instead, fmt::join(all, ","), settings.exhibit.words.string()));
+    page.faults.push_back(
+        fmt::format("The exhibit's own words lack {}: visitors who read captions in it are invited and "
+                    "advised in {}. Bake them: frustumscreen-bake --words --languages {} -o {}.",
+                    fmt::join(missing, ", "), instead, fmt::join(all, ","), settings.exhibit.words.string()));
 }
 
 void judge_language(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {

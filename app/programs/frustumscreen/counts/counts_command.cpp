@@ -43,7 +43,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 Result<std::optional<std::chrono::sys_days>> day_in(const std::string& text, const char* option) {
     const std::optional<std::chrono::sys_days> day = parse_day(text);
     if (!text.empty() && !day) {
-        return bad_input("counts.day", "{} {}: this is no day; write it as 2026-11-27", option, text);
+        return bad_input("counts.day", "{} {}: this is not a day; write it as 2026-11-27", option, text);
     }
     return day;
 }

@@ -108,7 +108,7 @@ std::string words_of(const Move& move) {
     case Action::Wait:
         break;
     }
-    return "nothing that the visitor can do is known to help";
+    return "no known move of the visitor helps";
 }
 
 std::string text_words(const Guided& guided, const PropShape& prop) {

@@ -10,9 +10,9 @@ namespace frustumscreen {
 namespace {
 
 struct Frame {
-    CastView view;
+    RasterView view;
     BlockItems items;
-    CastSamples picture; ///< one sample per pixel of the lit part
+    RasterSamples picture; ///< one sample per pixel of the lit part
 };
 
 void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const Settings& settings,
@@ -20,7 +20,7 @@ void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const
     subject.show(frame.view, settings, prop, pose);
     list_blocks(frame.items, relief, frame.view);
     frame.picture.begin(frame.view.lit, 1);
-    cast(frame.picture, relief, frame.view, frame.items);
+    rasterize(frame.picture, relief, frame.view, frame.items);
 }
 
 bool contains(const PixelRectangle& of, int x, int y) {
@@ -98,7 +98,7 @@ Errors errors_over(const Subject& subject, const BlockRelief& relief, const Sett
     return sum;
 }
 
-TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
+TEST(Raster, ARingIsWhereTheRayCastFindsIt) {
     const Subject subject;
     const Settings settings = near_settings();
     const PropShape prop = make_prop(settings.prop);
@@ -123,7 +123,7 @@ TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
 
 constexpr std::array<Lens, 3> lenses{Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
 
-TEST(Cast, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
+TEST(Raster, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
     const Subject subject;
     const BlockRelief relief = subject.relief(256);
     for (const Lens& lens : lenses) {
@@ -143,7 +143,7 @@ TEST(Cast, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
 
 /// Large blocks of a coarse relief behind a lens with strong distortion: each is listed for all pixels of its
 /// face, and only for those.
-TEST(Cast, BehindALensTheListLeavesNothingOut) {
+TEST(Raster, BehindALensTheListLeavesNothingOut) {
     const Subject subject;
     const BlockRelief relief = subject.relief(32);
     for (const Lens& lens : lenses) {
@@ -169,7 +169,7 @@ TEST(Cast, BehindALensTheListLeavesNothingOut) {
             }
             end_list(frame.items);
             frame.picture.begin(frame.view.lit, 1);
-            cast(frame.picture, relief, frame.view, frame.items);
+            rasterize(frame.picture, relief, frame.view, frame.items);
             EXPECT_EQ(own, frame.picture.nearness) << lens.k1;
         }
         EXPECT_GT(narrowed, 100U);
@@ -193,7 +193,7 @@ std::shared_ptr<SourceMesh> askew_block() {
     return mesh;
 }
 
-TEST(Cast, SharpEdgesAreCutWhereTheyEnd) {
+TEST(Raster, SharpEdgesAreCutWhereTheyEnd) {
     const Subject subject{askew_block()};
     const Settings settings = near_settings();
     const PropShape prop = make_prop(settings.prop);
@@ -211,7 +211,7 @@ TEST(Cast, SharpEdgesAreCutWhereTheyEnd) {
     EXPECT_LT(sum.mean_mm, 0.01);
 }
 
-TEST(Cast, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
+TEST(Raster, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
     std::shared_ptr<SourceMesh> soup = askew_block();
     for (std::size_t k = 0; k < soup->triangles.size(); k += 3) {
         std::swap(soup->triangles[k][1], soup->triangles[k][2]);
@@ -239,7 +239,7 @@ TEST(Cast, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
     EXPECT_LT(missing, truth_pixels / 800); // as for the block with consistent winding
 }
 
-TEST(Cast, EveryInstructionSetMakesTheSamePicture) {
+TEST(Raster, EveryInstructionSetMakesTheSamePicture) {
     const Subject subject;
     const Settings settings = near_settings();
     const PropShape prop = make_prop(settings.prop);
@@ -252,12 +252,12 @@ TEST(Cast, EveryInstructionSetMakesTheSamePicture) {
         list_blocks(plain_items, relief, frame.view, Instructions::Plain);
         EXPECT_EQ(frame.items.sorted, plain_items.sorted);
         for (const int samples : {1, 4}) {
-            CastSamples best;
+            RasterSamples best;
             best.begin(frame.view.lit, samples);
-            cast(best, relief, frame.view, frame.items);
-            CastSamples plain;
+            rasterize(best, relief, frame.view, frame.items);
+            RasterSamples plain;
             plain.begin(frame.view.lit, samples);
-            cast(plain, relief, frame.view, frame.items, Instructions::Plain);
+            rasterize(plain, relief, frame.view, frame.items, Instructions::Plain);
             EXPECT_EQ(best.nearness, plain.nearness);
             EXPECT_EQ(best.block, plain.block);
             EXPECT_EQ(best.place, plain.place);

@@ -8,7 +8,7 @@
 ///          distorts is undone for each pixel.
 /// Threads  `begin` on one thread; it allocates nothing for a plan no larger than an earlier one. Then
 ///          `light` on any, several at once.
-/// SIMD     as relief/cast_blocks.h.
+/// SIMD     as relief/rasterize_blocks.h.
 #pragma once
 
 #include "app/relief/instructions.h"
@@ -22,12 +22,12 @@
 
 namespace frustumscreen {
 
-class CastLight final : public RowLight {
+class RasterLight final : public RowLight {
 public:
-    explicit CastLight(Instructions instructions = best_instructions()) : instructions_(instructions) {}
+    explicit RasterLight(Instructions instructions = best_instructions()) : instructions_(instructions) {}
 
     /// Prepares the light for one of the plan's reliefs.
-    void begin(const FramePlan& plan, std::size_t cast);
+    void begin(const FramePlan& plan, std::size_t relief_draw);
     void light(int y, int first, std::span<glm::u8vec4> codes) const override;
 
     /// Factors for a face's pixels, as FaceLight; `..._code`: to the power of 1 / 2.4, for multiplying codes.
@@ -42,7 +42,7 @@ public:
     struct Face {
         int face = 0;                     ///< index into FramePlan::faces
         PixelRectangle lit;               ///< the face has no pixels outside this
-        std::array<glm::vec3, 4> edges{}; ///< as CastFace
+        std::array<glm::vec3, 4> edges{}; ///< as RasterFace
         Gain gain;
     };
     /// An EdgeFeather in ideal pixels: functions linear in (x, y, 1) that go from 0 to 1 across it.

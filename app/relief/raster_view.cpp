@@ -1,4 +1,4 @@
-#include "app/relief/cast_view.h"
+#include "app/relief/raster_view.h"
 
 #include "app/geometry/collineation.h"
 
@@ -16,7 +16,7 @@ glm::dvec3 corner_of_box(const glm::dvec3& size, unsigned k) {
 }
 
 /// Bounding box of the artifact's box, in the prop frame.
-Box placed_box(const CastScene& scene) {
+Box placed_box(const RasterScene& scene) {
     Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
             glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (unsigned k = 0; k < 8; ++k) {
@@ -40,7 +40,7 @@ PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const Pinhole& pr
 }
 
 /// The pixels around the box's corners; the whole picture if a corner is not in front of the eye.
-PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, const Pinhole& projector) {
+PixelRectangle pixels_around(const RasterFace& face, const glm::dvec3& size, const Pinhole& projector) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (unsigned k = 0; k < 8; ++k) {
@@ -55,7 +55,7 @@ PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, const
 }
 
 /// The pixels around a face as the projector lights it; the whole picture if a corner is not in front of it.
-PixelRectangle pixels_of(const PropFace& face, const CastScene& scene) {
+PixelRectangle pixels_of(const PropFace& face, const RasterScene& scene) {
     const RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
     const Pinhole ideal = scene.projector.ideal();
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -78,7 +78,7 @@ glm::dvec3 inward_edge(const glm::dvec3& edge) {
 
 } // namespace
 
-void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
+void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene) {
     const glm::dmat4 box_from_prop = glm::inverse(scene.prop_from_box);
     const int width = scene.projector.width;
     const int height = scene.projector.height;
@@ -104,15 +104,16 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
         }
         const FaceRays rays =
             face_rays(face, scene.projector.ideal(), scene.prop_from_projector, scene.eye_m);
-        CastFace cast;
-        cast.face = static_cast<int>(k);
-        cast.direction = glm::dmat3(box_from_prop) * rays.direction;
-        std::transform(rays.edges.begin(), rays.edges.end(), cast.edges.begin(), inward_edge);
-        cast.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
-        cast.lit = intersected(pixels_around(cast, scene.box_size, scene.projector), pixels_of(face, scene));
-        if (!cast.lit.empty()) {
-            view.lit = united(view.lit, cast.lit);
-            view.faces.push_back(cast);
+        RasterFace face_view;
+        face_view.face = static_cast<int>(k);
+        face_view.direction = glm::dmat3(box_from_prop) * rays.direction;
+        std::transform(rays.edges.begin(), rays.edges.end(), face_view.edges.begin(), inward_edge);
+        face_view.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
+        face_view.lit =
+            intersected(pixels_around(face_view, scene.box_size, scene.projector), pixels_of(face, scene));
+        if (!face_view.lit.empty()) {
+            view.lit = united(view.lit, face_view.lit);
+            view.faces.push_back(face_view);
         }
     }
 }

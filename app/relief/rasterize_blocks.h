@@ -1,9 +1,9 @@
 /// Rasterizes a block relief for the eye: for each sample of each pixel the nearest block that its ray hits,
 /// the position in it, and the nearness.
 ///
-/// Units    nearness: 1 / t of the pixel's ray (cast_view.h), 0 without a hit; position (`place`): 1 / 4096
+/// Units    nearness: 1 / t of the pixel's ray (raster_view.h), 0 without a hit; position (`place`): 1 / 4096
 ///          of a cell, column in the lower half, row in the upper.
-/// Threads  each call has its own samples: `cast` may run for several rectangles at once.
+/// Threads  each call has its own samples: `relief_draw` may run for several rectangles at once.
 /// SIMD     eight lanes by the compiler's vectors, for each of instructions.h. All make equal pictures, since
 ///          nothing is contracted, approximated or summed in another order.
 #pragma once
@@ -23,7 +23,7 @@ namespace frustumscreen {
 /// The samples of a rectangle of pixels, row by row: first the first sample of each pixel of the row, then
 /// the second ones, and so on, so that samples of neighbouring pixels are adjacent. `lanes` elements after
 /// the end may be read.
-class CastSamples {
+class RasterSamples {
 public:
     static constexpr std::uint32_t places_per_cell = 4096;
     static constexpr std::uint32_t most = 16; ///< a pixel
@@ -65,8 +65,8 @@ private:
 };
 
 /// Rasterizes `items` into the samples.
-void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          Instructions instructions = best_instructions());
+void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterView& view,
+               const BlockItems& items, Instructions instructions = best_instructions());
 
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);

@@ -1,4 +1,4 @@
-#include "app/render/cast_pass.h"
+#include "app/render/raster_pass.h"
 
 #include "app/render/gl_memory.h"
 #include "firmware_host/base/usable_cores.h"
@@ -16,10 +16,11 @@ namespace {
 /// True if the relief can be copied there: no fade, no mesh, no picture on the table. A face drawn in black
 /// under such a picture does not matter, because the relief's unlit pixels are black too.
 bool stands_alone(const FramePlan& plan, const PixelRectangle& part) {
-    return plan.cast_count == 1 && std::none_of(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
+    return plan.relief_draw_count == 1 &&
+           std::none_of(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
                const bool black =
                    draw.face == Draw::on_table && draw.drawable.material.texture == TextureId::None;
-               return draw.shader.pass == ShaderKey::Pass::Cast
+               return draw.shader.pass == ShaderKey::Pass::Raster
                           ? draw.shader.dithered
                           : !black && !intersected(draw.bounds, part).empty();
            });
@@ -38,12 +39,12 @@ GLuint texture_of_framebuffer() {
 
 } // namespace
 
-Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
-    if (casts > 0 && !painter_) {
+Result<void> RasterPass::prepare(std::size_t relief_draws, int width, int height) {
+    if (relief_draws > 0 && !painter_) {
         painter_ = std::make_unique<ReliefPainter>(static_cast<int>(usable_cores()));
         memory_ = Image8(width, height);
     }
-    while (pictures_.size() < casts) {
+    while (pictures_.size() < relief_draws) {
         Picture picture{GlTexture::generate(), {}};
         glBindTexture(GL_TEXTURE_2D, picture.texels.get());
         glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
@@ -62,19 +63,20 @@ Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
     return {};
 }
 
-void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
+void RasterPass::paint(const FramePlan& plan, const GpuStore& store) {
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
         Picture& picture = pictures_[k];
         picture.painted.clear();
         picture.copied = 0;
-        const BlockRelief* const relief =
-            k < plan.cast_count && !plan.casts[k].on_gpu ? store.find_relief(plan.casts[k].relief) : nullptr;
+        const BlockRelief* const relief = k < plan.relief_draw_count && !plan.relief_draws[k].on_gpu
+                                              ? store.find_relief(plan.relief_draws[k].relief)
+                                              : nullptr;
         if (relief == nullptr) {
             continue;
         }
         light_.begin(plan, k);
         const std::span<const PixelRectangle> painted =
-            painter_->paint(*relief, plan.casts[k].view, plan.casts[k].samples,
+            painter_->paint(*relief, plan.relief_draws[k].view, plan.relief_draws[k].samples,
                             {memory_.texels.data(), memory_.width, memory_.height, memory_.width}, &light_);
         picture.painted.assign(painted.begin(), painted.end());
         const auto drawn =
@@ -87,7 +89,7 @@ void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
     }
 }
 
-void CastPass::upload(std::span<const PixelRectangle> parts) const {
+void RasterPass::upload(std::span<const PixelRectangle> parts) const {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, memory_.width);
     for (const PixelRectangle& part : parts) {
         glTexSubImage2D(GL_TEXTURE_2D, 0, part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
@@ -96,11 +98,11 @@ void CastPass::upload(std::span<const PixelRectangle> parts) const {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-int CastPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
+int RasterPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
     glBindVertexArray(no_attributes_.get());
     glActiveTexture(GL_TEXTURE0);
     int calls = 0;
-    for (std::size_t k = 0; k < std::min(plan.cast_count, pictures_.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(plan.relief_draw_count, pictures_.size()); ++k) {
         const std::span<const PixelRectangle> painted(pictures_[k].painted);
         const std::span<const PixelRectangle> copied = painted.first(pictures_[k].copied);
         const std::span<const PixelRectangle> drawn = painted.subspan(pictures_[k].copied);
@@ -110,7 +112,7 @@ int CastPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
         }
         // One draw serves all faces: their pixels are disjoint, and the light is already applied.
         const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const Draw& draw) {
-            return draw.shader.pass == ShaderKey::Pass::Cast && draw.cast == k;
+            return draw.shader.pass == ShaderKey::Pass::Raster && draw.relief_draw == k;
         });
         const Shader* const shader = shown != plan.draws.end() ? shaders.find(shown->shader) : nullptr;
         if (shader == nullptr || drawn.empty()) {
@@ -128,7 +130,7 @@ int CastPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
     return calls;
 }
 
-std::uint64_t CastPass::bytes() const {
+std::uint64_t RasterPass::bytes() const {
     return std::accumulate(
         pictures_.begin(), pictures_.end(), std::uint64_t{0},
         [](std::uint64_t sum, const Picture& picture) { return sum + bytes_of_texture(picture.texels); });

@@ -1,4 +1,4 @@
-#include "app/scene/cast_light.h"
+#include "app/scene/raster_light.h"
 
 #include "app/relief/lens_lanes.h"
 #include "app/scene/face_view.h"
@@ -40,7 +40,7 @@ FRUSTUMSCREEN_INLINE Share share_of(const PixelLens& lens, const PixelLanes& ide
 }
 
 /// Eight ideal pixels, one texel each, red in the lowest byte.
-FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, const PixelLanes& at, const Share& share,
+FRUSTUMSCREEN_INLINE Ints lit(const RasterLight::Gain& gain, const PixelLanes& at, const Share& share,
                               Ints texels) {
     const Floats ray_x = at.x * gain.ray_per_pixel.x + gain.first_ray.x;
     const Floats ray_y = at.y * gain.ray_per_pixel.y + gain.first_ray.y;
@@ -78,7 +78,7 @@ FRUSTUMSCREEN_INLINE Ints inside(const std::array<glm::vec3, 4>& edges, const Pi
     return in;
 }
 
-FRUSTUMSCREEN_INLINE Ints softened(const CastLight::Feather& feather, const PixelLanes& at, Ints own,
+FRUSTUMSCREEN_INLINE Ints softened(const RasterLight::Feather& feather, const PixelLanes& at, Ints own,
                                    Ints texels) {
     const Floats along = at_pixels(feather.along, at);
     const Floats inward = at_pixels(feather.inward, at);
@@ -101,7 +101,7 @@ FRUSTUMSCREEN_INLINE bool may_have(const PixelRectangle& part, int x, int y) {
 }
 
 /// Eight pixels of row `y`, from `x` on.
-FRUSTUMSCREEN_INLINE Ints shown(const CastLight::Parts& parts, int x, int y, Ints texels) {
+FRUSTUMSCREEN_INLINE Ints shown(const RasterLight::Parts& parts, int x, int y, Ints texels) {
     constexpr Floats middles = {0.5F, 1.5F, 2.5F, 3.5F, 4.5F, 5.5F, 6.5F, 7.5F};
     PixelLanes at{static_cast<float>(x) + middles, all(static_cast<float>(y) + 0.5F)};
     Share share;
@@ -111,14 +111,14 @@ FRUSTUMSCREEN_INLINE Ints shown(const CastLight::Parts& parts, int x, int y, Int
     }
     Ints left = Ints{} - 1; // pixels that no face has taken yet
     Ints result{};
-    for (const CastLight::Face& face : parts.faces) {
+    for (const RasterLight::Face& face : parts.faces) {
         const Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : Ints{};
         if (!any(own)) {
             continue;
         }
         left &= ~own;
         Ints codes = parts.changes_codes ? lit(face.gain, at, share, texels) : texels;
-        for (const CastLight::Feather& feather : parts.feathers) {
+        for (const RasterLight::Feather& feather : parts.feathers) {
             if (feather.face == face.face && may_have(feather.lit, x, y)) {
                 codes = softened(feather, at, own, codes);
             }
@@ -128,7 +128,7 @@ FRUSTUMSCREEN_INLINE Ints shown(const CastLight::Parts& parts, int x, int y, Int
     return result;
 }
 
-FRUSTUMSCREEN_INLINE void light_row(const CastLight::Parts& parts, int y, int first,
+FRUSTUMSCREEN_INLINE void light_row(const RasterLight::Parts& parts, int y, int first,
                                     std::span<glm::u8vec4> codes) {
     for (std::size_t k = 0; k < codes.size(); k += lanes) {
         const std::size_t bytes = sizeof(glm::u8vec4) * std::min<std::size_t>(lanes, codes.size() - k);
@@ -139,8 +139,8 @@ FRUSTUMSCREEN_INLINE void light_row(const CastLight::Parts& parts, int y, int fi
     }
 }
 
-CastLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_light, float brightness) {
-    CastLight::Gain gain;
+RasterLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_light, float brightness) {
+    RasterLight::Gain gain;
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
     gain.ray_per_pixel = glm::vec2(per_pixel);
     gain.first_ray = glm::vec2(-glm::dvec2(pinhole.cx, pinhole.cy) * per_pixel);
@@ -165,8 +165,8 @@ glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
 
 } // namespace
 
-void CastLight::begin(const FramePlan& plan, std::size_t cast) {
-    const CastPlan& planned = plan.casts[cast];
+void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
+    const ReliefDraw& planned = plan.relief_draws[relief_draw];
     parts_.lens = PixelLens(plan.projector);
     parts_.changes_codes = planned.even_light;
     parts_.faces.clear();
@@ -174,12 +174,12 @@ void CastLight::begin(const FramePlan& plan, std::size_t cast) {
     parts_.faces.reserve(plan.faces.capacity());
     parts_.feathers.reserve(plan.feathers.capacity());
     for (const Draw& draw : plan.draws) {
-        if (draw.shader.pass != ShaderKey::Pass::Cast || draw.cast != cast) {
+        if (draw.shader.pass != ShaderKey::Pass::Raster || draw.relief_draw != relief_draw) {
             continue;
         }
         parts_.changes_codes = parts_.changes_codes || draw.brightness != 1.0F;
         const FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
-        for (const CastFace& seen : planned.view.faces) {
+        for (const RasterFace& seen : planned.view.faces) {
             if (seen.face == face.face) {
                 const auto& [a, b, c, d] = seen.edges;
                 parts_.faces.push_back({draw.face,
@@ -202,7 +202,7 @@ void CastLight::begin(const FramePlan& plan, std::size_t cast) {
     }
 }
 
-void CastLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
+void RasterLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
     run_with<light_row>(instructions_, parts_, y, first, codes);
 }
 

@@ -1,4 +1,4 @@
-#include "app/bench/techniques/relief_cast.h"
+#include "app/bench/techniques/relief_raster.h"
 
 #include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/level.h"

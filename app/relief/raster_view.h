@@ -20,7 +20,7 @@
 
 namespace frustumscreen {
 
-struct CastFace {
+struct RasterFace {
     int face = 0;                      ///< index into the prop's faces
     glm::dmat3 direction{1.0};         ///< of the eye's ray, from (x, y, 1); box, not unit
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
@@ -29,15 +29,15 @@ struct CastFace {
     PixelRectangle lit; ///< the projector's pixels that may show the box on this face
 };
 
-struct CastView {
+struct RasterView {
     glm::dvec3 eye_box{0.0};
-    std::vector<CastFace> faces;
+    std::vector<RasterFace> faces;
     PixelRectangle lit; ///< around all of them
     Pinhole projector;
 };
 
 /// The artifact's placement in the prop, the projector and the eye.
-struct CastScene {
+struct RasterScene {
     glm::dmat4 prop_from_box{1.0}; ///< a rotation, one scale, a translation
     glm::dvec3 box_size{1.0};
     Pinhole projector;
@@ -46,6 +46,6 @@ struct CastScene {
 };
 
 /// `view` keeps its memory from frame to frame.
-void set_up(CastView& view, const PropShape& prop, const CastScene& scene);
+void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene);
 
 } // namespace frustumscreen

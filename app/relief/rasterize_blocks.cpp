@@ -1,4 +1,4 @@
-#include "app/relief/cast_blocks.h"
+#include "app/relief/rasterize_blocks.h"
 
 #include "app/relief/cell_row.h"
 #include "app/relief/lens_lanes.h"
@@ -19,13 +19,13 @@ struct ReadyItem {
     const std::uint32_t* codes;
     const std::uint64_t* covers;
     const PixelLens& lens;
-    std::array<glm::vec3, 4> edges; ///< the face's, as CastFace
+    std::array<glm::vec3, 4> edges; ///< the face's, as RasterFace
     CornerMap map;
     float outward; ///< sign of the picture area of a cell that faces the eye
 };
 
-FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& view, const BlockItems& items,
-                                     const BlockItem& item) {
+FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView& view,
+                                     const BlockItems& items, const BlockItem& item) {
     const ReliefBlock& block = relief.blocks[item.block];
     const GridView& grid = items.grids[item.face][item.direction];
     const std::array<glm::dvec3, 4>& edges = view.faces[item.face].edges;
@@ -43,7 +43,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& 
 
 /// True if the surface exists at this position of the block.
 FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place) {
-    constexpr std::uint32_t unit = CastSamples::places_per_cell;
+    constexpr std::uint32_t unit = RasterSamples::places_per_cell;
     const std::uint32_t u = place & 0xFFFFU;
     const std::uint32_t v = place >> 16U;
     const std::uint64_t bit = std::uint64_t{1} << (v / unit * block_cells + u / unit);
@@ -72,7 +72,7 @@ public:
         eights_ += bits != 0 ? 1U : 0U; // half of the eights have no valid lane: the next one overwrites them
     }
     /// Stores the fragments that are nearer than the samples' earlier hits.
-    FRUSTUMSCREEN_INLINE void take(CastSamples& samples, const ReadyItem& ready) {
+    FRUSTUMSCREEN_INLINE void take(RasterSamples& samples, const ReadyItem& ready) {
         const std::size_t count = list();
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t from = list_[k];
@@ -96,7 +96,7 @@ private:
 
     /// Computes the positions and lists the valid fragments; returns their number.
     FRUSTUMSCREEN_INLINE std::size_t list() {
-        constexpr auto unit = static_cast<std::int32_t>(CastSamples::places_per_cell);
+        constexpr auto unit = static_cast<std::int32_t>(RasterSamples::places_per_cell);
         const auto part = [](Floats at) FRUSTUMSCREEN_INLINED {
             return __builtin_convertvector(
                 least(most(at * static_cast<float>(unit), Floats{}), all(static_cast<float>(unit - 1))),
@@ -175,9 +175,9 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
 }
 
 /// Rasterizes eight cells of a row into the samples of the pixels within `limits`.
-FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Fragments& fragments, const ReadyItem& ready,
-                                     const CellCorners& corners, Ints cells, int row,
-                                     const PixelSpan& limits) {
+FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fragments,
+                                          const ReadyItem& ready, const CellCorners& corners, Ints cells,
+                                          int row, const PixelSpan& limits) {
     const CellRow at = cell_row(corners, cells, ready.outward);
     const auto count = static_cast<int>(samples.places().size());
     const PixelRectangle& all_pixels = samples.pixels();
@@ -219,7 +219,7 @@ FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangl
 }
 
 /// True if all of the area's samples already have a nearer hit.
-FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan& area, float nearest) {
+FRUSTUMSCREEN_INLINE bool is_hidden(const RasterSamples& samples, const PixelSpan& area, float nearest) {
     for (int y = area.top; y < area.bottom; ++y) {
         for (std::size_t k = 0; k < samples.places().size(); ++k) {
             const float* const row = &samples.nearness[samples.at(area.left, y, k)];
@@ -233,8 +233,8 @@ FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan&
     return true;
 }
 
-FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready, const PixelSpan& limits,
-                                    Fragments& fragments) {
+FRUSTUMSCREEN_INLINE void rasterize_item(RasterSamples& samples, const ReadyItem& ready,
+                                         const PixelSpan& limits, Fragments& fragments) {
     if (is_hidden(samples, limits, ready.item.nearest)) {
         return;
     }
@@ -242,7 +242,7 @@ FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready
         samples.widen(y, {limits.left, limits.right});
     }
     const auto meet = [&](const CellCorners& corners, Ints cells, int row) FRUSTUMSCREEN_INLINED {
-        cast_cells(samples, fragments, ready, corners, cells, row, limits);
+        rasterize_cells(samples, fragments, ready, corners, cells, row, limits);
     };
     for_each_row(ready, meet);
     fragments.take(samples, ready);
@@ -259,14 +259,15 @@ std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
                           items.first_of_band[band + 1] - items.first_of_band[band]);
 }
 
-FRUSTUMSCREEN_INLINE void cast_all(CastSamples& samples, const BlockRelief& relief, const CastView& view,
-                                   const BlockItems& items) {
+FRUSTUMSCREEN_INLINE void rasterize_all(RasterSamples& samples, const BlockRelief& relief,
+                                        const RasterView& view, const BlockItems& items) {
     Fragments fragments;
     const PixelRectangle& pixels = samples.pixels();
     for (int k = pixels.y / rows_of_band; k * rows_of_band < pixels.y + pixels.height; ++k) {
         for (const std::uint32_t place : items_of(items, k)) {
             const BlockItem& item = items.sorted[place];
-            cast_item(samples, ready(relief, view, items, item), within(item.area, pixels, k), fragments);
+            rasterize_item(samples, ready(relief, view, items, item), within(item.area, pixels, k),
+                           fragments);
         }
     }
 }
@@ -283,7 +284,7 @@ glm::vec2 sample_place(int k, int n) {
 
 } // namespace
 
-void CastSamples::make_room(int width, int height, int count) {
+void RasterSamples::make_room(int width, int height, int count) {
     const std::size_t samples =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(count) +
         lanes;
@@ -294,7 +295,7 @@ void CastSamples::make_room(int width, int height, int count) {
     place.resize(std::max(place.size(), samples));
 }
 
-void CastSamples::begin(const PixelRectangle& pixels, int count) {
+void RasterSamples::begin(const PixelRectangle& pixels, int count) {
     make_room(pixels.width, pixels.height, count);
     pixels_ = pixels;
     places_.clear();
@@ -308,9 +309,9 @@ void CastSamples::begin(const PixelRectangle& pixels, int count) {
                     0.0F);
 }
 
-void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          Instructions instructions) {
-    run_with<cast_all>(instructions, samples, relief, view, items);
+void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterView& view,
+               const BlockItems& items, Instructions instructions) {
+    run_with<rasterize_all>(instructions, samples, relief, view, items);
 }
 
 namespace {
@@ -325,7 +326,7 @@ std::uint32_t blend(std::uint32_t from, std::uint32_t to, std::uint32_t share) {
 } // namespace
 
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {
-    constexpr std::uint32_t unit = CastSamples::places_per_cell;
+    constexpr std::uint32_t unit = RasterSamples::places_per_cell;
     constexpr std::uint32_t end = block_cells * unit - 1;
     const std::uint32_t u = std::min(place & 0xFFFFU, end);
     const std::uint32_t v = std::min(place >> 16U, end);

@@ -3,7 +3,7 @@
 /// Lit rectangles without other content are copied into the picture; elsewhere, and in a fade, they are
 /// drawn, pixel by pixel, over it. GL state as in FacePass.
 ///
-/// Colour   sRGB codes, in the projector's light (scene/cast_light.h); alpha 0 where no surface was hit.
+/// Colour   sRGB codes, in the projector's light (scene/raster_light.h); alpha 0 where no surface was hit.
 /// Threads  the render thread, with one thread of its own for each further core. `paint` allocates nothing
 ///          once it has painted a picture as full, and makes no GL object.
 /// Errors   the driver is out of memory.
@@ -13,8 +13,8 @@
 #include "app/relief/relief_painter.h"
 #include "app/render/gpu_store.h"
 #include "app/render/shader_cache.h"
-#include "app/scene/cast_light.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/raster_light.h"
 #include "firmware_host/base/pixel_rectangle.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
@@ -27,10 +27,10 @@
 
 namespace frustumscreen {
 
-class CastPass {
+class RasterPass {
 public:
     /// Allocates `casts` pictures, each as large as the whole picture.
-    [[nodiscard]] Result<void> prepare(std::size_t casts, int width, int height);
+    [[nodiscard]] Result<void> prepare(std::size_t relief_draws, int width, int height);
 
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws.
     void paint(const FramePlan& plan, const GpuStore& store);
@@ -52,7 +52,7 @@ private:
     void upload(std::span<const PixelRectangle> parts) const;
 
     std::unique_ptr<ReliefPainter> painter_; ///< null: no picture was prepared
-    CastLight light_;
+    RasterLight light_;
     Image8 memory_; ///< main memory that each relief is rasterized in, one after another
     std::vector<Picture> pictures_;
     GlVertexArray no_attributes_ = GlVertexArray::generate();
