@@ -21,7 +21,10 @@ Result<std::string> settings_to_share(std::string_view text) {
             exhibit->erase("keys");
         }
         std::ostringstream stream;
-        stream << without << "\n";
+        // 0.7, not 0.69999999999999996; six digits are enough to see how a kiosk is set.
+        stream << toml::toml_formatter(without, toml::toml_formatter::default_flags |
+                                                    toml::format_flags::relaxed_float_precision)
+               << "\n";
         shared = stream.str();
     });
     if (state.error) {

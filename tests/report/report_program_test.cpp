@@ -26,10 +26,9 @@ protected:
         put("kiosk.toml", settings);
         put("faults", "2 second   \n1 first    \n");
         put("status.json", R"({"import": {"import_id": "stick1", "stick": "ANNAS STICK"}})");
-        put("bin/journalctl",
+        put_journalctl(
             "#!/bin/sh\necho \"$@\" >journalctl_arguments\necho '10:00 kernel: usb 1-2: SerialNumber: 4C53'\n"
             "echo '10:01 frustumscreen: the amphora is shown'\n");
-        ASSERT_EQ(::chmod((folder / "bin/journalctl").c_str(), 0755), 0);
         path_ = std::getenv("PATH");
         ASSERT_EQ(::setenv("PATH", (folder / "bin").string().append(":").append(path_).c_str(), 1), 0);
     }
@@ -39,6 +38,10 @@ protected:
     }
     void put(const std::string& file, std::string_view content) const {
         ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
+    }
+    void put_journalctl(std::string_view script) const {
+        put("bin/journalctl", script);
+        ASSERT_EQ(::chmod((folder / "bin/journalctl").c_str(), 0755), 0);
     }
     [[nodiscard]] static std::string command(const std::string& into, const std::string& more = "") {
         return "frustumscreen report --into " + into +
@@ -91,7 +94,7 @@ TEST_F(ReportProgram, HasWhatTheMakersAskForAndNamesNobody) {
 
 TEST_F(ReportProgram, AMissingPieceSaysWhyAndTheOthersAreThere) {
     put("kiosk.toml", "[table\n");
-    put("bin/journalctl", "#!/bin/sh\necho 'no journal' >&2\nexit 1\n");
+    put_journalctl("#!/bin/sh\necho 'no journal' >&2\nexit 1\n");
     std::filesystem::remove(folder / "faults");
     ASSERT_EQ(run(command("out/report")), 0) << text("err.txt");
     const std::map<std::string, std::string> files = files_in("out/report");

@@ -8,6 +8,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/run_program.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ std::string document_to_share(const KnownExhibit& known) {
 
 std::string version_text(const Environment& environment) {
     const SystemImage& image = environment.image;
-    std::string text = fmt::format("FrustumScreen {}\n{}\n", FRUSTUMSCREEN_VERSION, environment.system);
+    std::string text = fmt::format("FrustumScreen {}\n{}\n", project_version(), environment.system);
     if (image.there()) {
         text += fmt::format("image {}, slot {}\n", image.version, image.slot);
     }
