@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
 #include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/file_normals.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/simplify.h"
@@ -60,9 +61,10 @@ class Bakery {
 public:
     Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
         : options_(options), frame_(frame), points_(in_box(mesh, frame)), source_(mesh, points_),
-          welded_(weld(mesh, points_)), texel_box_(1.0F / static_cast<float>(options.size)) {}
+          normals_(mesh, frame), welded_(weld(mesh, points_)),
+          texel_box_(1.0F / static_cast<float>(options.size)) {}
 
-    [[nodiscard]] bool has_surface() const { return !welded_.indices.empty(); }
+    [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
 
@@ -161,7 +163,7 @@ private:
     Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
                const Image<float>& coverage) {
         if (!options_.unlit) {
-            multiply(colour, bake_light(mesh, texels, source_, reach));
+            multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
         }
         return finish(colour, texels, coverage);
     }
@@ -176,6 +178,7 @@ private:
     const BoxFrame& frame_;
     std::vector<glm::dvec3> points_;
     SourceScene source_;
+    FileNormals normals_;
     TriangleMesh welded_;
     float texel_box_;
     TriangleMesh finest_;
@@ -288,14 +291,18 @@ std::uintmax_t room_for_pack(int size) {
     return std::min(max_bytes, triangles_bytes + bytes_each_square * edge * edge);
 }
 
+std::int64_t useful_picture_texels(int size) {
+    constexpr std::int64_t least = std::int64_t{1} << 24; // 4096 x 4096
+    constexpr std::int64_t most = std::int64_t{1} << 28;  // 1 GiB
+    return std::clamp(std::int64_t{256} * size * size, least, most);
+}
+
 Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     options.progress("reading the surface", 0.0);
     Bakery bakery(mesh, frame, options);
-    if (!bakery.has_surface()) {
-        return bad_input("bake.degenerate", "every triangle is degenerate; there is no surface to show");
-    }
+    TRY_VOID(bakery.check());
     Pack pack;
     for (const GivenHotspot& given : options.hotspots) {
         TRY(PackHotspot hotspot, put_on_surface(given, bakery.source(), frame, options.prop.zone));

@@ -57,6 +57,11 @@ struct BakeOptions {
 /// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack's limit.
 [[nodiscard]] std::uintmax_t room_for_pack(int size);
 
+/// Texels of a scan's pictures, all together, beyond which a pack of this size shows no more of them. The largest atlas
+/// has 4 x 4 times `size` squared texels, each of which is the mean of four; 16 times as many as its texels allow for
+/// pictures that are used in part.
+[[nodiscard]] std::int64_t useful_picture_texels(int size);
+
 /// Indices of the levels on the Pareto front of error against cost (triangles; below about 1500 a frame's
 /// cost does not depend on them), cheapest first: each has a smaller mean error than the one before, and no
 /// clearly larger 95th percentile or colour error. Levels that stray further than a visitor would accept are

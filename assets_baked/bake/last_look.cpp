@@ -1,20 +1,25 @@
 #include "assets_baked/bake/last_look.h"
 
+#include "assets_baked/bake/colour_looks.h"
+#include "assets_baked/bake/coordinate_looks.h"
+#include "assets_baked/bake/winding.h"
+
 #include <fmt/format.h>
-#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <string>
 
 namespace frustumscreen {
 
 namespace {
 
-constexpr double max_scrap_share = 0.001;     ///< of the triangles, for all scraps together
-constexpr double min_shrinkage = 0.8;         ///< largest ratio of sizes without and with scraps
-constexpr double max_step_share = 1.0 / 2000; ///< of the size: about a texel of the finest relief
+constexpr double max_scrap_share = 0.001; ///< of the triangles, for all scraps together
+constexpr double min_shrinkage = 0.8;     ///< largest ratio of sizes without and with scraps
+constexpr double min_inside_out = 0.05;   ///< of the area
 
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
@@ -32,9 +37,7 @@ struct Bounds {
 
 /// The part of each triangle, numbered from 0, by union-find over equal positions.
 std::vector<std::uint32_t> parts_of(const SourceMesh& mesh, std::size_t& count) {
-    std::vector<std::uint32_t> same(mesh.positions.size());
-    meshopt_generateVertexRemap(same.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
-                                mesh.positions.size(), sizeof(glm::dvec3));
+    const std::vector<std::uint32_t> same = numbers_of_places(mesh);
     std::vector<std::uint32_t> parent(mesh.positions.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t v) {
@@ -70,32 +73,6 @@ struct Part {
 double reach_beyond(const Bounds& part, const Bounds& rest) {
     const glm::dvec3 beyond = glm::max(part.high - rest.high, rest.low - part.low);
     return std::max({beyond.x, beyond.y, beyond.z});
-}
-
-bool is_all_black(const SourceMesh& mesh) {
-    constexpr float black = 1e-3F; // linear
-    const auto is_dark = [](const glm::vec4& colour) {
-        return std::max({colour.r, colour.g, colour.b}) < black;
-    };
-    const bool dark_vertices =
-        !mesh.colours.empty() && std::all_of(mesh.colours.begin(), mesh.colours.end(), is_dark);
-    return dark_vertices ||
-           std::all_of(mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
-                       [&](std::uint32_t number) {
-                           const SourceMaterial& material = mesh.materials[number];
-                           if (is_dark(material.base_colour)) {
-                               return true;
-                           }
-                           const Image8* picture =
-                               material.texture < 0
-                                   ? nullptr
-                                   : mesh.textures[static_cast<std::size_t>(material.texture)].image.get();
-                           return picture != nullptr &&
-                                  std::all_of(picture->texels.begin(), picture->texels.end(),
-                                              [](const glm::u8vec4& texel) {
-                                                  return std::max({texel.r, texel.g, texel.b}) < 4;
-                                              });
-                       });
 }
 
 } // namespace
@@ -159,35 +136,33 @@ void remove_scraps(SourceMesh& mesh, const Scraps& scraps) {
     mesh.triangle_materials.resize(kept);
 }
 
-std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps) {
-    std::vector<SourceNote> notes;
-    const auto guess = [&](std::string text) {
-        notes.push_back({SourceNote::Kind::Guessed, std::move(text)});
-    };
+std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps, Lighting lighting) {
+    std::vector<std::string> guesses;
     if (scraps.triangles > 0) {
-        guess(fmt::format("{} of its {} triangles lie apart from the rest, and make the artifact {:.2g} "
-                          "times as small as it could be: leave them out with --clean, "
-                          "or cut them off in the scan",
-                          scraps.triangles, mesh.triangles.size(), scraps.size_with / scraps.size_without));
+        guesses.push_back(
+            fmt::format("{} of its {} triangles lie apart from the rest, and make the artifact {:.2g} "
+                        "times as small as it could be: leave them out with --clean, "
+                        "or cut them off in the scan",
+                        scraps.triangles, mesh.triangles.size(), scraps.size_with / scraps.size_without));
     }
-    if (is_all_black(mesh)) {
-        guess("all of its colours are black, so visitors see nothing of it: export it with its colours, or "
-              "name a picture with --texture FILE");
+    if (const double share = inside_out_share(mesh); share > min_inside_out) {
+        guesses.push_back(fmt::format(
+            "about {:.0f} % of its surface is turned inside out, beside parts that are not: light has seams "
+            "between them, and the levels need more triangles: turn them alike before it is exported (in "
+            "MeshLab: Re-Orient all faces coherently)",
+            100.0 * share));
     }
-    Bounds bounds;
-    double farthest = 0.0;
-    for (const glm::dvec3& position : mesh.positions) {
-        bounds.add({position, position});
-        farthest = std::max({farthest, std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    for (const std::optional<std::string>& look :
+         {look_for_black(mesh), look_for_one_colour(mesh),
+          lighting == Lighting::Museum ? look_for_own_light(mesh) : std::nullopt, look_for_far_origin(mesh),
+          look_for_few_decimals(mesh)}) {
+        if (look) {
+            guesses.push_back(*look);
+        }
     }
-    const bool is_single =
-        std::all_of(mesh.positions.begin(), mesh.positions.end(),
-                    [](const glm::dvec3& position) { return glm::dvec3(glm::vec3(position)) == position; });
-    const double step = std::ldexp(farthest, -23);
-    if (is_single && bounds.size() > 0.0 && step > max_step_share * bounds.size()) {
-        guess(fmt::format("its points lie on a grid of {:.2g} of its size, because its coordinates are large "
-                          "({:.3g}): move it to the origin before it is exported",
-                          step / bounds.size(), farthest));
+    std::vector<SourceNote> notes;
+    for (std::string& guess : guesses) {
+        notes.push_back({SourceNote::Kind::Guessed, std::move(guess)});
     }
     return notes;
 }

@@ -2,8 +2,10 @@
 ///
 /// Scraps   connected parts of few triangles far from the rest, as photogrammetry leaves them; they make the artifact
 ///          small in its prop.
-/// Light    colours that are all black.
-/// Steps    coordinates so large that their 32-bit rounding is visible.
+/// Sides    triangles that are turned inside out beside others that are not (winding.h).
+/// Light    colours that are all black; colours with light in them, lit a second time.
+/// Colours  a picture or colours at the vertices, of one colour.
+/// Steps    coordinates so large, or with so few decimals, that their rounding is visible.
 /// Shape    parts are connected by equal positions.
 /// Threads  pure; any.
 #pragma once
@@ -25,7 +27,11 @@ struct Scraps {
 [[nodiscard]] Scraps find_scraps(const SourceMesh& mesh);
 void remove_scraps(SourceMesh& mesh, const Scraps& scraps);
 
-/// Notes on scraps that are kept, on light and on steps.
-[[nodiscard]] std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps);
+/// The light that a bake puts on the colours.
+enum class Lighting : std::uint8_t { None, Museum };
+
+/// Notes on scraps that are kept, and on everything else.
+[[nodiscard]] std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps,
+                                                Lighting lighting);
 
 } // namespace frustumscreen

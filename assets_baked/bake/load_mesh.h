@@ -9,6 +9,7 @@
 #include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"
 
+#include <cstdint>
 #include <filesystem>
 
 namespace frustumscreen {
@@ -16,6 +17,9 @@ namespace frustumscreen {
 struct LoadOptions {
     /// A picture to use if the model names a missing one or none at all; empty: none.
     std::filesystem::path texture;
+    /// All pictures together are shrunk to this number of texels, which keep 1 GiB of memory; bake.h says how many a
+    /// pack can use.
+    std::int64_t kept_texels = std::int64_t{1} << 28;
 };
 
 /// A loaded mesh has at least one triangle, every index in range and every position finite.

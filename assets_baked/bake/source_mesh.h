@@ -30,6 +30,8 @@ struct SourceMaterial {
     int texture = -1;            ///< index into SourceMesh::textures; -1 = none
     bool alpha_mask = false;     ///< cut where alpha < alpha_cutoff
     float alpha_cutoff = 0.5F;
+    bool has_own_light =
+        false; ///< the file gives the colour as emission, or as unlit: light is in it already
 };
 
 /// A loss, a guess, or a value taken because nothing else was given: one line for the person who has the file.
@@ -45,11 +47,18 @@ struct SourceAbout {
     [[nodiscard]] bool operator==(const SourceAbout&) const = default;
 };
 
+/// What the file has, where the mesh keeps it in another form.
+struct SourceContents {
+    std::string format;                    ///< "glTF", "GLB", "OBJ", "PLY", "STL"
+    std::vector<glm::ivec2> picture_sizes; ///< of each picture of colours, texels, as in the file
+};
+
 /// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::vec2> uvs;     ///< transformed; empty or one per position; v = 0 at the top row
     std::vector<glm::vec4> colours; ///< linear vertex colour factors; empty or one per position
+    std::vector<glm::vec3> normals; ///< the file's own, unit; zero: none there; empty or one per position
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
     std::vector<std::uint32_t> triangle_materials;       ///< one per triangle
     std::vector<SourceMaterial> materials;               ///< at least one
@@ -57,6 +66,7 @@ struct SourceMesh {
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
     SourceAbout about;
+    SourceContents contents;
     bool is_unlit = false; ///< the file's colours are shown as they are, without light
     char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };

@@ -243,7 +243,7 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
 }
 
 ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
-                      float reach_box) {
+                      const FileNormals& normals, float reach_box) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
     const MuseumLight museum(source);
@@ -255,7 +255,7 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
             const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
             at.position =
                 hit.hit ? hit.point : at.position; // a coarse surface below the source would be in its shadow
-            light.at(x, y) = glm::vec3(museum.at(at.position, at.normal));
+            light.at(x, y) = glm::vec3(museum.at(at.position, normals.at(hit, at.normal)));
             known.at(x, y) = 1;
         }
     });

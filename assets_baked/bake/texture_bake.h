@@ -6,6 +6,7 @@
 
 #include "app/image/image.h"
 #include "assets_baked/bake/charts.h"
+#include "assets_baked/bake/file_normals.h"
 #include "assets_baked/bake/source_scene.h"
 
 #include <glm/glm.hpp>
@@ -35,9 +36,9 @@ struct AtlasTexel {
                                          const SourceScene& source, float reach_box);
 
 /// Light on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by the artifact
-/// itself and by the table it stands on (ambient occlusion).
+/// itself and by the table it stands on (ambient occlusion). `normals` are those of the source's mesh.
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                                    const SourceScene& source, float reach_box);
+                                    const SourceScene& source, const FileNormals& normals, float reach_box);
 
 /// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
 /// that mipmaps and filtering do not bleed. `coverage` becomes alpha; empty = no texel is cut.

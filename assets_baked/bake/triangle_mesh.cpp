@@ -72,6 +72,13 @@ TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points
     return result;
 }
 
+Result<void> check_surface(const TriangleMesh& welded) {
+    if (welded.indices.empty()) {
+        return bad_input("bake.degenerate", "every triangle is degenerate; there is no surface to show");
+    }
+    return {};
+}
+
 std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh) {
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0F));
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"
+#include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
 
@@ -33,6 +34,9 @@ struct TriangleMesh {
 /// The source's triangles with equal positions shared; degenerate triangles and repetitions (in either
 /// orientation, because triangles are two-sided) are dropped.
 [[nodiscard]] TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points);
+
+/// Errors   no triangle is left.
+[[nodiscard]] Result<void> check_surface(const TriangleMesh& welded);
 
 /// Drops triangles with repeated corners, and all but the first of those with the same three corners.
 void drop_repetitions(std::vector<std::uint32_t>& indices);

@@ -1,5 +1,7 @@
 #include "assets_baked/texts/recorded_speech.h"
 
+#include "assets_baked/names/file_name.h"
+#include "assets_baked/names/find_entry.h"
 #include "assets_baked/texts/recording.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
@@ -20,12 +22,15 @@ constexpr std::array endings{".wav", ".flac", ".opus", ".ogg"};
 /// Other endings that a person may use for a recording.
 constexpr std::array other_endings{".mp3", ".m4a", ".aac", ".aif", ".aiff", ".wma", ".oga"};
 
+/// True if the file ends in one of these, in any case.
+template <std::size_t count> bool ends_in(const fs::path& file, const std::array<const char*, count>& some) {
+    const std::string ending = file.extension().string();
+    return std::any_of(some.begin(), some.end(),
+                       [&](const char* each) { return is_same_file_name(ending, each); });
+}
+
 bool is_sound(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return std::find(endings.begin(), endings.end(), ending) != endings.end() ||
-           std::find(other_endings.begin(), other_endings.end(), ending) != other_endings.end();
+    return ends_in(file, endings) || ends_in(file, other_endings);
 }
 
 /// Sound files in the folder and its direct subfolders, sorted by name.
@@ -48,8 +53,10 @@ std::vector<fs::path> sounds_in(const fs::path& folder) {
 
 /// The reason why a file is not used.
 std::string why_unused(const fs::path& file, const std::string& name, const RecordingNames& names) {
-    const bool can_be_read = std::find(endings.begin(), endings.end(), file.extension()) != endings.end();
-    if (const auto wanted = names.find(name); wanted != names.end() && wanted->second) {
+    const bool can_be_read = ends_in(file, endings);
+    const auto wanted = std::find_if(names.begin(), names.end(),
+                                     [&](const auto& each) { return is_same_file_name(each.first, name); });
+    if (wanted != names.end() && wanted->second) {
         return fmt::format("{} is used instead", printable(wanted->second->string(), 300));
     }
     if (!can_be_read) {
@@ -68,10 +75,9 @@ std::string why_unused(const fs::path& file, const std::string& name, const Reco
 
 std::optional<std::filesystem::path> find_recording(const std::filesystem::path& folder,
                                                     const std::string& language, const std::string& key) {
+    const std::optional<fs::path> spoken = folder.empty() ? std::nullopt : find_entry(folder, language);
     for (const char* ending : endings) {
-        std::filesystem::path file = folder / language / (key + ending);
-        std::error_code ignored;
-        if (!folder.empty() && std::filesystem::exists(file, ignored)) {
+        if (std::optional<fs::path> file = spoken ? find_entry(*spoken, key + ending) : std::nullopt) {
             return file;
         }
     }
@@ -90,8 +96,9 @@ std::vector<std::string> unused_recordings(const fs::path& folder, const Recordi
         const bool is_taken = std::any_of(names.begin(), names.end(), [&](const auto& each) {
             return each.second && each.second->lexically_normal() == file.lexically_normal();
         });
-        const bool is_left_out =
-            std::find(left_out.begin(), left_out.end(), inside.begin()->string()) != left_out.end();
+        const bool is_left_out = std::any_of(left_out.begin(), left_out.end(), [&](const std::string& each) {
+            return is_same_file_name(each, inside.begin()->string());
+        });
         if (!is_taken && !is_left_out) {
             notes.push_back(fmt::format("{}: this recording is not used: {}", printable(file.string(), 300),
                                         why_unused(file, name, names)));

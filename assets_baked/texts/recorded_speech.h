@@ -1,4 +1,4 @@
-/// The museum's own recordings of texts: FOLDER/LANGUAGE/KEY.wav, .flac, .opus or .ogg.
+/// The museum's own recordings of texts: FOLDER/LANGUAGE/KEY.wav, .flac, .opus or .ogg, in any case (find_entry.h).
 ///
 /// Errors   one sentence; messages begin with the file's name.
 /// Threads  pure except for reading files; any.

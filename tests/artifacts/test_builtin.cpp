@@ -1,5 +1,8 @@
 #include "assets_baked/artifacts/builtin.h"
+#include "assets_baked/artifacts/write_glb.h"
 #include "assets_baked/bake/hotspots.h"
+#include "assets_baked/bake/last_look.h"
+#include "assets_baked/bake/loaders/load_bytes.h"
 #include "assets_baked/folder/artifact_file.h"
 
 #include <gtest/gtest.h>
@@ -261,6 +264,29 @@ TEST(Builtin, UnknownNamesAndCountsAreRefusedInOneLine) {
         EXPECT_FALSE(mesh.error().message.empty());
     }
     EXPECT_TRUE(builtin_folder_text("vase").empty());
+}
+
+TEST(Builtin, NoLastLookFindsAMistake) {
+    std::size_t looks = 0;
+    for (const std::string_view name : builtin_names()) {
+        for (const std::int64_t triangles : {2'000, 100'000}) {
+            // As a file has it, with 32-bit numbers, and as it is made.
+            const Result<Bytes> file = write_glb(built(name, triangles));
+            ASSERT_TRUE(file) << file.error().message;
+            const Result<SourceMesh> read = load_mesh_bytes(*file, "artifact.glb");
+            ASSERT_TRUE(read) << read.error().message;
+            for (const SourceMesh* mesh : {&built(name, triangles), &*read}) {
+                const Scraps scraps = find_scraps(*mesh);
+                EXPECT_EQ(scraps.triangles, 0U) << name;
+                for (const SourceNote& note : last_look(*mesh, scraps, Lighting::Museum)) {
+                    ADD_FAILURE() << name << ", " << triangles << " triangles: " << note.text;
+                }
+                ++looks;
+            }
+            EXPECT_TRUE(read->notes.empty()) << read->notes.front().text;
+        }
+    }
+    EXPECT_EQ(looks, 8U);
 }
 
 } // namespace

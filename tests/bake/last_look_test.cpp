@@ -1,4 +1,6 @@
 #include "assets_baked/bake/last_look.h"
+#include "assets_baked/bake/winding.h"
+#include "tests/bake/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -28,8 +30,8 @@ void add_square(SourceMesh& mesh, int cells, const glm::dvec3& corner, double si
     mesh.materials.resize(1);
 }
 
-bool guesses(const SourceMesh& mesh, std::string_view words) {
-    const std::vector<SourceNote> notes = last_look(mesh, find_scraps(mesh));
+bool guesses(const SourceMesh& mesh, std::string_view words, Lighting lighting = Lighting::Museum) {
+    const std::vector<SourceNote> notes = last_look(mesh, find_scraps(mesh), lighting);
     return std::any_of(notes.begin(), notes.end(), [&](const SourceNote& note) {
         return note.kind == SourceNote::Kind::Guessed && note.text.find(words) != std::string::npos;
     });
@@ -90,6 +92,152 @@ TEST(LastLook, CoordinatesThatAreTooLargeForTheirSizeAreTold) {
     SourceMesh near;
     add_square(near, 4, {1.0, 0, 0});
     EXPECT_FALSE(guesses(near, "grid"));
+}
+
+/// A sphere of 128 x 64 quads.
+SourceMesh sphere() {
+    SourceMesh mesh = test::empty_mesh();
+    test::add_sphere(mesh, {0, 0, 0}, 0.5, 64);
+    return mesh;
+}
+
+void turn_over(SourceMesh& mesh, std::size_t triangle) {
+    std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+}
+
+TEST(LastLook, PartsThatAreTurnedInsideOutAreMeasured) {
+    SourceMesh half = sphere();
+    EXPECT_EQ(inside_out_share(half), 0.0);
+    for (std::size_t t = 0; t < half.triangles.size(); ++t) {
+        const auto& [a, b, c] = half.triangles[t];
+        if (half.positions[a].z + half.positions[b].z + half.positions[c].z < 0.0) {
+            turn_over(half, t);
+        }
+    }
+    EXPECT_NEAR(inside_out_share(half), 0.5, 1e-6) << "the lower half";
+    EXPECT_TRUE(guesses(half, "about 50 % of its surface is turned inside out"));
+    SourceMesh third = sphere();
+    for (std::size_t t = 0; t < third.triangles.size(); t += 3) {
+        turn_over(third, t);
+    }
+    EXPECT_NEAR(inside_out_share(third), 1.0 / 3.0, 0.01) << "every third triangle";
+    SourceMesh seams = half; // each triangle has corners of its own, as in STL
+    seams.positions.clear();
+    for (auto& triangle : seams.triangles) {
+        for (std::uint32_t& vertex : triangle) {
+            seams.positions.push_back(half.positions[vertex]);
+            vertex = static_cast<std::uint32_t>(seams.positions.size() - 1);
+        }
+    }
+    EXPECT_NEAR(inside_out_share(seams), 0.5, 1e-6);
+}
+
+TEST(LastLook, AllOfAPartOrBothSidesOfASheetAreNotInsideOut) {
+    SourceMesh all = sphere();
+    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+        turn_over(all, t);
+    }
+    test::add_sphere(all, {2, 0, 0}, 0.5, 64); // beside it, the other way round
+    EXPECT_EQ(inside_out_share(all), 0.0);
+    SourceMesh sheet;
+    add_square(sheet, 10, {0, 0, 0});
+    SourceMesh twice = sheet;
+    twice.triangles.insert(twice.triangles.end(), sheet.triangles.begin(), sheet.triangles.end());
+    EXPECT_EQ(inside_out_share(twice), 0.0) << "each triangle twice";
+    for (std::size_t t = sheet.triangles.size(); t < twice.triangles.size(); ++t) {
+        turn_over(twice, t);
+    }
+    EXPECT_EQ(inside_out_share(twice), 0.0) << "front and back";
+    SourceMesh strip; // a Moebius strip has one side; its triangles agree everywhere but at one place
+    constexpr int steps = 100;
+    for (int k = 0; k < steps; ++k) {
+        const double around = 2.0 * std::numbers::pi * k / steps;
+        const glm::dvec3 out(std::cos(around), std::sin(around), 0.0);
+        const glm::dvec3 across = std::cos(around / 2.0) * out + glm::dvec3(0, 0, std::sin(around / 2.0));
+        strip.positions.push_back(out + 0.2 * across);
+        strip.positions.push_back(out - 0.2 * across);
+    }
+    const auto last = static_cast<std::uint32_t>(strip.positions.size());
+    for (std::uint32_t v = 0; v < last; v += 2) {
+        const bool meets = v + 2 == last; // upside down
+        const std::uint32_t c = meets ? 1 : v + 2;
+        const std::uint32_t d = meets ? 0 : v + 3;
+        strip.triangles.push_back({v, v + 1, c});
+        strip.triangles.push_back({v + 1, d, c});
+    }
+    EXPECT_LT(inside_out_share(strip), 0.02);
+}
+
+/// A square with texture coordinates and a picture.
+SourceMesh painted(const Image8& picture) {
+    SourceMesh mesh;
+    add_square(mesh, 4, {0, 0, 0});
+    for (const glm::dvec3& position : mesh.positions) {
+        mesh.uvs.emplace_back(position);
+    }
+    mesh.textures.push_back({std::make_shared<const Image8>(picture)});
+    mesh.materials[0].texture = 0;
+    return mesh;
+}
+
+TEST(LastLook, ColoursThatAreAllOneAreTold) {
+    Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
+    EXPECT_TRUE(guesses(painted(picture),
+                        "all of its colours are one, red 200, green 120, blue 60, though it has a picture"));
+    picture.at(2, 1).g = 123;
+    EXPECT_FALSE(guesses(painted(picture), "one"));
+    SourceMesh no_uvs = painted(picture);
+    std::fill(no_uvs.uvs.begin(), no_uvs.uvs.end(), glm::vec2(0.5F));
+    EXPECT_TRUE(guesses(no_uvs, "shows one point of its picture"));
+    SourceMesh vertices;
+    add_square(vertices, 4, {0, 0, 0});
+    EXPECT_FALSE(guesses(vertices, "one")) << "no colours at all, as in STL";
+    vertices.colours.assign(vertices.positions.size(), glm::vec4(0.5F));
+    EXPECT_TRUE(guesses(vertices, "though it has colours at its vertices"));
+    vertices.colours[3].r = 0.6F;
+    EXPECT_FALSE(guesses(vertices, "one"));
+    vertices.colours[3] = glm::vec4(0.5F);
+    vertices.materials.push_back({glm::vec4(0.5F, 1.0F, 1.0F, 1.0F)});
+    EXPECT_TRUE(guesses(vertices, "all of its colours are one")) << "no triangle has the other material";
+    vertices.triangle_materials[5] = 1;
+    EXPECT_FALSE(guesses(vertices, "one"));
+}
+
+TEST(LastLook, LightThatFallsOnLightIsTold) {
+    Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
+    picture.at(0, 0) = glm::u8vec4(9, 9, 9, 255);
+    SourceMesh mesh = painted(picture);
+    mesh.materials.push_back(mesh.materials[0]);
+    mesh.materials[1].has_own_light = true;
+    EXPECT_FALSE(guesses(mesh, "--unlit")) << "no triangle has that material";
+    for (std::size_t t = 0; t < 8; ++t) {
+        mesh.triangle_materials[t] = 1;
+    }
+    EXPECT_TRUE(guesses(mesh, "the colours of 8 of its 32 triangles are light in the file"));
+    EXPECT_FALSE(guesses(mesh, "--unlit", Lighting::None));
+}
+
+TEST(LastLook, CoordinatesWithTooFewDecimalsAreTold) {
+    const auto rounded = [](double step, double size = 1.0) {
+        SourceMesh mesh = sphere();
+        for (glm::dvec3& position : mesh.positions) {
+            position = glm::dvec3(glm::vec3(step * glm::round(size * position / step)));
+        }
+        return mesh;
+    };
+    EXPECT_TRUE(guesses(rounded(0.01), "its points are rounded to 0.01, which is 0.01 of its size"));
+    EXPECT_TRUE(guesses(rounded(1.0, 150.0), "its points are rounded to 1"));
+    EXPECT_FALSE(guesses(rounded(1e-4), "rounded"));
+    EXPECT_FALSE(guesses(sphere(), "rounded"));
+    SourceMesh blocks; // along the axes
+    add_square(blocks, 40, {0, 0, 0}, 40.0);
+    EXPECT_FALSE(guesses(blocks, "rounded"));
+    SourceMesh few; // a body of few, large faces
+    few.positions = {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {0, 0, 100}};
+    few.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    few.triangle_materials.assign(4, 0);
+    few.materials.resize(1);
+    EXPECT_FALSE(guesses(few, "rounded"));
 }
 
 } // namespace

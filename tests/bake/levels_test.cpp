@@ -192,6 +192,13 @@ TEST(Levels, ATextureKeepsItsColours) {
     EXPECT_LT(pack->levels[pack->default_level].error.colour_rmse, 2.0F);
 }
 
+TEST(Levels, PicturesOfAScanHaveRoomForWhatAPackShows) {
+    constexpr std::int64_t a_picture_of_8k = std::int64_t{8192} * 8192;
+    EXPECT_EQ(useful_picture_texels(512), a_picture_of_8k);
+    EXPECT_EQ(useful_picture_texels(16), std::int64_t{4096} * 4096);
+    EXPECT_EQ(useful_picture_texels(4096), 4 * a_picture_of_8k) << "1 GiB is the most";
+}
+
 TEST(Levels, MuseumLightIsBrighterAboveThanBelowAndNeverBlack) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 32);

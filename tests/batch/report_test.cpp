@@ -18,12 +18,15 @@ protected:
 
 const std::vector<BatchRow> rows = [] {
     std::vector<BatchRow> made(3);
-    made[0] = {"a, \"b\"\nc", BatchStatus::Baked, 1.25, "", "=Jug & <b>", 2, 1'500'000, 0.5, 1.0, 2.0, 1, 0,
+    made[0] = {"a, \"b\"\nc", BatchStatus::Baked, 1.25, "", "=Jug & <b>", 2, 1'500'000, 0.5, 1.0, 2.0, 0,
                true};
+    made[0].scan = {"G&B", 4622,      2313,  {{8192, 4096}, {8192, 4096}, {16, 16}},
+                    3,     true,      false, {0.1, 2.0, 30.25},
+                    "cm",  1'200'000, 4000,  1};
     made[1].object = "bad";
     made[1].status = BatchStatus::Failed;
     made[1].sentence = "x: <script>alert(1)</script>, \"no\"";
-    made[2] = {"plain", BatchStatus::Unchanged, 3.0, "", "T", 1, 10, 0, 0, 0, 0, 0, false};
+    made[2] = {"plain", BatchStatus::Unchanged, 3.0, "", "T", 1, 10, 0, 0, 0, 0, false};
     return made;
 }();
 
@@ -40,6 +43,42 @@ TEST_F(Report, CsvIsReadAsItWasMeant) {
         "['plain', 'unchanged', '3.0', '', '10', 'T']\n");
 }
 
+TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
+    ASSERT_TRUE(write_file(folder / "report.csv", as_bytes(report_csv(rows))));
+    ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "C", 1.0, {}))));
+    std::string keys;
+    std::string headings;
+    for (const ScanColumn& column : scan_columns()) {
+        keys += fmt::format("{} ", column.key);
+        headings += fmt::format("{}|", column.heading);
+    }
+    EXPECT_EQ(python("import csv\n"
+                     "rows = list(csv.DictReader(open('report.csv', newline='')))\n"
+                     "keys = list(rows[0])\n"
+                     "print(' '.join(keys[keys.index('title') + 1:]), '')\n"
+                     "print([rows[0][k] for k in ('format', 'triangles', 'pictures', 'colours', 'normals', "
+                     "'extents', 'unit', 'estimated_bytes', 'lost')])\n"
+                     "print([rows[1][k] for k in ('format', 'triangles', 'lost')])\n"
+                     "from html.parser import HTMLParser\n"
+                     "class Look(HTMLParser):\n"
+                     "    tag = ''; cells = {'th': [], 'td': []}\n"
+                     "    def handle_starttag(self, tag, attributes):\n"
+                     "        self.tag = tag\n"
+                     "        if tag in self.cells: self.cells[tag].append('')\n"
+                     "    def handle_data(self, data):\n"
+                     "        if self.tag in self.cells: self.cells[self.tag][-1] += data.strip()\n"
+                     "look = Look(); look.feed(open('report.html').read())\n"
+                     "th, td = look.cells['th'], look.cells['td']\n"
+                     "assert len(td) == 3 * len(th), (len(td), len(th))\n"
+                     "print('|'.join(th[th.index('silent') + 1:-1]) + '|')\n"
+                     "print(td[len(th):][th.index('pictures')], td[len(th):][th.index('format')])\n"),
+              keys +
+                  "\n['G&B', '4622', '8192x4096 8192x4096 16x16', 'yes', 'no', '0.1 2 30.25', 'cm', "
+                  "'1200000', '1']\n"
+                  "['', '', '']\n" +
+                  headings + "\n2 of 8192x4096, 16x16 G&B\n");
+}
+
 TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
     const std::vector<std::string> over{"old <stuff>"};
     ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "Coll & <i>", 61.0, over))));
@@ -53,7 +92,7 @@ TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
                      "        if any(c in data for c in '<&') and '{' not in data: print(data.strip())\n"
                      "Look().feed(open('report.html').read())\n"),
               "Coll & <i>\nColl & <i>\nPassed over, without an artifact.toml: old <stuff>\n"
-              "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\n=Jug & <b>\n")
+              "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\nG&B\n=Jug & <b>\n")
         << "what failed comes first";
 }
 

@@ -24,7 +24,9 @@ case "$1" in
 esac
 cat "$1" >"$out.part" && mv "$out.part" "$out"
 cat <<'END'
-{"title": "T", "bytes": 5, "levels": [{"mean_mm": 1, "p95_mm": 2, "colour_rmse": 3}], "default_level": 0, "lost": ["x"], "silent": []}
+{"title": "T", "bytes": 5, "levels": [{"mean_mm": 1, "p95_mm": 2, "colour_rmse": 3}], "default_level": 0, "lost": ["x"], "silent": [],
+ "scan": {"format": "OBJ", "triangles": 12, "vertices": 8, "pictures": [[4, 2]], "materials": 1, "colours": true, "normals": false,
+          "extents": [1, 2, 0.5], "unit": "m", "estimated_bytes": 6, "estimated_triangles": 7}}
 END
 )";
 
@@ -65,7 +67,9 @@ TEST_F(Batch, WhatFailsStopsNothingElse) {
     ASSERT_EQ(rows.size(), 7U);
     EXPECT_EQ(rows[0].status, BatchStatus::Baked) << rows[0].sentence;
     EXPECT_EQ(rows[0].title, "T");
-    EXPECT_EQ(rows[0].lost, 1U);
+    EXPECT_EQ(rows[0].scan.lost, 1U);
+    EXPECT_EQ(rows[0].scan.format, "OBJ");
+    EXPECT_EQ(rows[0].scan.pictures, (std::vector<std::array<int, 2>>{{4, 2}}));
     EXPECT_EQ(rows[1].sentence, (folder / "bad").string() + ": has no triangles") << "the last line alone";
     EXPECT_NE(rows[2].sentence.find("ended by signal 11"), std::string::npos) << rows[2].sentence;
     EXPECT_EQ(rows[3].sentence, "the bake ended with status 1");
@@ -85,6 +89,8 @@ TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
     EXPECT_EQ(bakes(), 4U) << "what failed is tried again";
     EXPECT_EQ(rows[0].status, BatchStatus::Unchanged);
     EXPECT_EQ(rows[0].title, "T") << "the report has it all the same";
+    EXPECT_EQ(rows[0].scan.extents[2], 0.5) << "and what the scan has";
+    EXPECT_EQ(rows[0].scan.lost, 1U);
     ASSERT_TRUE(write_file(folder / "b", as_bytes("another scan")));
     rows = run_all();
     EXPECT_EQ(rows[1].status, BatchStatus::Baked);

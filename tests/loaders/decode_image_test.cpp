@@ -126,6 +126,34 @@ TEST(DecodeImage, APictureBeyondTheLimitIsRefusedBeforeItIsUnpacked) {
     }
 }
 
+TEST(DecodeImage, ALargePictureIsHalvedUntilItFits) {
+    const Image8 truth = smooth_picture(64, 32);
+    const Image8 quarter = half_size(half_size(truth));
+    for (const std::string& whole :
+         {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth), bmp_of(truth), tga_of(truth)}) {
+        const Result<ShrunkImage> shrunk = decode_shrunk(as_bytes(whole), 16 * 8);
+        ASSERT_TRUE(shrunk) << shrunk.error().message;
+        EXPECT_EQ(shrunk->file_size, glm::ivec2(64, 32));
+        ASSERT_EQ(glm::ivec2(shrunk->image.width, shrunk->image.height), glm::ivec2(16, 8));
+        EXPECT_LE(largest_difference(shrunk->image, quarter), whole.starts_with("\xff\xd8") ? 8 : 1);
+        const Result<ShrunkImage> least = decode_shrunk(as_bytes(whole), 1);
+        ASSERT_TRUE(least) << least.error().message;
+        EXPECT_EQ(least->image.texels.size(), 1U);
+        const Result<ShrunkImage> kept = decode_shrunk(as_bytes(whole), 64 * 32);
+        ASSERT_TRUE(kept) << kept.error().message;
+        EXPECT_EQ(kept->image.texels, decode_image(as_bytes(whole))->texels);
+    }
+}
+
+TEST(DecodeImage, AJpegIsShrunkWhileItIsDecoded) {
+    const Image8 truth = smooth_picture(64, 32);
+    const std::int64_t memory = 16 * 8; // of the whole picture there is no room
+    EXPECT_TRUE(decode_shrunk(as_bytes(jpeg_of(truth)), 16 * 8, memory));
+    const Result<ShrunkImage> png = decode_shrunk(as_bytes(png_of(truth)), 16 * 8, memory);
+    ASSERT_FALSE(png);
+    EXPECT_EQ(png.error().id, "picture.too_large");
+}
+
 TEST(DecodeImage, OtherFormsAreNamedAsUnreadable) {
     for (const std::string_view bytes : {"", "GIF89a", "RIFF1234WAVE", "\xff"}) {
         EXPECT_FALSE(decode_image(as_bytes(bytes)).has_value());

@@ -119,6 +119,39 @@ TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
     }
 }
 
+TEST(Obj, PicturesAreShrunkUntilAllOfThemFit) {
+    const TemporaryFolder folder;
+    const std::array<int, 3> sides{64, 64, 16};
+    std::string materials;
+    std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nvt 1 0\nvt 0 1\n";
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const auto code = static_cast<std::uint8_t>(50 * k);
+        folder.write(fmt::format("{}.png", k),
+                     as_text(encode_png(Image8(sides[k], sides[k], glm::u8vec4(code, 200, 100, 255)))));
+        materials += fmt::format("newmtl m{0}\nmap_Kd {0}.png\n", k);
+        text += fmt::format("usemtl m{}\nf 1/1 2/2 3/3\n", k);
+    }
+    folder.write("model.mtl", materials);
+    const auto model = folder.write("model.obj", text);
+    const Result<SourceMesh> whole = load_mesh(model);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_TRUE(whole->notes.empty());
+    LoadOptions options;
+    options.kept_texels = 64 * 64;
+    const Result<SourceMesh> shrunk = load_mesh(model, options);
+    ASSERT_TRUE(shrunk) << shrunk.error().message;
+    ASSERT_EQ(shrunk->textures.size(), 3U);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const Image8& picture = *shrunk->textures[k].image;
+        EXPECT_EQ(picture.width, std::min(sides[k], 32)) << "the two large ones alike";
+        EXPECT_EQ(picture.at(0, 0), whole->textures[k].image->at(0, 0));
+        EXPECT_EQ(shrunk->contents.picture_sizes[k], glm::ivec2(sides[k]));
+    }
+    ASSERT_EQ(shrunk->notes.size(), 1U);
+    EXPECT_EQ(shrunk->notes[0].kind, SourceNote::Kind::Guessed) << "nothing is lost that a pack could show";
+    EXPECT_TRUE(shrunk->notes[0].text.starts_with("2 of its 3 pictures are shrunk")) << shrunk->notes[0].text;
+}
+
 TEST(Obj, TheCuratorsPictureIsForOneThatIsMissing) {
     const TemporaryFolder folder;
     const std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";

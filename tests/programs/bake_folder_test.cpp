@@ -56,6 +56,16 @@ TEST_F(BakeFolder, WrongUseIsToldInOneLineWithWhatToDo) {
     EXPECT_FALSE(fs::exists(folder / "jug.fspack"));
 }
 
+TEST_F(BakeFolder, ARecordingIsHeardInAFolderOfAnyCase) {
+    fs::create_directories(folder / "jug/Recordings/EN");
+    ASSERT_TRUE(
+        write_file(folder / "jug/Recordings/EN/description.wav", testing::wav16(testing::sine(0.5, 1.0))));
+    ASSERT_EQ(bake("[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\ndescription = \"A jug.\"\n"), 0)
+        << text("err.txt");
+    EXPECT_NE(text("out.txt").find("spoken  the description in en"), std::string::npos) << text("out.txt");
+    EXPECT_EQ(text("err.txt"), "");
+}
+
 TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
     const std::string lines =
         std::string(english_and_german) +

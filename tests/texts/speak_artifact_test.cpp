@@ -137,6 +137,24 @@ TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_nam
                                               "fr/description.opus" + unknown + "de/description.opus"}));
 }
 
+TEST_F(SpeakArtifact, a_recording_is_heard_in_whatever_case_its_names_are) {
+    SpeechSources sources;
+    sources.folder = folder / "Recordings";
+    sources.left_out = {"it"};
+    tone("Recordings/EN/Description.WAV", 1.0);
+    tone("Recordings/de-at/description.wav", 2.0);
+    tone("Recordings/IT/description.wav", 1.0);
+    tone("Recordings/EN/DESCRIPTION.FLAC", 1.0);
+    const Result<SpokenArtifact> spoken =
+        speak_artifact(std::vector{caption("en", "A jug."), caption("de-AT", "Ein Krug.")}, sources);
+    ASSERT_TRUE(spoken) << spoken.error().message;
+    ASSERT_EQ(spoken->languages.size(), 2U);
+    EXPECT_NEAR(seconds_of(spoken->languages[0].sounds.at("description")), 1.0, 0.3);
+    EXPECT_NEAR(seconds_of(spoken->languages[1].sounds.at("description")), 2.0, 0.3);
+    ASSERT_EQ(spoken->notes.size(), 1U) << spoken->notes[0];
+    EXPECT_TRUE(spoken->notes[0].ends_with("EN/Description.WAV is used instead")) << spoken->notes[0];
+}
+
 TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {
     SpeechSources sources;
     ASSERT_TRUE(write_file(folder / "noise.wav", as_bytes("this is no recording")));

@@ -5,6 +5,7 @@
 #include "app/programs/bake/bake_request.h"
 #include "app/programs/bake/bake_work.h"
 #include "app/programs/bake/batch_command.h"
+#include "app/programs/bake/check_command.h"
 #include "app/programs/bake/watch_command.h"
 #include "app/programs/bake/words_command.h"
 #include "app/programs/common/command_line.h"
@@ -104,15 +105,19 @@ int run(int argc, char** argv) {
     if (names_option(argc, argv, "--batch")) {
         return batch_command(argc, argv);
     }
+    if (names_option(argc, argv, "--check")) {
+        return check_command(argc, argv);
+    }
     BakeArguments arguments;
     CommandLine app(
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
-    app.footer("frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
-               "changes; --batch DIR bakes a collection; --words bakes the exhibit's own words. Add --help "
-               "to each of them to read more.");
+    app.footer(
+        "frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
+        "changes; --batch DIR bakes a collection; --check FILE... says in seconds what scans have and what "
+        "would be lost; --words bakes the exhibit's own words. Add --help to each of them to read more.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {

@@ -228,6 +228,7 @@ Json report_json(const BakeResult& result) {
                    {"guessed", texts_of(result, SourceNote::Kind::Guessed)},
                    {"taken", texts_of(result, SourceNote::Kind::Taken)},
                    {"missing", result.missing},
+                   {"scan", json_of(result.scan)},
                    {"id", result.pack.id},
                    {"licence", result.rights.licence},
                    {"author", result.rights.author},

@@ -7,6 +7,7 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_contents.h"
+#include "app/programs/batch/scan_summary.h"
 #include "app/programs/preview/preview_page.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/source_mesh.h"
@@ -30,6 +31,7 @@ struct BakeResult {
     bool up_given = false; ///< false: the format's
     double turn_deg = 0.0;
     bool turn_given = false; ///< false: chosen by the bake
+    ScanSummary scan;
     std::vector<SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions without speech, and why
     ScanRights rights;
@@ -45,7 +47,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], id, licence, author, source, page}; `page` only if there is one
+/// guessed: [], taken: [], missing: [], scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen

@@ -4,6 +4,7 @@
 #include "app/programs/bake/captions_of.h"
 #include "app/programs/bake/label_notes.h"
 #include "assets_baked/folder/artifact_file.h"
+#include "assets_baked/names/find_entry.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -89,7 +90,7 @@ SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file
                         const std::vector<std::string>& left_out, bool is_folder) {
     SpeechSources sources{file.recordings, {}, left_out, std::nullopt};
     if (is_folder) {
-        sources.folder = arguments.input / recordings_folder_name;
+        sources.folder = find_entry(arguments.input, recordings_folder_name).value_or("");
     }
     if (arguments.speech != "none") {
         sources.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);

@@ -6,20 +6,18 @@
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/check_hotspots.h"
+#include "app/programs/bake/check_scan.h"
+#include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
-#include "assets_baked/bake/last_look.h"
-#include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -43,60 +41,13 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     return {};
 }
 
-/// True if the mesh has colours; without them an unlit mesh would be one flat area.
-bool has_colours(const SourceMesh& mesh) {
-    const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
-        return each.base_colour == mesh.materials.front().base_colour;
-    });
-    return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
-}
-
 /// Reports losses on standard error; with --strict they are an error.
 Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& request) {
-    std::vector<std::string> lost;
-    for (const SourceNote& note : notes) {
-        if (note.kind == SourceNote::Kind::Lost) {
-            lost.push_back(note.text);
-        }
-    }
-    if (request.strict && !lost.empty()) {
-        return bad_input("bake.would_be_lost", "{}: this would be lost, and --strict forbids it: {}",
-                         request.scan.string(), fmt::join(lost, "; "));
-    }
-    for (const std::string& text : lost) {
+    TRY_VOID(check_losses(notes, request));
+    for (const std::string& text : losses_in(notes)) {
         say_line("frustumscreen-bake", fmt::format("{}: lost: {}", request.scan.string(), text));
     }
     return {};
-}
-
-/// Reads the scan; its notes list what is lost of it.
-Result<SourceMesh> load(const BakeRequest& request) {
-    TRY(SourceMesh mesh, load_mesh(request.scan, {request.texture}));
-    TRY_VOID(check_output_is_no_input(request.output, mesh.side_files));
-    if (request.options.unlit && !has_colours(mesh)) {
-        mesh.notes.push_back(
-            {SourceNote::Kind::Lost,
-             "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
-             "--unlit it is lit as in a museum"});
-    }
-    Scraps scraps = find_scraps(mesh);
-    if (request.clean && scraps.triangles > 0) {
-        mesh.notes.push_back(
-            {SourceNote::Kind::Guessed,
-             fmt::format("{} of {} triangles, which lie apart from the rest: --clean leaves them out",
-                         scraps.triangles, mesh.triangles.size())});
-        remove_scraps(mesh, scraps);
-        scraps = {};
-    }
-    const std::vector<SourceNote> looks = last_look(mesh, scraps);
-    mesh.notes.insert(mesh.notes.end(), looks.begin(), looks.end());
-    mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
-    if (mesh.is_unlit && !request.options.unlit) {
-        mesh.notes.push_back({SourceNote::Kind::Guessed,
-                              "the file says that its colours already contain light "
-                              "(KHR_materials_unlit): it is baked as with --unlit"});
-    }
-    return mesh;
 }
 
 /// Sets and speaks the texts. Runs before the bake: it takes seconds, the bake minutes, so errors are reported early.
@@ -113,7 +64,8 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOption
 
 Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    TRY(const SourceMesh mesh, load(written));
+    TRY(const SourceMesh mesh, load_scan(written));
+    TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
     const BakeRequest& request = all.request;
@@ -131,6 +83,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     TRY_VOID(check_hotspots(mesh, options));
     TRY(ArtifactWords words, set_and_speak(request, options, result.notes));
     result.silent = std::move(words.silent);
+    TRY(const ScanMeasures measures, at(request.scan.string(), measure_scan(mesh, options)));
+    result.scan = summary_of(mesh, measures);
     TRY(Pack pack, at(request.scan.string(), bake(mesh, options)));
     TRY_VOID(describe(pack, request));
     result.rights = request.rights;

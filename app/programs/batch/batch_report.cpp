@@ -19,7 +19,7 @@ constexpr std::array all_statuses{BatchStatus::Baked, BatchStatus::Unchanged, Ba
                                   BatchStatus::Missing};
 
 constexpr std::string_view style = R"(
-body { margin: 0 auto; max-width: 80rem; padding: 1.5rem; color: #1d2024; background: #fbfaf7; font: 15px/1.5 system-ui, "Noto Sans", sans-serif; }
+body { margin: 0 auto; max-width: 120rem; padding: 1.5rem; color: #1d2024; background: #fbfaf7; font: 15px/1.5 system-ui, "Noto Sans", sans-serif; }
 h1 { font: normal 1.9rem/1.2 Georgia, "Noto Serif", serif; margin: .5rem 0; }
 table { width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .9rem .35rem 0; text-align: right; vertical-align: top; border-bottom: 1px solid #dcdfe3; }
@@ -50,12 +50,11 @@ std::string csv_field(std::string_view text) {
 /// The figures of a good row; empty fields for any other.
 std::vector<std::string> figures(const BatchRow& row) {
     if (!is_good(row)) {
-        return std::vector<std::string>(7);
+        return std::vector<std::string>(6);
     }
     return {fmt::format("{}", row.levels),          fmt::format("{}", row.bytes),
             fmt::format("{:.4f}", row.mean_mm),     fmt::format("{:.4f}", row.p95_mm),
-            fmt::format("{:.2f}", row.colour_rmse), fmt::format("{}", row.lost),
-            fmt::format("{}", row.silent)};
+            fmt::format("{:.2f}", row.colour_rmse), fmt::format("{}", row.silent)};
 }
 
 /// Escapes a name as a part of a link, by RFC 3986.
@@ -82,6 +81,10 @@ std::string page_row(const BatchRow& row) {
         numbers[1] = bytes_in_words(row.bytes);
     }
     cells += fmt::format("<td>{}</td>", fmt::join(numbers, "</td><td>"));
+    for (const ScanColumn& column : scan_columns()) {
+        cells += fmt::format("<td{}>{}</td>", column.is_text ? " class=\"text\"" : "",
+                             is_good(row) ? xml_text(column.shown(row.scan)) : std::string());
+    }
     return fmt::format("<tr class=\"{}\">{}<td class=\"text long\">{}</td></tr>\n", name_of(row.status),
                        cells, xml_text(is_good(row) ? row.title : row.sentence));
 }
@@ -105,12 +108,18 @@ std::string summary(std::span<const BatchRow> rows) {
 }
 
 std::string report_csv(std::span<const BatchRow> rows) {
-    std::string text =
-        "object,status,seconds,sentence,levels,bytes,mean_mm,p95_mm,colour_rmse,lost,silent,title\r\n";
+    std::string text = "object,status,seconds,sentence,levels,bytes,mean_mm,p95_mm,colour_rmse,silent,title";
+    for (const ScanColumn& column : scan_columns()) {
+        text += fmt::format(",{}", column.key);
+    }
+    text += "\r\n";
     for (const BatchRow& row : rows) {
-        text +=
-            fmt::format("{},{},{:.1f},{},{},{}\r\n", csv_field(row.object), name_of(row.status), row.seconds,
-                        csv_field(row.sentence), fmt::join(figures(row), ","), csv_field(row.title));
+        text += fmt::format("{},{},{:.1f},{},{},{}", csv_field(row.object), name_of(row.status), row.seconds,
+                            csv_field(row.sentence), fmt::join(figures(row), ","), csv_field(row.title));
+        for (const ScanColumn& column : scan_columns()) {
+            text += "," + (is_good(row) ? csv_field(column.plain(row.scan)) : std::string());
+        }
+        text += "\r\n";
     }
     return text;
 }
@@ -123,6 +132,10 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
             lines += is_good(row) == good ? page_row(row) : std::string();
         }
     }
+    std::string headings;
+    for (const ScanColumn& column : scan_columns()) {
+        headings += fmt::format("<th{}>{}</th>", column.is_text ? " class=\"text\"" : "", column.heading);
+    }
     const std::string over = passed_over.empty()
                                  ? std::string()
                                  : fmt::format("<p>Passed over, without an artifact.toml: {}</p>\n",
@@ -133,14 +146,14 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
         "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n<p>{}, in {}.</p>\n{}"
         "<table>\n<tr><th class=\"text\">object</th><th "
         "class=\"text\">status</th><th>seconds</th><th>levels</th>"
-        "<th>size</th><th>mean mm</th><th>95 % mm</th><th>colour</th><th>lost</th><th>silent</th>"
+        "<th>size</th><th>mean mm</th><th>95 % mm</th><th>colour</th><th>silent</th>{}"
         "<th class=\"text\">title, or why not</th></tr>\n{}</table>\n<p>Distances are between the level that "
         "is usually "
         "shown and the scan; colour is in steps of 255. Lost and silent: how many things the bake said so "
-        "of.</p>\n"
+        "of. About: as frustumscreen-bake --check estimates it.</p>\n"
         "</body>\n</html>\n",
         policy_hash(style), xml_text(title), style, xml_text(title), summary(rows), words_of_time(seconds),
-        over, lines);
+        over, headings, lines);
 }
 
 } // namespace frustumscreen

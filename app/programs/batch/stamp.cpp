@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view format = "FrustumScreen batch stamp 1";
+constexpr std::string_view format = "FrustumScreen batch stamp 2";
 constexpr std::uintmax_t largest_stamp = 1 << 20;
 
 } // namespace
@@ -42,14 +42,20 @@ std::optional<Stamp> read_stamp(const std::filesystem::path& file) {
             return std::nullopt;
         }
         Stamp stamp{json.at("key"), json.at("pack_sha256"), {}};
-        stamp.row = {
-            json.at("object"),  stamp.pack_sha256.empty() ? BatchStatus::Failed : BatchStatus::Unchanged,
-            json.at("seconds"), json.at("sentence"),
-            json.at("title"),   json.at("levels"),
-            json.at("bytes"),   json.at("mean_mm"),
-            json.at("p95_mm"),  json.at("colour_rmse"),
-            json.at("lost"),    json.at("silent"),
-            json.at("page")};
+        stamp.row = {json.at("object"),
+                     stamp.pack_sha256.empty() ? BatchStatus::Failed : BatchStatus::Unchanged,
+                     json.at("seconds"),
+                     json.at("sentence"),
+                     json.at("title"),
+                     json.at("levels"),
+                     json.at("bytes"),
+                     json.at("mean_mm"),
+                     json.at("p95_mm"),
+                     json.at("colour_rmse"),
+                     json.at("silent"),
+                     json.at("page"),
+                     summary_from(json.at("scan"))};
+        stamp.row.scan.lost = json.at("lost");
         return stamp;
     } catch (const std::exception&) {
         return std::nullopt;
@@ -58,11 +64,13 @@ std::optional<Stamp> read_stamp(const std::filesystem::path& file) {
 
 Result<void> write_stamp(const std::filesystem::path& file, const Stamp& stamp) {
     const BatchRow& row = stamp.row;
-    const Json json = {{"format", format},       {"key", stamp.key},       {"pack_sha256", stamp.pack_sha256},
-                       {"object", row.object},   {"seconds", row.seconds}, {"sentence", row.sentence},
-                       {"title", row.title},     {"levels", row.levels},   {"bytes", row.bytes},
-                       {"mean_mm", row.mean_mm}, {"p95_mm", row.p95_mm},   {"colour_rmse", row.colour_rmse},
-                       {"lost", row.lost},       {"silent", row.silent},   {"page", row.has_page}};
+    const Json json = {
+        {"format", format},         {"key", stamp.key},       {"pack_sha256", stamp.pack_sha256},
+        {"object", row.object},     {"seconds", row.seconds}, {"sentence", row.sentence},
+        {"title", row.title},       {"levels", row.levels},   {"bytes", row.bytes},
+        {"mean_mm", row.mean_mm},   {"p95_mm", row.p95_mm},   {"colour_rmse", row.colour_rmse},
+        {"lost", row.scan.lost},    {"silent", row.silent},   {"page", row.has_page},
+        {"scan", json_of(row.scan)}};
     return write_file(file, as_bytes(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"));
 }
 
@@ -77,7 +85,8 @@ bool take_bake_report(std::string_view text, BatchRow& row) {
         row.mean_mm = shown.at("mean_mm");
         row.p95_mm = shown.at("p95_mm");
         row.colour_rmse = shown.at("colour_rmse");
-        row.lost = json.at("lost").size();
+        row.scan = summary_from(json.at("scan"));
+        row.scan.lost = json.at("lost").size();
         row.silent = json.at("silent").size();
         row.has_page = json.contains("page");
         return true;

@@ -5,6 +5,7 @@
 /// Threads  any.
 #pragma once
 
+#include "app/programs/batch/scan_summary.h"
 #include "firmware_host/base/result.h"
 
 #include <cstddef>
@@ -30,8 +31,9 @@ struct BatchRow {
     std::size_t levels = 0;
     std::uint64_t bytes = 0;                               ///< size of the pack
     double mean_mm = 0.0, p95_mm = 0.0, colour_rmse = 0.0; ///< errors of the default level
-    std::size_t lost = 0, silent = 0;                      ///< sentences about losses
+    std::size_t silent = 0;                                ///< descriptions without speech
     bool has_page = false;
+    ScanSummary scan{};
 };
 
 struct Stamp {

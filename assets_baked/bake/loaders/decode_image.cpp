@@ -78,30 +78,73 @@ bool is_harmless(std::string_view warning) {
     return warning.find("extraneous bytes before marker 0xd9") != std::string_view::npos;
 }
 
-Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
-    const std::unique_ptr<void, JpegCloser> handle(tjInitDecompress());
-    const auto damaged = [&] {
+class JpegReader {
+public:
+    explicit JpegReader(ByteView bytes) : bytes_(bytes), handle_(tjInitDecompress()) {}
+
+    /// The size in the file.
+    Result<glm::ivec2> read_size() {
+        glm::ivec2 size(0);
+        int subsampling = 0;
+        int colours = 0;
+        if (tjDecompressHeader3(handle_.get(), raw(bytes_), length(), &size.x, &size.y, &subsampling,
+                                &colours) != 0) {
+            return damaged();
+        }
+        if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
+            return bad_input("picture.jpeg_cmyk", "the JPEG picture is CMYK; save it as RGB");
+        }
+        return size;
+    }
+
+    /// The picture with each side divided by `divisor`, which is 1, 2, 4 or 8, and rounded up.
+    Result<Image8> read(const glm::ivec2& size, int divisor, std::int64_t limit_texels) {
+        const tjscalingfactor factor{1, divisor};
+        TRY(Image8 picture, blank_image(TJSCALED(size.x, factor), TJSCALED(size.y, factor), limit_texels));
+        if (tjDecompress2(handle_.get(), raw(bytes_), length(), raw(picture), picture.width, 0,
+                          picture.height, TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0 &&
+            !is_harmless(tjGetErrorStr2(handle_.get()))) {
+            return damaged();
+        }
+        return picture;
+    }
+
+private:
+    [[nodiscard]] unsigned long length() const { return static_cast<unsigned long>(bytes_.size()); }
+    [[nodiscard]] tl::unexpected<Error> damaged() const {
         return bad_input("picture.jpeg_damaged", "the JPEG picture is damaged: {}",
-                         tjGetErrorStr2(handle.get()));
-    };
-    int width = 0;
-    int height = 0;
-    int subsampling = 0;
-    int colours = 0;
-    const auto size = static_cast<unsigned long>(bytes.size());
-    if (tjDecompressHeader3(handle.get(), raw(bytes), size, &width, &height, &subsampling, &colours) != 0) {
-        return damaged();
+                         tjGetErrorStr2(handle_.get()));
     }
-    if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
-        return bad_input("picture.jpeg_cmyk", "the JPEG picture is CMYK; save it as RGB");
+
+    ByteView bytes_;
+    std::unique_ptr<void, JpegCloser> handle_;
+};
+
+Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
+    JpegReader reader(bytes);
+    TRY(const glm::ivec2 size, reader.read_size());
+    return reader.read(size, 1, limit_texels);
+}
+
+/// The decoder itself halves up to three times, so a large picture never lies in memory whole.
+Result<ShrunkImage> decode_jpeg_shrunk(ByteView bytes, std::int64_t kept_texels, std::int64_t limit_texels) {
+    constexpr std::int64_t max_coded_texels = std::int64_t{1} << 30; // bounds the time
+    JpegReader reader(bytes);
+    TRY(const glm::ivec2 size, reader.read_size());
+    const std::int64_t texels = std::int64_t{size.x} * size.y;
+    if (texels > max_coded_texels) {
+        return too_large(size.x, size.y, max_coded_texels);
     }
-    TRY(Image8 picture, blank_image(width, height, limit_texels));
-    if (tjDecompress2(handle.get(), raw(bytes), size, raw(picture), width, 0, height, TJPF_RGBA,
-                      TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0 &&
-        !is_harmless(tjGetErrorStr2(handle.get()))) {
-        return damaged();
+    int divisor = 1;
+    while (divisor < 8 && texels > kept_texels * divisor * divisor) {
+        divisor *= 2;
     }
-    return picture;
+    TRY(Image8 image, reader.read(size, divisor, limit_texels));
+    return ShrunkImage{std::move(image), size};
+}
+
+bool is_jpeg(ByteView bytes) {
+    return begins_with(bytes, "\xff\xd8");
 }
 
 Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
@@ -126,7 +169,7 @@ Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     if (begins_with(bytes, "\x89PNG\r\n")) {
         return decode_png(bytes, limit_texels);
     }
-    if (begins_with(bytes, "\xff\xd8")) {
+    if (is_jpeg(bytes)) {
         return decode_jpeg(bytes, limit_texels);
     }
     if (begins_with(bytes, "RIFF") && bytes.size() >= 12 && as_text(bytes.subspan(8, 4)) == "WEBP") {
@@ -143,6 +186,20 @@ Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     }
     return bad_input("picture.unknown_format",
                      "the picture is neither PNG, JPEG, WebP, TIFF, BMP nor TGA; save it as PNG");
+}
+
+Result<ShrunkImage> decode_shrunk(ByteView bytes, std::int64_t kept_texels, std::int64_t limit_texels) {
+    ShrunkImage shrunk;
+    if (is_jpeg(bytes)) {
+        TRY(shrunk, decode_jpeg_shrunk(bytes, kept_texels, limit_texels));
+    } else {
+        TRY(shrunk.image, decode_image(bytes, limit_texels));
+        shrunk.file_size = {shrunk.image.width, shrunk.image.height};
+    }
+    while (texels_of(shrunk.image) > std::max<std::int64_t>(kept_texels, 1)) {
+        shrunk.image = half_size(shrunk.image);
+    }
+    return shrunk;
 }
 
 } // namespace frustumscreen

@@ -18,6 +18,7 @@ std::uint32_t GltfMaterials::material(std::optional<std::size_t> index) {
         made.base_colour = source.base_colour;
         made.alpha_mask = source.alpha_mask;
         made.alpha_cutoff = source.alpha_cutoff;
+        made.has_own_light = source.unlit || source.emission_is_colour;
         made.texture = source.texture ? texture(source.texture->texture) : -1;
         if (source.blends) {
             cut_or_fill(made, *index);

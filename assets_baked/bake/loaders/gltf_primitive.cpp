@@ -81,6 +81,7 @@ struct GltfPrimitives::Streams {
     std::optional<GltfAttribute> uv;
     std::optional<GltfTextureUse> texture;
     std::optional<GltfAttribute> colour;
+    std::optional<GltfAttribute> normal; ///< none where a morph target bends the surface
     std::vector<std::pair<GltfAttribute, GltfAttribute>> joints_and_weights;
     std::vector<std::pair<double, GltfAttribute>> morphs;
     std::optional<GltfAttribute> indices;
@@ -162,10 +163,23 @@ GltfPrimitives::Streams GltfPrimitives::streams_of(const GltfPrimitive& primitiv
         streams.colour->normalise();
     }
     add_morphs(primitive, placement, streams);
+    if (streams.morphs.empty()) {
+        streams.normal = normals(primitive, streams);
+    }
     if (!placement.scene_from_mesh_by_joint.empty()) {
         add_skin(primitive, streams);
     }
     return streams;
+}
+
+std::optional<GltfAttribute> GltfPrimitives::normals(const GltfPrimitive& primitive, const Streams& streams) {
+    try {
+        std::optional<GltfAttribute> found = attribute(primitive, "NORMAL", streams);
+        const bool is_direction = found && found->components() == 3 && found->has_data();
+        return is_direction ? std::move(found) : std::nullopt;
+    } catch (const Refusal&) {
+        return std::nullopt;
+    }
 }
 
 void GltfPrimitives::add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement,
@@ -249,6 +263,17 @@ glm::dmat4 blended(const std::vector<std::pair<GltfAttribute, GltfAttribute>>& j
     return total > 0.0 ? sum / total : transforms.front();
 }
 
+/// The normal in the scene, of any length; zero if it cannot be read.
+glm::dvec3 normal_in_scene(const GltfAttribute& normal, std::uint32_t element, const glm::dmat4& transform) {
+    try {
+        const glm::dmat3 linear(transform);
+        return glm::determinant(linear) == 0.0 ? glm::dvec3(0.0)
+                                               : glm::transpose(glm::inverse(linear)) * normal.vec3(element);
+    } catch (const Refusal&) {
+        return glm::dvec3(0.0);
+    }
+}
+
 } // namespace
 
 std::uint32_t GltfPrimitives::vertex(const Streams& streams, const GltfPlacement& placement,
@@ -273,6 +298,9 @@ std::uint32_t GltfPrimitives::vertex(const Streams& streams, const GltfPlacement
         const bool has_alpha = streams.colour->components() == 4;
         mesh_.set_colour(glm::vec4(glm::vec3(streams.colour->vec3(element)),
                                    has_alpha ? static_cast<float>(streams.colour->value(element, 3)) : 1.0F));
+    }
+    if (streams.normal) {
+        mesh_.set_normal(normal_in_scene(*streams.normal, element, transform));
     }
     drawn_in_[element] = drawing_;
     vertex_of_[element] = added;

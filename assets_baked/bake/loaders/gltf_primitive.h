@@ -43,6 +43,9 @@ private:
     [[nodiscard]] Streams streams_of(const GltfPrimitive& primitive, const GltfPlacement& placement);
     [[nodiscard]] std::optional<GltfAttribute> attribute(const GltfPrimitive& primitive,
                                                          const std::string& name, const Streams& streams);
+    /// Normals only shape the light, so unusable ones are left out and refuse no file.
+    [[nodiscard]] std::optional<GltfAttribute> normals(const GltfPrimitive& primitive,
+                                                       const Streams& streams);
     [[nodiscard]] const DracoMesh* draco_mesh(const GltfPrimitive& primitive);
     void add_skin(const GltfPrimitive& primitive, Streams& streams);
     void add_morphs(const GltfPrimitive& primitive, const GltfPlacement& placement, Streams& streams);

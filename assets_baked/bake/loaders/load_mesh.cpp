@@ -79,15 +79,19 @@ SourceMesh read(ByteView file, const std::filesystem::path& path, ModelFiles& fi
     if (file.empty()) {
         refuse("mesh.empty_file", "the file is empty; copy it again, or export it again");
     }
+    const auto named = [](SourceMesh mesh, const char* format) {
+        mesh.contents.format = format;
+        return mesh;
+    };
     switch (format_of(file, path)) {
     case Format::Gltf:
-        return load_gltf(file, files);
+        return named(load_gltf(file, files), as_text(file).starts_with("glTF") ? "GLB" : "glTF");
     case Format::Ply:
-        return load_ply(file, files);
+        return named(load_ply(file, files), "PLY");
     case Format::Stl:
-        return load_stl(file, files.notes);
+        return named(load_stl(file, files.notes), "STL");
     default:
-        return load_obj(file, files);
+        return named(load_obj(file, files), "OBJ");
     }
 }
 
@@ -123,6 +127,8 @@ SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOpti
         mesh.side_files.push_back(options.texture);
     }
     mesh.about = files.about;
+    mesh.contents.picture_sizes = files.pictures.file_sizes();
+    files.pictures.note_shrunk(files.notes);
     mesh.notes = files.notes.take();
     return mesh;
 }

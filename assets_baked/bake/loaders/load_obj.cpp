@@ -21,13 +21,27 @@ namespace {
 
 /// True for keywords without effect on the picture, and for those of curves, which `curv` and `surf` report.
 bool is_passed_over(std::string_view keyword) {
-    static constexpr std::array keywords = {"",       "g",          "o",         "s",     "mg",    "vn",
-                                            "vp",     "cstype",     "deg",       "bmat",  "step",  "parm",
-                                            "trim",   "hole",       "scrv",      "sp",    "end",   "con",
-                                            "bevel",  "c_interp",   "d_interp",  "lod",   "curv2", "usemap",
-                                            "maplib", "shadow_obj", "trace_obj", "ctech", "stech"};
+    static constexpr std::array keywords = {"",           "g",         "o",     "s",     "mg",     "vp",
+                                            "cstype",     "deg",       "bmat",  "step",  "parm",   "trim",
+                                            "hole",       "scrv",      "sp",    "end",   "con",    "bevel",
+                                            "c_interp",   "d_interp",  "lod",   "curv2", "usemap", "maplib",
+                                            "shadow_obj", "trace_obj", "ctech", "stech"};
     return keyword.starts_with('#') || std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
 }
+
+/// A vertex of the mesh: the file's numbers of its position, texture coordinate and normal.
+struct ObjCorner {
+    std::uint32_t position, uv, normal;
+    [[nodiscard]] bool operator==(const ObjCorner&) const = default;
+};
+struct ObjCornerHash {
+    std::size_t operator()(const ObjCorner& corner) const noexcept {
+        constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U; // 2^64 / golden ratio
+        const std::uint64_t two = (std::uint64_t{corner.position} << 32U) | corner.uv;
+        const std::uint64_t mixed = (two ^ (two >> 29U)) * odd + corner.normal;
+        return static_cast<std::size_t>((mixed ^ (mixed >> 32U)) * odd);
+    }
+};
 
 class ObjReader {
 public:
@@ -97,6 +111,8 @@ private:
         } else if (keyword == "vt") {
             const std::vector<double> uv = numbers(words, 1);
             uvs_.emplace_back(uv[0], uv.size() > 1 ? 1.0 - uv[1] : 1.0);
+        } else if (keyword == "vn") {
+            read_normal(words);
         } else if (keyword == "f") {
             read_face(words);
         } else if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "surf") {
@@ -142,6 +158,15 @@ private:
         }
     }
 
+    /// Normals only shape the light, so one that is no direction is left out and refuses no file.
+    void read_normal(WordReader& words) {
+        glm::dvec3 normal(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            normal[axis] = number_from(words.next()).value_or(0.0);
+        }
+        normals_.push_back(normal);
+    }
+
     /// The file counts from 1, or backwards from -1, the latest; the result is below `size`.
     std::uint32_t index_from(std::string_view word, std::size_t size, const char* what) {
         const std::optional<std::int64_t> number = whole_from(word);
@@ -162,32 +187,44 @@ private:
         const std::size_t slash = std::min(word.find('/'), word.size());
         const std::uint32_t position = index_from(word.substr(0, slash), positions_.size(), "vertex");
         std::string_view rest = word.substr(std::min(slash + 1, word.size()));
-        rest = rest.substr(0, rest.find('/'));
-        return vertex(position, uv_from(rest));
+        const std::size_t second = std::min(rest.find('/'), rest.size());
+        const std::string_view normal = rest.substr(std::min(second + 1, rest.size()));
+        return vertex({position, uv_from(rest.substr(0, second)), normal_from(normal)});
+    }
+
+    /// A number that no normal has counts as none.
+    [[nodiscard]] std::uint32_t normal_from(std::string_view word) const {
+        const std::int64_t number = whole_from(word).value_or(0);
+        const auto count = static_cast<std::int64_t>(normals_.size());
+        const std::int64_t index = number > 0 ? number - 1 : count + number;
+        return number != 0 && index >= 0 && index < count ? static_cast<std::uint32_t>(index) : none;
     }
 
     /// Some exporters write 0 for a corner without a texture coordinate.
     std::uint32_t uv_from(std::string_view word) {
         if (word.empty()) {
-            return no_uv;
+            return none;
         }
         if (whole_from(word) == std::int64_t{0}) {
             ++corners_at_0_;
-            return no_uv;
+            return none;
         }
         return index_from(word, uvs_.size(), "texture coordinate");
     }
 
-    std::uint32_t vertex(std::uint32_t position, std::uint32_t uv) {
-        const std::uint64_t key = (std::uint64_t{position} << 32U) | uv;
-        const auto [known, is_new] = vertices_.try_emplace(key, 0U);
+    std::uint32_t vertex(const ObjCorner& corner) {
+        const auto [known, is_new] = vertices_.try_emplace(corner, 0U);
         if (is_new) {
-            known->second = mesh_.add_vertex(positions_[position], "vertex", position + std::size_t{1});
-            if (uv != no_uv) {
-                mesh_.set_uv(uvs_[uv]);
+            known->second =
+                mesh_.add_vertex(positions_[corner.position], "vertex", corner.position + std::size_t{1});
+            if (corner.uv != none) {
+                mesh_.set_uv(uvs_[corner.uv]);
             }
-            if (position < colours_.size()) {
-                mesh_.set_colour_code(colours_[position]);
+            if (corner.position < colours_.size()) {
+                mesh_.set_colour_code(colours_[corner.position]);
+            }
+            if (corner.normal != none) {
+                mesh_.set_normal(normals_[corner.normal]);
             }
         }
         return known->second;
@@ -213,7 +250,7 @@ private:
         }
     }
 
-    static constexpr std::uint32_t no_uv = 0xffffffffU;
+    static constexpr std::uint32_t none = 0xffffffffU;
 
     std::string_view text_;
     std::string joined_;
@@ -230,7 +267,8 @@ private:
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
     std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; may be fewer
-    std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
+    std::vector<glm::dvec3> normals_;
+    std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;

@@ -43,6 +43,7 @@ struct PlyVertex {
     glm::dvec3 position{0.0};
     glm::vec4 code{1.0F}; ///< colour
     glm::dvec2 uv{0.0};
+    glm::dvec3 normal{0.0};
 };
 
 class PlyReader {
@@ -77,6 +78,7 @@ private:
             }
         }
         const bool coloured = roles.has_colour();
+        const bool has_normals = roles.has_normal();
         const bool textured = roles.has(PlyRole::U) && roles.has(PlyRole::V);
         if (!coloured && (roles.has(PlyRole::Red) || roles.has(PlyRole::Green) || roles.has(PlyRole::Blue))) {
             files_.notes.lost("the colours at its points: red, green and blue are not all there");
@@ -90,6 +92,9 @@ private:
             (void)mesh_.add_vertex(vertex.position, "vertex", static_cast<std::size_t>(row));
             if (coloured) {
                 mesh_.set_colour_code(vertex.code);
+            }
+            if (has_normals) {
+                mesh_.set_normal(vertex.normal);
             }
             if (textured) {
                 mesh_.set_uv({vertex.uv.x, 1.0 - vertex.uv.y});
@@ -134,6 +139,11 @@ private:
             break;
         case PlyRole::V:
             vertex.uv.y = value;
+            break;
+        case PlyRole::NormalX:
+        case PlyRole::NormalY:
+        case PlyRole::NormalZ:
+            vertex.normal[static_cast<int>(role) - static_cast<int>(PlyRole::NormalX)] = value;
             break;
         case PlyRole::PackedColour:
             vertex.code = unpacked_colour(value, property.type);

@@ -45,6 +45,9 @@ std::uint32_t MeshAssembly::copy_vertex(std::uint32_t vertex) {
         const glm::vec4 colour = mesh_.colours[vertex];
         set_colour(colour);
     }
+    if (vertex < mesh_.normals.size()) {
+        set_normal(glm::dvec3(mesh_.normals[vertex]));
+    }
     return copy;
 }
 
@@ -61,6 +64,13 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
     mesh_.colours.resize(mesh_.positions.size(), glm::vec4(1.0F));
     mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g),
                                      colour_factor(linear.b), colour_factor(linear.a));
+}
+
+void MeshAssembly::set_normal(const glm::dvec3& normal) {
+    const double length = glm::length(normal);
+    const bool is_direction = length > 1e-12 && length < largest_coordinate;
+    mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0.0F));
+    mesh_.normals.back() = is_direction ? glm::vec3(normal / length) : glm::vec3(0.0F);
 }
 
 void MeshAssembly::set_colour_code(const glm::vec4& code) {
@@ -125,6 +135,9 @@ SourceMesh MeshAssembly::finish(bool has_points) {
     }
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(vertices, glm::vec4(1.0F));
+    }
+    if (!mesh_.normals.empty()) {
+        mesh_.normals.resize(vertices, glm::vec3(0.0F));
     }
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         for (const std::uint32_t vertex : mesh_.triangles[i]) {

@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 struct ModelFiles {
     ModelFiles(const std::filesystem::path& folder, const LoadOptions& options)
-        : sidecars(folder, notes), pictures(sidecars, options.texture) {}
+        : sidecars(folder, notes), pictures(sidecars, options.texture, options.kept_texels) {}
     ModelFiles(const ModelFiles&) = delete;
     ModelFiles& operator=(const ModelFiles&) = delete;
     ~ModelFiles() = default;

@@ -224,6 +224,7 @@ SourceMaterial ObjMaterials::made_from(const Material& material) {
     files_.notes.guessed(
         "the material \"{}\" has no colour; its own light (Ke, map_Ke) is used as the colour", name);
     made.base_colour = is_black(emission) ? glm::vec4(1.0F) : emission;
+    made.has_own_light = true;
     if (!source.emissive_texname.empty()) {
         made.texture = texture(material, source.emissive_texname, source.emissive_texopt, "map_Ke");
     }

@@ -20,14 +20,24 @@ namespace frustumscreen {
     return reinterpret_cast<std::uint8_t*>(image.texels.data());
 }
 
+[[nodiscard]] inline std::int64_t texels_of(const Image8& image) {
+    return static_cast<std::int64_t>(image.texels.size());
+}
+
+[[nodiscard]] inline tl::unexpected<Error> too_large(std::int64_t width, std::int64_t height,
+                                                     std::int64_t limit_texels) {
+    return bad_input(
+        "picture.too_large",
+        "the picture has {} x {} texels, at most {} are allowed; make it smaller, or cut it into "
+        "several",
+        width, height, limit_texels);
+}
+
 /// Errors   a side below 1, or more texels than allowed.
 [[nodiscard]] inline Result<Image8> blank_image(std::int64_t width, std::int64_t height,
                                                 std::int64_t limit_texels) {
     if (width < 1 || height < 1 || width > limit_texels / height) {
-        return bad_input(
-            "picture.too_large",
-            "the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
-            width, height, limit_texels);
+        return too_large(width, height, limit_texels);
     }
     return Image8(static_cast<int>(width), static_cast<int>(height));
 }

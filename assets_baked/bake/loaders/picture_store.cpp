@@ -1,17 +1,58 @@
 #include "assets_baked/bake/loaders/picture_store.h"
 
+#include "assets_baked/bake/loaders/picture_bytes.h"
 #include "firmware_host/base/printable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace frustumscreen {
 
 std::shared_ptr<const Image8> PictureStore::decode(ByteView bytes, std::string_view place) {
-    Result<Image8> picture = decode_image(bytes, texels_left_);
+    Result<ShrunkImage> picture = decode_shrunk(bytes, kept_texels_);
     if (!picture) {
         refuse({ErrorKind::BadInput, picture.error().id,
                 fmt::format("{} ({})", picture.error().message, place)});
     }
-    texels_left_ -= static_cast<std::int64_t>(picture->texels.size());
-    return std::make_shared<const Image8>(*std::move(picture));
+    file_sizes_.push_back(picture->file_size);
+    kept_.push_back(std::make_shared<Image8>(std::move(picture->image)));
+    const std::shared_ptr<const Image8> made = kept_.back();
+    keep_within_limit();
+    return made;
+}
+
+void PictureStore::keep_within_limit() {
+    const auto all = [&] {
+        return std::accumulate(
+            kept_.begin(), kept_.end(), std::int64_t{0},
+            [](std::int64_t sum, const auto& picture) { return sum + texels_of(*picture); });
+    };
+    while (all() > kept_texels_) {
+        const auto largest = std::max_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
+            return a->texels.size() < b->texels.size();
+        });
+        if ((*largest)->texels.size() <= 1) {
+            return;
+        }
+        **largest = half_size(**largest);
+    }
+}
+
+void PictureStore::note_shrunk(LoadNotes& notes) const {
+    std::size_t shrunk = 0;
+    double texels = 0.0;
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+        shrunk += glm::ivec2(kept_[k]->width, kept_[k]->height) != file_sizes_[k] ? 1 : 0;
+        texels += static_cast<double>(file_sizes_[k].x) * file_sizes_[k].y;
+    }
+    if (shrunk > 0) {
+        notes.guessed(
+            "{} of its {} {} shrunk while reading: together they have {:.0f} million texels, and a pack "
+            "of this --size shows no more than {:.0f} million",
+            shrunk, counted(kept_.size(), "picture", "pictures"), shrunk == 1 ? "is" : "are",
+            std::ceil(texels / 1e6), std::ceil(static_cast<double>(kept_texels_) / 1e6));
+    }
 }
 
 std::shared_ptr<const Image8> PictureStore::named(std::string_view name, std::string_view place) {

@@ -1,5 +1,7 @@
-/// Finds and decodes the pictures of one model, with one limit of texels for all of them.
+/// Finds and decodes the pictures of one model.
 ///
+/// Memory   all pictures together are kept in a number of texels: when another one comes and there are more, the
+///          largest are halved. One picture at a time is decoded whole (decode_image.h).
 /// Errors   throws Refusal.
 #pragma once
 
@@ -9,14 +11,16 @@
 
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
 class PictureStore {
 public:
-    /// `texture` is the curator's own picture, used if the model's is missing; empty: there is none.
-    PictureStore(Sidecars& sidecars, std::filesystem::path texture)
-        : sidecars_(sidecars), texture_(std::move(texture)) {}
+    /// `texture` is the curator's own picture, used if the model's is missing; empty: there is none. `kept_texels` is
+    /// for all pictures together.
+    PictureStore(Sidecars& sidecars, std::filesystem::path texture, std::int64_t kept_texels)
+        : sidecars_(sidecars), texture_(std::move(texture)), kept_texels_(kept_texels) {}
 
     [[nodiscard]] std::shared_ptr<const Image8> decode(ByteView bytes, std::string_view place);
     /// The picture in the file `name`; the curator's own if that is missing.
@@ -27,11 +31,20 @@ public:
     [[nodiscard]] std::shared_ptr<const Image8> curators();
     [[nodiscard]] bool used_curators() const { return curators_ != nullptr; }
 
+    /// Sizes of the decoded pictures, as in their files.
+    [[nodiscard]] const std::vector<glm::ivec2>& file_sizes() const { return file_sizes_; }
+    /// Notes how many pictures were shrunk.
+    void note_shrunk(LoadNotes& notes) const;
+
 private:
+    void keep_within_limit();
+
     Sidecars& sidecars_;
     std::filesystem::path texture_;
     std::shared_ptr<const Image8> curators_;
-    std::int64_t texels_left_ = max_texture_texels;
+    std::int64_t kept_texels_;
+    std::vector<std::shared_ptr<Image8>> kept_;
+    std::vector<glm::ivec2> file_sizes_; ///< one for each kept picture
 };
 
 } // namespace frustumscreen

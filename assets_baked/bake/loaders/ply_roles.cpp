@@ -60,6 +60,15 @@ std::optional<Named> named(std::string_view name) {
     if (const auto axis = place_in(axes, name)) {
         return Named{across.at(*axis), 0};
     }
+    static constexpr std::array normals = {PlyRole::NormalX, PlyRole::NormalY, PlyRole::NormalZ};
+    static constexpr std::array<std::string_view, 3> short_normals = {"nx", "ny", "nz"};
+    static constexpr std::array<std::string_view, 3> long_normals = {"normal_x", "normal_y", "normal_z"};
+    if (const auto normal = place_in(short_normals, name)) {
+        return Named{normals.at(*normal), 0};
+    }
+    if (const auto normal = place_in(long_normals, name)) {
+        return Named{normals.at(*normal), 1};
+    }
     if (const auto u = place_in(us, name)) {
         return Named{PlyRole::U, *u};
     }
@@ -95,10 +104,14 @@ bool PlyRoles::has_colour() const {
     return has(PlyRole::PackedColour) || (has(PlyRole::Red) && has(PlyRole::Green) && has(PlyRole::Blue));
 }
 
+bool PlyRoles::has_normal() const {
+    return has(PlyRole::NormalX) && has(PlyRole::NormalY) && has(PlyRole::NormalZ);
+}
+
 PlyRoles roles_of_vertices(const PlyElement& element) {
     PlyRoles roles;
     roles.of.resize(element.properties.size(), PlyRole::None);
-    std::array<std::size_t, 11> best{};
+    std::array<std::size_t, 14> best{};
     best.fill(std::numeric_limits<std::size_t>::max());
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];

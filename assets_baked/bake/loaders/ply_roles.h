@@ -11,13 +11,14 @@
 
 namespace frustumscreen {
 
-enum class PlyRole { None, X, Y, Z, Red, Green, Blue, Alpha, U, V, PackedColour };
+enum class PlyRole { None, X, Y, Z, Red, Green, Blue, Alpha, U, V, PackedColour, NormalX, NormalY, NormalZ };
 
 struct PlyRoles {
     std::vector<PlyRole> of;          ///< one for each property
     std::vector<std::string> unknown; ///< names that no known program writes
     [[nodiscard]] bool has(PlyRole role) const;
     [[nodiscard]] bool has_colour() const;
+    [[nodiscard]] bool has_normal() const;
 };
 
 [[nodiscard]] PlyRoles roles_of_vertices(const PlyElement& element);

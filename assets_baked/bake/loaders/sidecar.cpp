@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/loaders/refusal.h"
 #include "assets_baked/names/file_name.h"
+#include "assets_baked/names/find_entry.h"
 #include "firmware_host/base/printable.h"
 
 #include <algorithm>
@@ -73,17 +74,11 @@ std::optional<std::string> first_in(const std::filesystem::path& folder, const F
 std::optional<std::filesystem::path> find_in_any_spelling(std::filesystem::path folder,
                                                           const std::filesystem::path& name) {
     for (const std::filesystem::path& part : name.lexically_normal()) {
-        std::error_code ignored;
-        if (std::filesystem::exists(folder / part, ignored)) {
-            folder /= part;
-            continue;
-        }
-        const auto found =
-            first_in(folder, [&](const std::string& each) { return is_same_file_name(each, part.string()); });
+        const auto found = find_entry(folder, part.string());
         if (!found) {
             return std::nullopt;
         }
-        folder /= *found;
+        folder = *found;
     }
     return is_file(folder) ? std::optional(folder) : std::nullopt;
 }

@@ -1,0 +1,11 @@
+/// frustumscreen-bake --check: says of scans what they have, what a bake would lose and about what it would make.
+///
+/// Threads  the main one.
+#pragma once
+
+namespace frustumscreen {
+
+/// Returns the exit status: 0 if all scans can be baked, 1 if one cannot, 2 for wrong use.
+[[nodiscard]] int check_command(int argc, char** argv);
+
+} // namespace frustumscreen

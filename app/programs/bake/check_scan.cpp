@@ -1,0 +1,69 @@
+#include "app/programs/bake/check_scan.h"
+
+#include "app/programs/bake/artifact_words.h"
+#include "app/programs/bake/load_scan.h"
+#include "app/programs/bake/scan_about.h"
+
+#include <algorithm>
+#include <new>
+
+namespace frustumscreen {
+
+namespace {
+
+Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
+    TRY(BakeRequest request, request_of(arguments));
+    TRY(const SourceMesh mesh, load_scan(request));
+    checked.notes = mesh.notes;
+    request.options.turn_deg = request.turn_deg.value_or(0.0);
+    request.options.unlit = request.options.unlit || mesh.is_unlit;
+    TRY(const ScanMeasures measures, at(request.scan.string(), measure_scan(mesh, request.options)));
+    checked.summary = summary_of(mesh, measures);
+    CompletedRequest all = completed(std::move(request), mesh.about);
+    checked.notes.insert(checked.notes.end(), all.notes.begin(), all.notes.end());
+    all.request.speech.voice = std::nullopt; // what it cannot speak is silent, not lost
+    TRY(const ArtifactWords words, words_of(all.request));
+    for (const std::string& lost : words.lost) {
+        checked.notes.push_back({SourceNote::Kind::Lost, lost});
+    }
+    checked.summary.lost = losses_in(checked.notes).size();
+    return check_losses(checked.notes, all.request);
+}
+
+} // namespace
+
+CheckedScan check_scan(BakeArguments arguments) {
+    CheckedScan checked;
+    checked.input = arguments.input;
+    arguments.output = arguments.input.stem().string() + ".fspack";
+    try {
+        if (const Result<void> looked = look_at(arguments, checked); !looked) {
+            checked.fault = looked.error();
+        }
+    } catch (const std::bad_alloc&) {
+        checked.fault = Error{ErrorKind::BadInput, "check.no_memory",
+                              arguments.input.string() + ": not enough memory; simplify it first"};
+    }
+    return checked;
+}
+
+ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures) {
+    ScanSummary summary;
+    const glm::dvec3& extents = measures.extents;
+    summary.format = mesh.contents.format;
+    summary.triangles = mesh.triangles.size();
+    summary.vertices = measures.points;
+    for (const glm::ivec2& size : mesh.contents.picture_sizes) {
+        summary.pictures.push_back({size.x, size.y});
+    }
+    summary.materials = mesh.materials.size();
+    summary.has_colours = !mesh.colours.empty();
+    summary.has_normals = !mesh.normals.empty();
+    summary.extents = {extents.x, extents.y, extents.z};
+    summary.unit = guessed_unit(summary.format, std::max({extents.x, extents.y, extents.z}));
+    summary.estimated_bytes = measures.estimated_bytes;
+    summary.estimated_triangles = measures.estimated_triangles;
+    return summary;
+}
+
+} // namespace frustumscreen

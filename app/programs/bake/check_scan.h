@@ -1,0 +1,29 @@
+/// Looks at a scan as a bake does, without simplifying it, casting rays or speaking.
+///
+/// Threads  one caller.
+#pragma once
+
+#include "app/programs/bake/bake_request.h"
+#include "app/programs/batch/scan_summary.h"
+#include "assets_baked/bake/scan_measures.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct CheckedScan {
+    std::filesystem::path input; ///< a scan, or a folder with an artifact.toml
+    std::optional<Error> fault;  ///< why it cannot be baked
+    ScanSummary summary;         ///< without a format if the scan could not be read
+    std::vector<SourceNote> notes;
+};
+
+/// `arguments.input` is the scan.
+[[nodiscard]] CheckedScan check_scan(BakeArguments arguments);
+
+/// Without the number of losses.
+[[nodiscard]] ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures);
+
+} // namespace frustumscreen

@@ -1,0 +1,74 @@
+#include "app/programs/bake/load_scan.h"
+
+#include "assets_baked/bake/last_look.h"
+#include "assets_baked/bake/load_mesh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+/// True if the mesh has colours; without them an unlit mesh would be one flat area.
+bool has_colours(const SourceMesh& mesh) {
+    const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
+        return each.base_colour == mesh.materials.front().base_colour;
+    });
+    return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
+} // namespace
+
+Result<SourceMesh> load_scan(const BakeRequest& request) {
+    TRY(SourceMesh mesh,
+        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size)}));
+    if (request.options.unlit && !has_colours(mesh)) {
+        mesh.notes.push_back(
+            {SourceNote::Kind::Lost,
+             "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
+             "--unlit it is lit as in a museum"});
+    }
+    Scraps scraps = find_scraps(mesh);
+    if (request.clean && scraps.triangles > 0) {
+        mesh.notes.push_back(
+            {SourceNote::Kind::Guessed,
+             fmt::format("{} of {} triangles, which lie apart from the rest: --clean leaves them out",
+                         scraps.triangles, mesh.triangles.size())});
+        remove_scraps(mesh, scraps);
+        scraps = {};
+    }
+    mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
+    const Lighting light = mesh.is_unlit || request.options.unlit ? Lighting::None : Lighting::Museum;
+    const std::vector<SourceNote> looks = last_look(mesh, scraps, light);
+    mesh.notes.insert(mesh.notes.end(), looks.begin(), looks.end());
+    if (mesh.is_unlit && !request.options.unlit) {
+        mesh.notes.push_back({SourceNote::Kind::Guessed, "the file says that its colours already contain "
+                                                         "light (KHR_materials_unlit): it is baked as with "
+                                                         "--unlit"});
+    }
+    return mesh;
+}
+
+std::vector<std::string> losses_in(const std::vector<SourceNote>& notes) {
+    std::vector<std::string> lost;
+    for (const SourceNote& note : notes) {
+        if (note.kind == SourceNote::Kind::Lost) {
+            lost.push_back(note.text);
+        }
+    }
+    return lost;
+}
+
+Result<void> check_losses(const std::vector<SourceNote>& notes, const BakeRequest& request) {
+    const std::vector<std::string> lost = losses_in(notes);
+    if (request.strict && !lost.empty()) {
+        return bad_input("bake.would_be_lost", "{}: this would be lost, and --strict forbids it: {}",
+                         request.scan.string(), fmt::join(lost, "; "));
+    }
+    return {};
+}
+
+} // namespace frustumscreen
