@@ -42,7 +42,7 @@ bool are_multiples(const SourceMesh& mesh, double step) {
 
 /// True if the triangles are about as small as a step, and most are not along the axes.
 bool is_fine_and_oblique(const SourceMesh& mesh, double step) {
-    constexpr double most_steps = 10.0;
+    constexpr double max_steps = 10.0;
     constexpr double along_axis = 0.999; // cosine
     double edges = 0.0;
     std::size_t oblique = 0;
@@ -53,7 +53,7 @@ bool is_fine_and_oblique(const SourceMesh& mesh, double step) {
         edges += glm::length(ab);
         oblique += std::max({normal.x, normal.y, normal.z}) < along_axis * glm::length(normal) ? 1 : 0;
     }
-    return edges < most_steps * step * static_cast<double>(mesh.triangles.size()) &&
+    return edges < max_steps * step * static_cast<double>(mesh.triangles.size()) &&
            2 * oblique > mesh.triangles.size();
 }
 
@@ -74,10 +74,10 @@ std::optional<std::string> look_for_far_origin(const SourceMesh& mesh) {
 }
 
 std::optional<std::string> look_for_few_decimals(const SourceMesh& mesh) {
-    constexpr int most_decimals = 9;
-    constexpr int most_zeros = 9; // before the decimal point
+    constexpr int max_decimals = 9;
+    constexpr int max_zeros = 9; // before the decimal point
     const double size = reach_of(mesh).size;
-    for (int decimals = -most_zeros; decimals <= most_decimals; ++decimals) {
+    for (int decimals = -max_zeros; decimals <= max_decimals; ++decimals) {
         const double step = std::pow(10.0, -decimals);
         if (step <= max_step_share * size) {
             return std::nullopt; // as fine as a picture shows

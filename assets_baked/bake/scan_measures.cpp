@@ -92,7 +92,7 @@ bool is_painted(const SourceMesh& mesh) {
 
 Result<ScanMeasures> measure_scan(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
-    TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
+    TRY(const BoxFrame frame, make_box_frame(mesh, {up, 0.0, options.lift}));
     const TriangleMesh surface = weld(mesh, in_box(mesh, frame));
     TRY_VOID(check_surface(surface));
     ScanMeasures measures;
@@ -109,8 +109,8 @@ Result<ScanMeasures> measure_scan(const SourceMesh& mesh, const BakeOptions& opt
 }
 
 std::string_view guessed_unit(std::string_view format, double longest) {
-    const auto fits = [&](const Unit& unit, double least_m, double most_m) {
-        return longest * unit.metres >= least_m && longest * unit.metres <= most_m;
+    const auto fits = [&](const Unit& unit, double min_m, double max_m) {
+        return longest * unit.metres >= min_m && longest * unit.metres <= max_m;
     };
     if (format.starts_with("gl") || format.starts_with("GL")) {
         if (fits(units[0], 0.005, 20.0)) {
@@ -118,9 +118,9 @@ std::string_view guessed_unit(std::string_view format, double longest) {
         }
     }
     // Most objects are between two centimetres and three metres.
-    for (const auto& [least_m, most_m] : {std::pair(0.02, 3.0), std::pair(0.005, 20.0)}) {
+    for (const auto& [min_m, max_m] : {std::pair(0.02, 3.0), std::pair(0.005, 20.0)}) {
         const auto unit = std::find_if(units.begin(), units.end(),
-                                       [&](const Unit& each) { return fits(each, least_m, most_m); });
+                                       [&](const Unit& each) { return fits(each, min_m, max_m); });
         if (unit != units.end()) {
             return unit->name;
         }

@@ -1,6 +1,7 @@
 /// How large a scan is, and an estimate of what a bake makes of it, without simplifying it or casting rays.
 ///
-/// Estimate   docs/measurements.md says how well it hits ("What a check estimates").
+/// Estimate   does not depend on the turn, which a bake chooses by itself; docs/measurements.md says how well it hits
+///            ("What a check estimates").
 /// Errors     those of the bake that do not need its work: no extent, no surface.
 /// Threads    pure; any.
 #pragma once

@@ -74,7 +74,7 @@ TEST_F(BakeCheck, SaysOfOneScanWhatItHasInLines) {
 TEST_F(BakeCheck, TheSummaryAndTheLossesAreThoseOfTheBake) {
     put("scans/bare.obj", "mtllib nowhere.mtl\nwhatever 3\nl 1 2\n" + text("scans/box.obj"));
     put_jug("jug", "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\ndescription = \"A jug.\"\n"
-                   "[[hotspots]]\npoint = [0.2, 0.2, 0.2]\nlabels = { de = \"Henkel\" }\n");
+                   "[[hotspots]]\npoint = [0.33, 0.33, 0.34]\nlabels = { de = \"Henkel\" }\n");
     put_recording("jug/recordings/en/other.wav");
     std::size_t losses = 0;
     for (const char* scan : {"scans/box.obj", "scans/bare.obj", "jug"}) {

@@ -15,8 +15,6 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
     TRY(BakeRequest request, request_of(arguments));
     TRY(const SourceMesh mesh, load_scan(request));
     checked.notes = mesh.notes;
-    request.options.turn_deg = request.turn_deg.value_or(0.0);
-    request.options.unlit = request.options.unlit || mesh.is_unlit;
     TRY(const ScanMeasures measures, at(request.scan.string(), measure_scan(mesh, request.options)));
     checked.summary = summary_of(mesh, measures);
     CompletedRequest all = completed(std::move(request), mesh.about);
