@@ -159,7 +159,7 @@ make_root() {
     systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
     chmod 600 "$root"/etc/{shadow,gshadow} # else who is not root cannot read them into the image
     rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
-    name=$(awk -F: '$3 > 126 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
+    name=$(awk -F: '$3 > 127 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"

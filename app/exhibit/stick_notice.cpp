@@ -1,6 +1,7 @@
 #include "app/exhibit/stick_notice.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/library/report_request.h"
 #include "app/library/stick_settings.h"
 
 #include <fmt/format.h>
@@ -40,8 +41,10 @@ double share_done(const ImportReport& report) {
 int rank_of(const ImportedPack& pack) {
     switch (pack.outcome) {
     case ImportOutcome::Refused:
+    case ImportOutcome::NotWritten:
         return 0;
     case ImportOutcome::Taken:
+    case ImportOutcome::Written:
         return 1;
     case ImportOutcome::AlreadyThere:
         return 2;
@@ -104,10 +107,12 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
     return lines;
 }
 
-/// A kiosk has no shell, so only the notice tells the technician which line is wrong.
+/// A kiosk has no shell, so only the notice tells the technician which line is wrong, and why no report was written.
 std::string remark_of(const ImportReport& report) {
     const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
-        return pack.file == settings_file_name && pack.outcome == ImportOutcome::Refused;
+        return pack.outcome == ImportOutcome::NotWritten ||
+               (pack.outcome == ImportOutcome::Refused &&
+                (pack.file == settings_file_name || pack.file == report_request_name));
     });
     return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
 }
@@ -122,6 +127,10 @@ std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal) {
         return "stick.already_there";
     case ImportOutcome::Removed:
         return "stick.removed";
+    case ImportOutcome::Written:
+        return "stick.written";
+    case ImportOutcome::NotWritten:
+        return "stick.not_written";
     default:
         return refusal_words.at(static_cast<std::size_t>(refusal));
     }

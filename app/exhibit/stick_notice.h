@@ -36,7 +36,7 @@ struct NoticeText {
     std::vector<std::string_view> sentences; ///< keys, one below the other
     std::vector<NoticeLine> lines;           ///< refusals first
     bool ring = false;
-    std::string remark{}; ///< what is wrong with the stick's settings, in English; empty: nothing
+    std::string remark{}; ///< what is wrong with the stick's settings, or why no report is on it, in English
     [[nodiscard]] bool operator==(const NoticeText&) const = default;
 };
 inline constexpr std::size_t max_notice_lines = 8;

@@ -26,10 +26,18 @@ enum class ImportStage : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> import_stage_names{"found", "copying", "may_take_out",
                                                                     "done", "failed"};
 
-/// The outcome of a pack.
-enum class ImportOutcome : std::uint8_t { Pending, Taken, AlreadyThere, Refused, Removed };
-inline constexpr std::array<std::string_view, 5> import_outcome_names{"pending", "taken", "already_there",
-                                                                      "refused", "removed"};
+/// The outcome of a pack; Written and NotWritten are those of a report on the kiosk, which goes to the stick.
+enum class ImportOutcome : std::uint8_t {
+    Pending,
+    Taken,
+    AlreadyThere,
+    Refused,
+    Removed,
+    Written,
+    NotWritten
+};
+inline constexpr std::array<std::string_view, 7> import_outcome_names{
+    "pending", "taken", "already_there", "refused", "removed", "written", "not_written"};
 
 /// Why a pack or a stick was refused. The exhibit's own texts have `stick.refused.NAME` for each value.
 enum class ImportRefusal : std::uint8_t {

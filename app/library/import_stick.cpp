@@ -77,6 +77,7 @@ private:
     std::vector<ImportedPack> refused_on_the_way_; ///< of which only the name is known
     std::optional<ImportedPack> misnamed_;         ///< a file that may be meant as set file
     std::optional<ImportedPack> misnamed_settings_;
+    std::optional<ImportedPack> misnamed_request_;
     std::vector<StickPack> packs_;
     std::vector<InstalledPack> removed_;
     std::optional<ImportedPack> exhibit_line_;
@@ -99,6 +100,7 @@ void Import::tell(ImportStage stage) {
     if (request_.settings) {
         report_.packs.push_back(*request_.settings);
     }
+    report_.packs.insert(report_.packs.end(), request_.stick_report.begin(), request_.stick_report.end());
     if (exhibit_line_) {
         report_.packs.push_back(*exhibit_line_);
     }
@@ -111,6 +113,9 @@ void Import::tell(ImportStage stage) {
     }
     if (misnamed_settings_ && request_.takes_settings && !request_.settings) {
         report_.packs.push_back(*misnamed_settings_);
+    }
+    if (misnamed_request_ && request_.writes_reports && request_.stick_report.empty()) {
+        report_.packs.push_back(*misnamed_request_);
     }
     for (const InstalledPack& pack : removed_) {
         report_.packs.push_back(removed_line(pack));
@@ -220,6 +225,7 @@ Outcome Import::look() {
     refused_on_the_way_ = std::move(files.refused);
     misnamed_ = std::move(files.misnamed);
     misnamed_settings_ = std::move(files.misnamed_settings);
+    misnamed_request_ = std::move(files.misnamed_request);
     return read_exhibit_file(files.has_exhibit_file).and_then([&] { return look_at_packs(files.packs); });
 }
 

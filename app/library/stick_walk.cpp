@@ -1,6 +1,7 @@
 #include "app/library/stick_walk.h"
 
 #include "app/library/exhibit_file.h"
+#include "app/library/report_request.h"
 #include "app/library/stick_pack.h"
 #include "app/library/stick_settings.h"
 #include "firmware_host/base/printable.h"
@@ -61,7 +62,9 @@ private:
     std::vector<std::string> folders_;
     std::string misnamed_; ///< path; empty: none
     std::string misnamed_settings_;
+    std::string misnamed_request_;
     bool has_settings_ = false;
+    bool has_request_ = false;
     std::size_t entries_ = 0;
     std::optional<ImportFailure> failure_;
 };
@@ -88,10 +91,14 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         found_.has_exhibit_file = true;
     } else if (folder.empty() && entry.name == settings_file_name) {
         has_settings_ = true;
+    } else if (folder.empty() && entry.name == report_request_name) {
+        has_request_ = true;
     } else if (looks_like("exhibit", entry.name)) {
         keep_first(misnamed_, path);
     } else if (looks_like("kiosk", entry.name)) {
         keep_first(misnamed_settings_, path);
+    } else if (looks_like("frustumscreen-report", entry.name)) {
+        keep_first(misnamed_request_, path);
     }
 }
 
@@ -154,6 +161,13 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
             fmt::format("it is not looked at; a kiosk's settings are called {} and lie in the stick's root: "
                         "rename it, and check that no .txt is hidden after the name",
                         settings_file_name)};
+    }
+    if (!misnamed_request_.empty() && !has_request_) {
+        found_.misnamed_request = {
+            printable(misnamed_request_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+            fmt::format("no report was written; the file that asks for one is called {} and lies in the "
+                        "stick's root: rename it, and look that no .txt is hidden behind the name",
+                        report_request_name)};
     }
     return std::move(found_);
 }

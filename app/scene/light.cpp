@@ -20,7 +20,7 @@ double sine_above(const PropFace& face, const glm::dvec3& from) {
 }
 
 /// h is constant on a face and d is convex, so the least light is at a corner.
-double least_light(const PropFace& face, const glm::dvec3& projector) {
+double min_light(const PropFace& face, const glm::dvec3& projector) {
     double least = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : face.corners) {
         least = std::min(least, received_light(face.plane, corner, projector));
@@ -41,7 +41,7 @@ double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projec
                        const LightCompensation& compensation) {
     double share = 1.0;
     for (const SeenFace& each : faces) {
-        const double reached = std::clamp(least_light(*each.face, projector) / compensation.reference,
+        const double reached = std::clamp(min_light(*each.face, projector) / compensation.reference,
                                           compensation.min_share, 1.0);
         const double seen = std::clamp(sine_above(*each.face, each.eye) / full_sine_of_sight, 0.0, 1.0);
         share = std::min(share, std::pow(reached, seen));

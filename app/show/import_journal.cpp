@@ -18,22 +18,23 @@ std::size_t count_of(const ImportReport& report, ImportOutcome outcome) {
                       [&](const ImportedPack& pack) { return pack.outcome == outcome; }));
 }
 
+/// The journal goes to the makers: it has no stick's label, which may be a person's name.
 Sentence line_of(const ImportReport& report) {
     switch (report.stage) {
     case ImportStage::Found:
-        return format_sentence("stick: one is there, '{}'; it is looked through", report.stick);
+        return format_sentence("stick: one is there; it is looked through");
     case ImportStage::Copying:
-        return format_sentence("stick: {} bytes are copied from '{}'", report.total_bytes, report.stick);
+        return format_sentence("stick: {} bytes are copied", report.total_bytes);
     case ImportStage::MayTakeOut:
-        return format_sentence("stick: '{}' may be taken out", report.stick);
+        return format_sentence("stick: it may be taken out");
     case ImportStage::Failed:
-        return format_sentence("stick: nothing was taken from '{}': {}", report.stick, report.reason);
+        return format_sentence("stick: nothing was taken: {}", report.reason);
     case ImportStage::Done:
         break;
     }
-    return format_sentence("stick: done with '{}': {} taken, {} already there, {} refused, {} removed; the "
+    return format_sentence("stick: done: {} taken, {} already there, {} refused, {} removed; the "
                            "installed set has number {}",
-                           report.stick, count_of(report, ImportOutcome::Taken),
+                           count_of(report, ImportOutcome::Taken),
                            count_of(report, ImportOutcome::AlreadyThere),
                            count_of(report, ImportOutcome::Refused), count_of(report, ImportOutcome::Removed),
                            report.set_number);
@@ -49,6 +50,10 @@ Sentence line_of(const ImportedPack& pack) {
         return format_sentence("stick: {}: removed: {}", pack.file, pack.title);
     case ImportOutcome::Refused:
         return format_sentence("stick: {}: refused: {}", pack.file, pack.reason);
+    case ImportOutcome::Written:
+        return format_sentence("stick: {}: written to the stick", pack.file);
+    case ImportOutcome::NotWritten:
+        return format_sentence("stick: {}: not written to the stick: {}", pack.file, pack.reason);
     case ImportOutcome::Pending:
         break;
     }
@@ -89,8 +94,9 @@ void ImportJournal::note_packs(const Write& write) {
     }
     for (std::size_t lines = 0; lines < max_lines && packs_ < packs.size(); ++lines, ++packs_) {
         const ImportedPack& pack = packs[packs_];
-        write(pack.outcome == ImportOutcome::Refused ? LogPriority::Warning : LogPriority::Notice,
-              line_of(pack));
+        const bool failed =
+            pack.outcome == ImportOutcome::Refused || pack.outcome == ImportOutcome::NotWritten;
+        write(failed ? LogPriority::Warning : LogPriority::Notice, line_of(pack));
     }
 }
 

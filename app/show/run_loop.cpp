@@ -19,7 +19,7 @@ constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
 /// The smallest light that still draws; 0 means asleep.
-constexpr double least_light = 1e-6;
+constexpr double min_light = 1e-6;
 
 /// Limit for visits that wait to be written; it is reached only if the writer's thread is stuck.
 constexpr std::size_t max_visit_pieces = 64;
@@ -238,7 +238,7 @@ private:
             intake_.drop_commands();
         }
         asleep_ = was_dark && hours_->asleep(); // the last picture before sleep is drawn, and is black
-        show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
+        show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), min_light));
     }
 
     /// Keeps the projector dark; devices are read and reported to the watchdog.

@@ -318,7 +318,8 @@ void device_fields(auto& fields, auto& status) {
         "of `found`, `copying`, `may_take_out`, `done`, `failed`; `done_bytes` of `total_bytes`; "
         "`refusal` and `reason` of the stick as a whole; `set_number`, the set that is installed; "
         "`packs`, each with `file`, `title`, `outcome` (`pending`, `taken`, `already_there`, "
-        "`refused`, `removed`), `refusal` and `reason`. `null`: there was none",
+        "`refused`, `removed`; of a report on the kiosk `written`, `not_written`), `refusal` and `reason`. "
+        "`null`: there was none",
         Metric{}, [](auto& inner, auto& report) { import_fields(inner, report); });
     fields.object_or_null("visits", status.visits,
                           "of visitors, numbers alone ([counts.md](counts.md)): visits that began `today` "

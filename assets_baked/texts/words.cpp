@@ -60,6 +60,8 @@ constexpr auto keys = std::to_array<std::string_view>({
     "stick.taken",
     "stick.already_there",
     "stick.removed",
+    "stick.written",
+    "stick.not_written",
     "stick.refused.unsigned",
     "stick.refused.wrong_key",
     "stick.refused.altered",

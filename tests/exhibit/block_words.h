@@ -20,6 +20,8 @@ inline const std::vector<std::pair<std::string, int>>& stick_words() {
                                                                 {"stick.taken", 3},
                                                                 {"stick.already_there", 5},
                                                                 {"stick.removed", 4},
+                                                                {"stick.written", 19},
+                                                                {"stick.not_written", 21},
                                                                 {"stick.refused.unsigned", 8},
                                                                 {"stick.refused.wrong_key", 9},
                                                                 {"stick.refused.altered", 10},

@@ -61,6 +61,25 @@ TEST(NoticeText, wrong_settings_are_told_with_their_line) {
     EXPECT_EQ(notice_text(report).remark, "") << "what a curator must mend is in the report alone";
 }
 
+TEST(NoticeText, a_report_on_the_stick_is_told_by_its_folder_and_a_missing_one_by_its_reason) {
+    ImportReport report = report_of("a", ImportStage::Done);
+    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", ImportOutcome::Written, {}, ""}};
+    EXPECT_EQ(notice_text(report), (NoticeText{{"stick.take_out"},
+                                               {{"frustumscreen-report-2031-05-04-120000",
+                                                 "frustumscreen-report-2031-05-04-120000", "stick.written"}},
+                                               false}));
+    report.packs = {{"frustumscreen-report.toml", "", ImportOutcome::NotWritten, ImportRefusal::NoRoom,
+                     "the stick is full"}};
+    EXPECT_EQ(notice_text(report).remark, "frustumscreen-report.toml: the stick is full");
+    EXPECT_EQ(notice_text(report).lines.front().key, "stick.not_written");
+    // A report that is written in spite of a mistake in the file
+    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", ImportOutcome::Written, {}, ""},
+                    {"frustumscreen-report.toml", "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+                     "frustumscreen-report.toml:1: unknown"}};
+    EXPECT_EQ(notice_text(report).lines.size(), 2U);
+    EXPECT_NE(notice_text(report).remark, "");
+}
+
 TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
     std::set<std::string> keys;
     for (const auto& [key, letters] : synthetic::stick_words()) {
@@ -71,7 +90,8 @@ TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
                   "stick.refused." + std::string(import_refusal_names[k]));
     }
     for (const ImportOutcome outcome :
-         {ImportOutcome::Taken, ImportOutcome::AlreadyThere, ImportOutcome::Removed}) {
+         {ImportOutcome::Taken, ImportOutcome::AlreadyThere, ImportOutcome::Removed, ImportOutcome::Written,
+          ImportOutcome::NotWritten}) {
         EXPECT_TRUE(keys.contains(std::string(outcome_word(outcome, ImportRefusal::None))));
     }
 }
@@ -96,7 +116,7 @@ TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
         const std::size_t count = random() % (round % 3 == 0 ? 600 : 12);
         std::map<std::string, int, std::less<>> expected;
         for (std::size_t k = 0; k < count; ++k) {
-            const auto outcome = static_cast<ImportOutcome>(random() % 5);
+            const auto outcome = static_cast<ImportOutcome>(random() % import_outcome_names.size());
             const auto refusal = outcome == ImportOutcome::Refused
                                      ? static_cast<ImportRefusal>(1 + random() % 9)
                                      : ImportRefusal::None;
@@ -119,7 +139,8 @@ TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
                 if (!together) {
                     single.insert(line.key);
                 }
-                const bool refused = line.key.starts_with("stick.refused.");
+                const bool refused =
+                    line.key.starts_with("stick.refused.") || line.key == "stick.not_written";
                 EXPECT_FALSE(refused && refusals_are_over && !together);
                 refusals_are_over = refusals_are_over || (!refused && !together);
             }

@@ -314,18 +314,21 @@ class Machine:
 
     # Sticks at the USB ports.
 
-    def plug(self, name, source, bytes_per_s=None, serial=None, driver="usb-storage"):
+    def plug(self, name, source, bytes_per_s=None, serial=None, driver="usb-storage", written_per_s=None, protected=False):
         """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD); `driver`: or usb-uas, USB attached
-        SCSI, to which the disk is attached before the guest sees any of it."""
+        SCSI, to which the disk is attached before the guest sees any of it. `bytes_per_s` are read, `written_per_s` written at
+        most; `protected`: its switch is set so that nothing can be written."""
         source = pathlib.Path(source)
         if source.is_socket():
             disk = {"driver": "nbd", "server": {"type": "unix", "path": os.fspath(source)}}
         else:
             disk = {"driver": "file", "filename": os.fspath(source)}
-        self.monitor("blockdev-add", **{"driver": "raw", "node-name": f"{name}-raw", "file": disk})
+        self.monitor("blockdev-add", **{"driver": "raw", "node-name": f"{name}-raw", "file": disk | {"read-only": protected},
+                                        "read-only": protected})
         nodes = [f"{name}-raw"]
-        if bytes_per_s is not None:
-            self.monitor("object-add", **{"qom-type": "throttle-group", "id": f"{name}-pace", "limits": {"bps-read": bytes_per_s}})
+        limits = {key: limit for key, limit in (("bps-read", bytes_per_s), ("bps-write", written_per_s)) if limit is not None}
+        if limits:
+            self.monitor("object-add", **{"qom-type": "throttle-group", "id": f"{name}-pace", "limits": limits})
             self.monitor("blockdev-add", **{"driver": "throttle", "node-name": f"{name}-slow", "throttle-group": f"{name}-pace",
                                             "file": nodes[0]})
             nodes.insert(0, f"{name}-slow")

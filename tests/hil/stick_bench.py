@@ -12,8 +12,8 @@ import sys
 
 import screen
 import sticks
-from bench import HERE, SETTINGS, UNIT, eventually
-from hil_test import HilTest
+from bench import HERE, SETTINGS, UNIT, UPRIGHT, USUAL, WIDTH, eventually
+from hil_test import CENTRE_M, HilTest
 
 sys.path.insert(0, str(HERE.parent / "import"))
 import plain_pack  # noqa: E402
@@ -21,7 +21,7 @@ import plain_pack  # noqa: E402
 LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
-UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*'"
+UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*' 'frustumscreen-report@*'"
 # What stays of a stick: first what costs little to ask, which is almost all the time, then systemd itself.
 QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
@@ -32,6 +32,7 @@ LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIB
         'for pack in *.fspack; do sum=$(sha256sum "$pack" 2>&1) && [ "${sum%% *}" = "${pack%.fspack}" ] || [ ! -e "$pack" ] || { echo "$sum"; exit 1; }; done')
 QUIET_S = 240.0
 LIT_PIXELS = 300
+TOLD_PIXELS = 300  # two short lines of words
 
 
 class StickTest(HilTest):
@@ -155,6 +156,25 @@ class StickTest(HilTest):
 
     def mounts(self):
         return self.bench.machine.run("grep frustumscreen-stick /proc/mounts").output
+
+
+class ToldStickTest(StickTest):
+    """With words, so that the table says what is done with a stick."""
+
+    settings = USUAL.replace("captions = false", 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"')
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        both = [screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], artifact)[0]) for artifact in ("amphora", "nautilus-cup")]
+        cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
+
+    def told_on_table(self, name=None):
+        """The number of pixels that are lit beside the prop; the picture is kept under this name."""
+        picture = self.bench.screendump()
+        if name:
+            screen.write_png(self.bench.out / f"{name}.png", picture)
+        return screen.count([row & ~prop for row, prop in zip(screen.lit(picture), self.prop)])
 
 
 class LongStickTest(StickTest):

@@ -1,35 +1,18 @@
 """Sticks with packs: put in, the artifacts change on the screen and in the status; unsigned, pulled out half-way, two at once."""
 
 import kept_calibration
-import screen
 import sticks
-from bench import UPRIGHT, USUAL, WIDTH, eventually
+from bench import eventually
 from hil_test import CENTRE_M, long
-from stick_bench import IMPORT_S, LIBRARY, StickTest, pulled_packs
+from stick_bench import IMPORT_S, LIBRARY, TOLD_PIXELS, ToldStickTest, pulled_packs
 
 LARGE_MIB = 8
 SLOW_BYTES_PER_S = 700_000  # of it: a dozen seconds
-TOLD_PIXELS = 300  # two short lines of words
 SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
 
 
-class Stick(StickTest):
-    # With words, so that the table says what is done with a stick.
-    settings = USUAL.replace("captions = false", 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"')
+class Stick(ToldStickTest):
     before, after = kept_calibration.KEEP, kept_calibration.FORGET
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        both = [screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], artifact)[0]) for artifact in ("amphora", "nautilus-cup")]
-        cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
-
-    def told_on_table(self, name=None):
-        """The number of pixels that are lit beside the prop; the picture is kept under this name."""
-        picture = self.bench.screendump()
-        if name:
-            screen.write_png(self.bench.out / f"{name}.png", picture)
-        return screen.count([row & ~prop for row, prop in zip(screen.lit(picture), self.prop)])
 
     def told_by_exhibit(self, import_id):
         """What its status says of this import; None: nothing yet."""

@@ -62,11 +62,16 @@ std::vector<std::string> lines_of(const fs::path& file) {
     return lines;
 }
 
-/// The files and folders that a page links to, relative to the root; links into the web are left out.
+/// The files and folders that a page links to, relative to the root; links into the web and code blocks are left out.
 std::set<fs::path> linked_from(const fs::path& page) {
     static const std::regex link(R"(\]\(([^)#\s]+)[^)]*\))"); // [text](target#heading "title")
     std::set<fs::path> targets;
+    bool in_code = false;
     for (const std::string& line : lines_of(page)) {
+        in_code = in_code != (line.rfind("```", 0) == 0);
+        if (in_code) {
+            continue;
+        }
         for (std::sregex_iterator match(line.begin(), line.end(), link), end; match != end; ++match) {
             const std::string target = (*match)[1];
             if (target.find("://") == std::string::npos && target.rfind("mailto:", 0) != 0) {

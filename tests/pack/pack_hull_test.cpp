@@ -39,7 +39,7 @@ TEST(PackHull, ThatIsNotWhatTheFormatSaysIsRefused) {
         EXPECT_FALSE(hull) << data;
         return hull ? std::string() : test::told(hull.error());
     };
-    EXPECT_NE(refusal(R"({"corners":[]})").find("has none"), std::string::npos);
+    EXPECT_NE(refusal(R"({"corners":[]})").find("has no corner"), std::string::npos);
     EXPECT_NE(refusal(R"({"corners":[[0,0,3]]})").find("farther than 2"), std::string::npos);
     EXPECT_NE(refusal(R"({"corners":[[0,0]]})").find("sections.hull.data.corners"), std::string::npos);
     EXPECT_NE(refusal(R"({"corners":[[0,0,1]],"more":1})").find("sections.hull.data.more"),

@@ -143,7 +143,7 @@ TEST_F(PackTexts, other_data_than_defined_are_refused) {
     });
     expect_fault("texts/en/glyphs.bin",
                  [](Pack& pack) { pack.section_parts["texts/en/glyphs.bin"].resize(30); });
-    expect_fault("a key that is not valid",
+    expect_fault("whose key is not valid",
                  data(sounds, [](Json& d) { d["languages"][0]["sounds"][0]["key"] = "A key"; }));
     expect_fault("the section sounds does not name exactly its own parts",
                  data(sounds, [](Json& d) { d["languages"][0]["sounds"] = Json::array(); }));

@@ -119,9 +119,9 @@ TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
 
 TEST_F(ConfigCommand, JudgesAGoodSetUpAsGood) {
     const std::string said = page("");
-    expect_words(said,
-                 {"seen whole from all around while the prop is within 44 x 15 cm", "10 mm high, 24 pixels",
-                  "at 22 minutes of arc", "awake all day, every day", "To look into\n  Nothing.\n"});
+    expect_words(said, {"seen whole from all around while the prop is within 44 x 15 cm",
+                        "10 mm high, 24 pixels", "a capital is 22 minutes of arc high",
+                        "awake all day, every day", "To look into\n  Nothing.\n"});
 }
 
 TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {

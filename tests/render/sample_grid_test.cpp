@@ -2,6 +2,7 @@
 
 #include "app/render/sample_grid.h"
 #include "tests/render/comparison.h"
+#include "tests/render/relief_rig.h"
 #include "tests/render/rig.h"
 
 namespace frustumscreen::synthetic {
@@ -29,6 +30,17 @@ TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
     EXPECT_EQ(grid.bytes(), 8U * 600U * 400U);
 }
 
+/// But for rounding: where a grid has another size, a driver's viewport may round otherwise.
+void expect_same(const Image8& picture, const Image8& other) {
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < other.texels.size(); ++k) {
+        const int off = farthest_channel(picture.texels[k], other.texels[k]);
+        EXPECT_LE(off, 1) << k;
+        different += off > 0 ? 1U : 0U;
+    }
+    EXPECT_LE(different, lit_pixels(other) / 100);
+}
+
 /// For example a lifted prop: it is drawn completely, with fewer samples.
 TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
     Stage stage(256, 160);
@@ -45,8 +57,8 @@ TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
     };
     const Image8 four = picture(4, std::nullopt);
     EXPECT_GT(lit_pixels(four), 900U);
-    EXPECT_EQ(picture(4, PixelSize{8, 8}).texels, picture(1, std::nullopt).texels);
-    EXPECT_EQ(picture(4, PixelSize{200, 150}).texels, four.texels);
+    expect_same(picture(4, PixelSize{8, 8}), picture(1, std::nullopt));
+    expect_same(picture(4, PixelSize{200, 150}), four);
 }
 
 } // namespace

@@ -198,7 +198,7 @@ TEST(LevelSpeech, one_knock_does_not_make_the_rest_quiet) {
     EXPECT_NEAR(speech->loudness.lufs, -23.0, 0.5);
 }
 
-TEST(LevelSpeech, only_peaks_and_their_surroundings_are_lowered) {
+TEST(LevelSpeech, only_the_neighbourhood_of_peaks_is_lowered) {
     std::vector<float> samples(48000, 0.25F);
     samples[20000] = -1.0F;
     const std::vector<float> limited = limit_peaks(samples, 48000, 0.5F);

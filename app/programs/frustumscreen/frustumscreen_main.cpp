@@ -8,6 +8,7 @@
 #include "app/programs/frustumscreen/plan/plan_command.h"
 #include "app/programs/frustumscreen/record/record_command.h"
 #include "app/programs/frustumscreen/render/render_command.h"
+#include "app/programs/frustumscreen/report/report_command.h"
 #include "app/programs/frustumscreen/run_command.h"
 #include "app/programs/frustumscreen/states/states_command.h"
 #include "app/programs/frustumscreen/status/status_command.h"
@@ -25,29 +26,32 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(to, "usage: frustumscreen "
-                   "run|status|counts|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
-                   "  run     the exhibit\n"
-                   "  status  how the exhibit on this machine is, and its picture\n"
-                   "  counts  how often, when and for how long it is used\n"
-                   "  record  what the tracker sends, into a file\n"
-                   "  camera  which cameras are there, and how that of the settings is\n"
-                   "  render  a pose file into pictures, without devices\n"
-                   "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
-                   "  states  what the exhibit does, and what leads from one thing to the other\n"
-                   "  plan    what a scene needs, what it leaves out, and what that saves\n"
-                   "  config  the resolved, checked settings; what they mean on the table\n"
-                   "  drawing the table, the projector and the prop to build, to scale\n"
-                   "  --version\n");
+    fmt::print(to,
+               "usage: frustumscreen "
+               "run|status|counts|report|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
+               "  run     the exhibit\n"
+               "  status  how the exhibit on this machine is, and its picture\n"
+               "  counts  how often, when and for how long it is used\n"
+               "  report  all that its makers want to know of it, into a folder\n"
+               "  record  what the tracker sends, into a file\n"
+               "  camera  which cameras are there, and how that of the settings is\n"
+               "  render  a pose file into pictures, without devices\n"
+               "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
+               "  states  what the exhibit does, and what leads from one thing to the other\n"
+               "  plan    what a scene needs, what it leaves out, and what that saves\n"
+               "  config  the resolved, checked settings; what they mean on the table\n"
+               "  drawing the table, the projector and the prop to build, to scale\n"
+               "  --version\n");
 }
 
 struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 11> commands{{{"run", run_command},
+constexpr std::array<Command, 12> commands{{{"run", run_command},
                                             {"status", status_command},
                                             {"counts", counts_command},
+                                            {"report", report_command},
                                             {"record", record_command},
                                             {"camera", camera_command},
                                             {"render", render_command},

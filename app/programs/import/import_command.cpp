@@ -1,8 +1,10 @@
 #include "app/programs/import/import_command.h"
 
 #include "app/library/import_end.h"
+#include "app/library/import_report_file.h"
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
+#include "app/library/report_request.h"
 #include "app/library/stick_settings.h"
 #include "app/library/trusted_keys.h"
 #include "app/pack/signature/key_folder.h"
@@ -126,30 +128,6 @@ std::uint64_t set_number(const ImportArguments& arguments) {
     return installed(arguments.into).map([](const Installed& found) { return found.set.number; }).value_or(0);
 }
 
-/// Nothing if there is no report, or the file is none.
-std::optional<ImportReport> last_report(const ImportArguments& arguments) {
-    constexpr std::uintmax_t max_report_bytes = 8U << 20U;
-    const Result<Bytes> bytes = read_file(arguments.report, max_report_bytes);
-    Result<ImportReport> report =
-        bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
-    return report ? std::optional(*std::move(report)) : std::nullopt;
-}
-
-/// Waits until the previous stick's report has stood long enough to be read on the table.
-void wait_for_readers(const ImportArguments& arguments, const std::string& id) {
-    struct stat file {};
-    if (arguments.report_stands_s <= 0 || ::stat(arguments.report.c_str(), &file) != 0) {
-        return;
-    }
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    const Nanoseconds age = std::chrono::seconds(now.tv_sec - file.st_mtim.tv_sec) +
-                            std::chrono::nanoseconds(now.tv_nsec - file.st_mtim.tv_nsec);
-    const auto stands =
-        std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.report_stands_s));
-    std::this_thread::sleep_for(wait_before_first_word(last_report(arguments), id, age, stands));
-}
-
 /// Takes the stick's settings before the keys are read from them, because the stick may bring other keys.
 std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
                                              const ImportArguments& arguments, std::chrono::sys_days clock) {
@@ -169,10 +147,17 @@ std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& libr
     return told;
 }
 
-/// Reports that nothing of the stick was read except its settings.
+/// The lines on the report that was written to the stick. The file of its outcome is read once.
+std::vector<ImportedPack> stick_report_of(FileTree& stick, const ImportArguments& arguments) {
+    const std::optional<ImportReport> written = read_import_report(arguments.stick_report);
+    std::error_code ignored;
+    std::filesystem::remove(arguments.stick_report, ignored);
+    return lines_of_stick_report(stick, written ? written->packs : std::vector<ImportedPack>());
+}
+
+/// Reports that nothing of the stick was read except what `request` tells of.
 ImportReport tell_failed(const ImportArguments& arguments, const std::string& id, ImportRefusal refusal,
-                         const std::string& reason,
-                         const std::optional<ImportedPack>& settings = std::nullopt) {
+                         const std::string& reason, const ImportRequest& request = {}) {
     ImportReport report;
     report.import_id = id;
     report.stick = printable(arguments.label);
@@ -180,9 +165,10 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     report.refusal = refusal;
     report.reason = reason;
     report.set_number = set_number(arguments);
-    if (settings) {
-        report.packs.push_back(*settings);
+    if (request.settings) {
+        report.packs.push_back(*request.settings);
     }
+    report.packs.insert(report.packs.end(), request.stick_report.begin(), request.stick_report.end());
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
 }
@@ -202,8 +188,12 @@ ImportReport import_from(const ImportArguments& arguments) {
     if (stick && lock && library && request.takes_settings) {
         request.settings = take_settings_of(**stick, **library, arguments, *request.today);
     }
+    request.writes_reports = !arguments.stick_report.empty();
+    if (stick && request.writes_reports) {
+        request.stick_report = stick_report_of(**stick, arguments);
+    }
     const Result<void> trusted = read_trust(arguments, request);
-    wait_for_readers(arguments, request.import_id);
+    wait_for_readers(arguments.report, request.import_id, arguments.report_stands_s);
     if (!stick) {
         return tell_failed(arguments, request.import_id, ImportRefusal::Unreadable, stick.error().message);
     }
@@ -212,7 +202,7 @@ ImportReport import_from(const ImportArguments& arguments) {
                                    .and_then([&] { return trusted; });
     if (!ready) {
         return tell_failed(arguments, request.import_id, ImportRefusal::Unwritable, ready.error().message,
-                           request.settings);
+                           request);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
     const ImportEnvironment outside{monotonic_now, processor_time, [&](const ImportReport& report) {
@@ -225,18 +215,18 @@ std::optional<ImportReport> tell_unmounted(const ImportArguments& arguments) {
     // If the folder cannot be locked, no import runs either.
     const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
     const std::string id = import_id(arguments);
-    if (!is_to_be_told_unmounted(last_report(arguments), id)) {
+    if (!is_to_be_told_unmounted(read_import_report(arguments.report), id)) {
         return std::nullopt;
     }
-    wait_for_readers(arguments, id);
+    wait_for_readers(arguments.report, id, arguments.report_stands_s);
     return tell_failed(arguments, id, ImportRefusal::Unreadable,
                        "the stick cannot be read or was pulled out; put it in again, and if this is said "
                        "again, format it as FAT32 or exFAT and copy the packs onto it");
 }
 
 Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
-    const std::optional<ImportReport> word =
-        last_word(last_report(arguments), import_id(arguments), service_result, set_number(arguments));
+    const std::optional<ImportReport> word = last_word(
+        read_import_report(arguments.report), import_id(arguments), service_result, set_number(arguments));
     return word ? write_file(arguments.report, as_bytes(write_import_report(*word))) : Result<void>();
 }
 

@@ -25,6 +25,8 @@ struct ImportArguments {
     /// no settings are taken. A file settings-taken beside the report marks that they were taken.
     std::filesystem::path settings;
     std::filesystem::path report; ///< file; empty: none
+    /// What another program left of the report that it wrote to the stick; removed. Empty: this kiosk writes none.
+    std::filesystem::path stick_report;
     std::string label;            ///< label of the stick
     std::string id;               ///< id of this import; empty: a new one
     double report_stands_s = 0.0; ///< least age of another import's finished report before it is replaced

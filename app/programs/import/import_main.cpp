@@ -28,7 +28,7 @@ std::string line_of(const ImportedPack& pack) {
 /// pack.
 int say(const ImportReport& report, const ImportArguments& arguments) {
     for (const ImportedPack& pack : report.packs) {
-        if (pack.outcome == ImportOutcome::Refused) {
+        if (pack.outcome == ImportOutcome::Refused || pack.outcome == ImportOutcome::NotWritten) {
             fmt::print(stderr, "frustumscreen-import: {}\n", line_of(pack));
         } else if (!arguments.json) {
             fmt::print("{}\n", line_of(pack));
@@ -90,6 +90,8 @@ int run(int argc, char** argv) {
     app.add_option("--report-stands", arguments.report_stands_s,
                    "s that another stick's report stands once it is over, before this one's replaces it")
         .within(0.0, 60.0);
+    app.add_option("--stick-report", arguments.stick_report,
+                   "file in which frustumscreen report left its outcome; told, and removed");
     const CommandOption label =
         app.add_option("--label", arguments.label, "the stick's name, for the report");
     std::string label_folder;

@@ -44,8 +44,8 @@ std::string line_of(const ImportReport& report) {
 } // namespace
 
 std::string_view words_of(ImportOutcome outcome) {
-    constexpr std::array<std::string_view, 5> words{"pending", "taken", "already there", "refused",
-                                                    "removed"};
+    constexpr std::array<std::string_view, 7> words{"pending", "taken",   "already there", "refused",
+                                                    "removed", "written", "not written"};
     return words[static_cast<std::size_t>(outcome)];
 }
 

@@ -28,7 +28,7 @@ std::uint32_t GltfMaterials::material(std::optional<std::size_t> index) {
 }
 
 void GltfMaterials::cut_or_fill(SourceMaterial& material, std::size_t index) {
-    constexpr double most_between = 0.1; // share of the texels, at cut edges
+    constexpr double max_between = 0.1; // share of the texels, at cut edges
     std::size_t clear = 0;
     std::size_t between = 0;
     const Image8* picture = material.texture < 0 ? nullptr : mesh_.texture(material.texture).image.get();
@@ -38,7 +38,7 @@ void GltfMaterials::cut_or_fill(SourceMaterial& material, std::size_t index) {
         between += alpha >= 8 && alpha < 248 ? 1 : 0;
     }
     if (clear > 0 &&
-        static_cast<double>(between) <= most_between * static_cast<double>(picture->texels.size())) {
+        static_cast<double>(between) <= max_between * static_cast<double>(picture->texels.size())) {
         material.alpha_mask = true;
         material.alpha_cutoff = 0.5F;
         notes_.guessed("the picture of a material is all or nothing in its transparency, and is cut out "

@@ -1,0 +1,25 @@
+/// A stick's request for a report on the kiosk: an empty file of a fixed name in its root. Another unit of the image
+/// writes the report before the import; the importer tells the outcome with that of the packs.
+///
+/// Threads  one caller.
+/// Errors   in the lines, one sentence each.
+#pragma once
+
+#include "app/library/import_report.h"
+#include "firmware_host/base/file_tree.h"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+inline constexpr std::string_view report_request_name = "frustumscreen-report.toml";
+inline constexpr std::size_t max_report_request_bytes = 4096;
+
+/// The lines of the stick's report, if it asks for one: `written`, and what is wrong with the file. `written`: the
+/// lines of the unit that writes; empty: it left none, which is told if the file is one that counts.
+[[nodiscard]] std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
+                                                              std::vector<ImportedPack> written);
+
+} // namespace frustumscreen

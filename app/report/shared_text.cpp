@@ -1,0 +1,68 @@
+#include "app/report/shared_text.h"
+
+#include "firmware_host/base/trimmed.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        lines.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
+/// "SerialNumber: " is the kernel's own, "dev-disk-by" of udev's names for disks, which have serials and labels.
+bool names_a_device(std::string_view line) {
+    return line.find("SerialNumber: ") != std::string_view::npos ||
+           line.find("dev-disk-by") != std::string_view::npos;
+}
+
+std::uint64_t number_of(std::string_view line) {
+    std::uint64_t number = 0;
+    std::from_chars(line.data(), line.data() + line.size(), number);
+    return number;
+}
+
+} // namespace
+
+std::string shared_journal(std::string_view journal, std::size_t max_bytes) {
+    std::vector<std::string_view> lines = lines_of(journal);
+    std::erase_if(lines, names_a_device);
+    std::size_t bytes = 0;
+    auto first = lines.rbegin();
+    while (first != lines.rend() && bytes + first->size() + 1 <= max_bytes) {
+        bytes += first->size() + 1;
+        ++first;
+    }
+    std::string kept;
+    kept.reserve(bytes);
+    for (auto line = first.base(); line != lines.end(); ++line) {
+        kept.append(*line).push_back('\n');
+    }
+    return kept;
+}
+
+std::string faults_in_order(std::string_view ring) {
+    std::vector<std::string_view> lines = lines_of(ring);
+    std::erase_if(lines, [](std::string_view line) { return trimmed(line).empty(); });
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](std::string_view a, std::string_view b) { return number_of(a) < number_of(b); });
+    std::string text;
+    for (const std::string_view line : lines) {
+        text.append(trimmed(line)).push_back('\n');
+    }
+    return text;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+// The new set is planned from the shown set and the packs of a stick. A newer pack replaces the older one
+// in its place, and a new artifact is appended.
+#include "app/library/set_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace frustumscreen {
+namespace {
+
+InstalledPack pack(const std::string& id, std::uint64_t serial) {
+    InstalledPack pack;
+    pack.id = id;
+    pack.serial = serial;
+    return pack;
+}
+
+TEST(RoomExample, Library) {
+    // example
+    InstalledSet shown;
+    shown.packs = {pack("cup", 1), pack("vase", 1)};
+    StickPack newer, other;
+    newer.pack = pack("cup", 2);
+    other.pack = pack("mask", 1);
+    const PlannedSet planned = plan_set(shown, std::array{newer, other}, {}, std::nullopt).value();
+    const std::vector<InstalledPack> expected{pack("cup", 2), pack("vase", 1), pack("mask", 1)};
+    EXPECT_EQ(planned.set.packs, expected);
+    EXPECT_TRUE(planned.removed.empty());
+    // end
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,26 @@
+// A pack is written to bytes and read back. A changed byte is found by the hashes.
+#include "app/pack/pack_file.h"
+#include "tests/pack/samples.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+TEST(RoomExample, Pack) {
+    // example
+    Pack pack = samples::pack();
+    pack.title = "A cup";
+    Bytes bytes = write_pack(pack).value();
+    const VerifiedPack read = verify_pack(bytes).value();
+    EXPECT_EQ(read->title, "A cup");
+    const Placement placement = place(*read, make_frustum({})); // a pack knows no prop's size
+    EXPECT_GT(placement.metres_per_box, 0.0);
+
+    bytes[bytes.size() / 2] ^= std::byte{1};
+    EXPECT_FALSE(verify_pack(bytes));
+    // end
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,27 @@
+// One step after the other loads the needed artifacts within a budget, and releases others if they do not
+// fit.
+#include "app/residency/residency.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace frustumscreen {
+namespace {
+
+TEST(RoomExample, Residency) {
+    // example
+    std::array<ResidentItem, 3> items{{{60, true, false, 1}, {30, true, false, 2}, {50, false, false, 0}}};
+    const std::array<std::size_t, 2> needed{2, 1}; // the third artifact is chosen, the second still shown
+    const std::uint64_t budget = 100;
+    EXPECT_EQ(next_step(items, needed, {}, budget),
+              (ResidencyStep{.release = 0, .load = {}})); // 60 + 30 + 50 > 100
+    items[0].loaded = false;
+    EXPECT_EQ(next_step(items, needed, {}, budget), (ResidencyStep{.release = {}, .load = 2}));
+    items[2].loaded = true;
+    EXPECT_EQ(next_step(items, needed, {}, budget), ResidencyStep{}); // nothing is left to do
+    // end
+}
+
+} // namespace
+} // namespace frustumscreen

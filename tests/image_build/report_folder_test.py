@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""The step that makes a folder for a report on a stick, without a machine: its own script, and a file system in memory that is mounted as a
+stick is, in a made-up /run. What the kernel says of the stick's device is written down here.
+
+report_folder_test.py [unittest's arguments]
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+OWN = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen"
+REQUEST = "frustumscreen-report.toml"
+# Another user's name for root, with mounts of its own. $1: the made-up folder; $2: what the stick holds, a shell's line.
+ENTER = """set -e
+cd "$1"
+mount -t tmpfs -o size=1m,nosuid,nodev none run/frustumscreen-stick/stick1
+(cd run/frustumscreen-stick/stick1 && eval "$2")
+mount -o remount,ro,nosuid,nodev,noexec run/frustumscreen-stick/stick1
+"$3" open stick1 && status=0 || status=$?
+echo "open $status"
+grep -E 'frustumscreen-(stick|report)' /proc/self/mounts | cut -d ' ' -f 2,4 | sed "s#$1/run/##" || true
+echo ---
+"""
+PLACES = ("frustumscreen-stick/", "frustumscreen-report/")
+FLAGS = "nosuid,nodev,noexec"
+
+
+def fat32(state=0):
+    """A boot sector as Microsoft's specification has it: no length of the table in 16 bits, the state at 65."""
+    sector = bytearray(512)
+    sector[36:38] = b"\xff\x01"
+    sector[65] = state
+    return bytes(sector)
+
+
+def fat16(state=0):
+    sector = bytearray(512)
+    sector[22:24] = b"\x10\x00"
+    sector[37] = state
+    sector[65] = 0xFF
+    return bytes(sector)
+
+
+def exfat(flags=0):
+    sector = bytearray(512)
+    sector[106:108] = flags.to_bytes(2, "little")
+    return bytes(sector)
+
+
+class ReportFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.top = pathlib.Path(temporary.name)
+        for folder in ("run/frustumscreen-stick/stick1", "run/frustumscreen-report", "run/frustumscreen-import", "sticks", "sys/class/block/sda1", "bin"):
+            (self.top / folder).mkdir(parents=True)
+        (self.top / "sticks/stick1").symlink_to(self.top / "sda1")
+        self.write("sys/class/block/sda1/ro", b"0\n")
+        self.stick("vfat", fat32())
+        self.write("bin/date", b"#!/bin/sh\necho 2031-05-04-120000\n")
+        (self.top / "bin/date").chmod(0o755)
+
+    def write(self, name, content):
+        (self.top / name).write_bytes(content)
+
+    def stick(self, kind, sector):
+        self.write("sda1", sector)
+        self.write("mounts", f"/dev/sda1 {self.top}/run/frustumscreen-stick/stick1 {kind} ro 0 0\n".encode())
+
+    def run_in(self, files, then="", **environment):
+        """The script's status, the lines of what is mounted, and what the commands behind it say."""
+        done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", ENTER + then, "sh", self.top, files, OWN / "report-folder"],
+                              capture_output=True, text=True, check=False, timeout=60,
+                              env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "REPORT_RUN": str(self.top / "run"),
+                                   "REPORT_STICKS": str(self.top / "sticks"), "REPORT_SYS": str(self.top / "sys"),
+                                   "REPORT_MOUNTS": str(self.top / "mounts"), **environment})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said, _, after = done.stdout.partition("---\n")
+        status = next(line for line in said.splitlines() if line.startswith("open "))
+        return int(status.split()[1]), [line for line in said.splitlines() if line.startswith(PLACES)], after
+
+    def told(self):
+        """(refusal, sentence) of what is left for the importer."""
+        outcome = self.top / "run/frustumscreen-import/stick-report-stick1.json"
+        if not outcome.exists():
+            return None
+        report = json.loads(outcome.read_text(encoding="ascii"))
+        self.assertEqual((report["import_id"], report["stage"]), ("stick1", "done"))
+        line, = report["packs"]
+        self.assertEqual((line["file"], line["outcome"]), (REQUEST, "not_written"))
+        self.assertNotIn("?", line["reason"])
+        return line["refusal"], line["reason"]
+
+    def assert_left_alone(self, status, mounted):
+        self.assertEqual(status, 1)
+        self.assertEqual([line.split()[0] for line in mounted], ["frustumscreen-stick/stick1"])
+        self.assertRegex(mounted[0], " ro,")
+
+    def test_the_new_folder_alone_can_be_written(self):
+        status, mounted, after = self.run_in(
+            f"touch {REQUEST}; echo mine >mine.txt",
+            """cd run
+touch frustumscreen-stick/stick1/no 2>/dev/null || echo stick read-only
+echo status >frustumscreen-report/stick1/status.txt
+cat frustumscreen-report/stick1.name
+"$3" close stick1
+find frustumscreen-report -mindepth 1
+cut -d ' ' -f 2,4 /proc/self/mounts | grep -F "$1" | sed "s#$1/run/##"
+cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt ./*/status.txt""")
+        self.assertEqual(status, 0)
+        self.assertEqual(sorted(line.split()[0] for line in mounted), ["frustumscreen-report/stick1", "frustumscreen-stick/stick1"])
+        for line in mounted:
+            self.assertIn(FLAGS, line)
+            self.assertRegex(line, " rw," if "report" in line else " ro,")
+        lines = after.splitlines()
+        self.assertEqual(lines[:2], ["stick read-only", "NAME=frustumscreen-report-2031-05-04-120000"])
+        self.assertEqual(len([line for line in lines if line.startswith(PLACES)]), 1, "something stays mounted, or a folder is left")
+        self.assertEqual(lines[-5:], ["./frustumscreen-report-2031-05-04-120000/status.txt", f"./{REQUEST}", "./mine.txt", "mine", "status"])
+        self.assertIsNone(self.told())
+
+    def test_a_folder_without_a_report_goes_again(self):
+        _, _, after = self.run_in(f"touch {REQUEST}", '"$3" close stick1; cd run/frustumscreen-stick/stick1 && ls; touch no 2>/dev/null || echo read-only')
+        self.assertEqual(after.split(), [REQUEST, "read-only"])
+
+    def test_the_same_second_again(self):
+        _, _, after = self.run_in(f"touch {REQUEST}; mkdir frustumscreen-report-2031-05-04-120000; touch frustumscreen-report-2031-05-04-120000-2",
+                                  "cat run/frustumscreen-report/stick1.name")
+        self.assertEqual(after.strip(), "NAME=frustumscreen-report-2031-05-04-120000-3")
+
+    def test_sticks_that_ask_for_nothing(self):
+        for files in ("true", f"mkdir {REQUEST}", f"ln -s mine {REQUEST}; touch mine", f"head -c 4097 /dev/zero >{REQUEST}", "touch frustumscreen-report.toml.txt"):
+            with self.subTest(files):
+                self.assert_left_alone(*self.run_in(files)[:2])
+                self.assertIsNone(self.told())
+
+    def test_a_request_that_is_full_to_its_limit(self):
+        self.assertEqual(self.run_in(f"head -c 4096 /dev/zero >{REQUEST}")[0], 0)
+
+    def test_other_file_systems(self):
+        for kind in ("fuseblk", "ext4"):
+            with self.subTest(kind):
+                self.stick(kind, fat32())
+                self.assert_left_alone(*self.run_in(f"touch {REQUEST}")[:2])
+                self.assertIn("FAT32 and exFAT alone", self.told()[1])
+
+    def test_write_protected(self):
+        self.write("sys/class/block/sda1/ro", b"1\n")
+        self.assert_left_alone(*self.run_in(f"touch {REQUEST}")[:2])
+        self.assertEqual(self.told()[0], "unwritable")
+        self.assertIn("write-protected", self.told()[1])
+
+    def test_not_removed_safely(self):
+        for kind, sector, clean in (("vfat", fat32(1), False), ("vfat", fat16(1), False), ("exfat", exfat(2), False), ("vfat", fat16(), True),
+                                    ("exfat", exfat(), True), ("exfat", exfat(1), True), ("vfat", fat32(2), True)):
+            with self.subTest(kind=kind, clean=clean):
+                self.stick(kind, sector)
+                status, mounted, _ = self.run_in(f"touch {REQUEST}")
+                if clean:
+                    self.assertEqual(status, 0)
+                else:
+                    self.assert_left_alone(status, mounted)
+                    self.assertIn("pulled out of a computer too early", self.told()[1])
+
+    def test_full(self):
+        # Of a tmpfs with few inodes nothing is left.
+        status, mounted, _ = self.run_in(f"touch {REQUEST}; mount -o remount,nr_inodes=2 .")
+        self.assert_left_alone(status, mounted)
+        self.assertEqual(self.told()[0], "no_room")
+
+    def test_it_does_not_become_writable(self):
+        self.write("bin/mount", b'#!/bin/sh\ncase $* in *remount,rw*) exit 32 ;; esac\nexec /usr/bin/mount "$@"\n')
+        (self.top / "bin/mount").chmod(0o755)
+        self.assert_left_alone(*self.run_in(f"touch {REQUEST}")[:2])
+        self.assertIn("cannot be written", self.told()[1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,140 @@
+// A report on a stick that is full, write-protected or pulled out at each operation: what has a name is whole, and one
+// sentence says what happened. The stick is a disk in memory that loses what was not synced.
+#include "app/report/write_report.h"
+#include "tests/library/volatile_disk.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <functional>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+using testing_disk::FaultPlan;
+using testing_disk::VolatileDisk;
+
+const std::vector<ReportFile>& report() {
+    static const std::vector<ReportFile> files{
+        {"version.txt", "1.2"}, {"status.txt", ""}, {"journal.txt", std::string(300'000, 'j') + "\n"}};
+    return files;
+}
+
+std::optional<std::string> text_of(const VolatileDisk& disk, const std::string& name) {
+    const auto content = disk.content(name);
+    return content ? std::optional(std::string(as_text(**content))) : std::nullopt;
+}
+
+/// How many files have their names; each of them is whole.
+int whole_files(const VolatileDisk& disk) {
+    int count = 0;
+    for (const ReportFile& file : report()) {
+        if (const std::optional<std::string> text = text_of(disk, file.name)) {
+            EXPECT_TRUE(*text == file.text) << file.name << " is cut: " << text->size();
+            ++count;
+        }
+    }
+    return count;
+}
+
+int operations_of_a_report() {
+    VolatileDisk disk;
+    EXPECT_TRUE(write_report(disk, report()));
+    return disk.operations;
+}
+
+void expect_one_line(const ImportFailure& failure) {
+    EXPECT_FALSE(failure.reason.empty());
+    EXPECT_EQ(failure.reason.find('\n'), std::string::npos);
+}
+
+TEST(WriteReport, OnceItIsWrittenNoPowerCutTakesIt) {
+    VolatileDisk disk;
+    ASSERT_TRUE(write_report(disk, report()));
+    const int states = disk.cut_power(100, 1, [](VolatileDisk& after) {
+        EXPECT_EQ(whole_files(after), 3);
+        EXPECT_FALSE(text_of(after, "frustumscreen.part"));
+    });
+    EXPECT_GE(states, 1);
+}
+
+TEST(WriteReport, PulledOutAtEachOperationWhatHasANameIsWhole) {
+    const int operations = operations_of_a_report();
+    ASSERT_GT(operations, 3 * 4);
+    for (int k = 0; k < operations; ++k) {
+        for (const int error : {ENODEV, EIO}) {
+            for (const bool done : {false, true}) {
+                VolatileDisk disk;
+                disk.plan.fail_from = k;
+                disk.plan.error = error;
+                disk.plan.done_all_the_same = done;
+                const tl::expected<void, ImportFailure> written = write_report(disk, report());
+                ASSERT_FALSE(written) << k;
+                EXPECT_EQ(written.error().refusal, ImportRefusal::Unreadable);
+                expect_one_line(written.error());
+                disk.cut_power(64, static_cast<unsigned>(k), [](VolatileDisk& after) { whole_files(after); });
+            }
+        }
+    }
+}
+
+TEST(WriteReport, KilledAtEachOperationWhatHasANameIsWhole) {
+    const int operations = operations_of_a_report();
+    for (int k = 0; k < operations; ++k) {
+        VolatileDisk disk;
+        disk.plan.stop_before = k;
+        EXPECT_THROW(static_cast<void>(write_report(disk, report())), testing_disk::Stopped);
+        disk.cut_power(64, static_cast<unsigned>(k), [](VolatileDisk& after) { whole_files(after); });
+    }
+}
+
+TEST(WriteReport, AFullStickGetsItsRoomBack) {
+    const int operations = operations_of_a_report();
+    for (int k = 2; k < operations; ++k) {
+        VolatileDisk disk;
+        disk.plan.fail_from = k;
+        disk.plan.fail_to = k + 1;
+        disk.plan.error = ENOSPC;
+        const tl::expected<void, ImportFailure> written = write_report(disk, report());
+        ASSERT_FALSE(written) << k;
+        EXPECT_EQ(written.error().refusal, ImportRefusal::NoRoom);
+        EXPECT_EQ(whole_files(disk), 0);
+        EXPECT_FALSE(text_of(disk, "frustumscreen.part"));
+    }
+}
+
+TEST(WriteReport, WithoutRoomNothingIsBegun) {
+    VolatileDisk disk;
+    disk.free = 300'000;
+    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().refusal, ImportRefusal::NoRoom);
+    EXPECT_NE(written.error().reason.find(" 2 MB"), std::string::npos) << written.error().reason;
+    EXPECT_TRUE(disk.list("", [](const FolderEntry& entry) {
+        ADD_FAILURE() << entry.name;
+        return true;
+    }));
+}
+
+TEST(WriteReport, AReadOnlyStickIsTold) {
+    VolatileDisk disk;
+    disk.plan.fail_from = 2; // it can be read
+    disk.plan.error = EROFS;
+    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().refusal, ImportRefusal::Unwritable);
+    expect_one_line(written.error());
+}
+
+TEST(WriteReport, AFolderWithFilesIsLeftAsItIs) {
+    VolatileDisk disk;
+    disk.put("status.txt", "mine");
+    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    ASSERT_FALSE(written);
+    EXPECT_EQ(text_of(disk, "status.txt"), "mine");
+    EXPECT_FALSE(text_of(disk, "version.txt"));
+}
+
+} // namespace
+} // namespace frustumscreen
