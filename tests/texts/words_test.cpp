@@ -105,7 +105,7 @@ TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so
         (*collected)[1].notes[0],
         "the language 'nl' has no text for advice.slide_left, advice.slide_left_a_little, "
         "advice.slide_right, "
-        "advice.slide_right_a_little, advice.slide_nearer and 95 more; there the exhibit speaks 'de': write "
+        "advice.slide_right_a_little, advice.slide_nearer and 97 more; there the exhibit speaks 'de': write "
         "them into nl.toml");
 }
 
