@@ -78,7 +78,7 @@ void touch_all(TouchProcedure& procedure) {
 
 /// A touch-up after the projector was bumped.
 Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std::filesystem::path& folder) {
-    TouchProcedure procedure(choose_touch_up_crosses(kept, shipped_crosses(7), 2), 7);
+    TouchProcedure procedure(TouchTask::TouchUp, choose_touch_up_crosses(kept, shipped_crosses(7), 2), 7);
     TRY_VOID(draw(procedure, means, folder / "touch_up_begin.png"));
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     TRY_VOID(draw(procedure, means, folder / "touch_up_cross.png"));
