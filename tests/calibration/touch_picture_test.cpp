@@ -93,6 +93,46 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
     }
 }
 
+/// White pixels that no arm explains, inside the prop's square or outside it.
+std::size_t word_pixels(const Image8& picture, const Cross& cross, double prop_px, bool inside) {
+    constexpr double line_px = 4.0;
+    std::size_t count = 0;
+    for (int v = 0; v < picture.height; ++v) {
+        for (int u = 0; u < picture.width; ++u) {
+            const glm::u8vec4& colour = picture.at(u, v);
+            const glm::dvec2 from = glm::abs(glm::dvec2(u + 0.5, v + 0.5) - cross.pixel);
+            const bool is_arm = std::fmin(from.x, from.y) < line_px;
+            const bool is_circle = std::fmax(from.x, from.y) < 2.0 * picture.width / 160.0;
+            const bool is_inside = std::fmax(from.x, from.y) < 0.5 * prop_px - line_px;
+            count += colour.b > 200 && !is_arm && !is_circle && is_inside == inside ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+/// The prop hides none of them, wherever it stands on the shipped table.
+TEST(TouchPicture, NoWordStandsWhereThePropDoes) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
+    CrossSetup setup;
+    setup.count = 15;
+    setup.reach_m = reach_of({0.8, 0.5}, 0.3);
+    int looked_at = 0;
+    const auto look = [&](const TouchProcedure& procedure) {
+        if (procedure.stage() == CalibrationStage::Place) {
+            const Image8 picture = table_picture(
+                procedure, {.width = width, .height = height, .prop_px = prop_px, .typesetter = *typesetter});
+            EXPECT_EQ(word_pixels(picture, procedure.cross(), prop_px, true), 0U) << procedure.at();
+            EXPECT_GT(word_pixels(picture, procedure.cross(), prop_px, false), 500U) << procedure.at();
+            ++looked_at;
+        }
+    };
+    walk(TouchProcedure(choose_crosses(rough_model(projector(), 1.5, 0.08), setup)),
+         {Verdict::Good, {}, {}, {}, false}, look);
+    EXPECT_GE(looked_at, 15);
+}
+
 TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
     TouchUp found;
     found.verdict = Verdict::Good;

@@ -165,6 +165,30 @@ double prop_px_at(const Cross& cross, const TableDrawing& with) {
                                         : with.prop_px;
 }
 
+/// Where the words stand, from left to right.
+struct WordsColumn {
+    double middle, width;
+};
+
+WordsColumn middle_column(double width) {
+    return {0.5 * width, 0.6 * width};
+}
+
+/// The wider of the columns beside the prop's square; the middle of the picture where both are too narrow.
+WordsColumn column_beside(const Cross& cross, const TableDrawing& with, double unit) {
+    constexpr double min_share = 0.2; // of the picture's width
+    const double reach = 0.5 * prop_px_at(cross, with) + 3.0 * unit;
+    const double left_room = cross.pixel.x - reach - 3.0 * unit;
+    const double right_room = with.width - 3.0 * unit - (cross.pixel.x + reach);
+    const double room = std::min(std::max(left_room, right_room), 0.6 * with.width);
+    if (room < min_share * with.width) {
+        return middle_column(with.width);
+    }
+    const double middle =
+        right_room >= left_room ? cross.pixel.x + reach + 0.5 * room : cross.pixel.x - reach - 0.5 * room;
+    return {middle, room};
+}
+
 std::string what_moved(Moved moved) {
     switch (moved) {
     case Moved::Projector:
@@ -243,14 +267,18 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     if (has_cross) {
         draw_cross(canvas, procedure, unit, prop_px_at(procedure.cross(), with));
     }
-    // The words are in the half of the picture without the cross, so that the prop hides none of them.
+    // The words are in the half of the picture without the cross, beside the prop's square: the prop hides none of them, and no arm
+    // runs through them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
+    const WordsColumn column =
+        has_cross ? column_beside(procedure.cross(), with, unit) : middle_column(width);
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
-        above(house_sentence(with.house, words.key, 0.6 * width),
-              with.typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
+        above(house_sentence(with.house, words.key, column.width),
+              with.typesetter.set(paragraphs_of(words.lines, unit), column.width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
-    canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
+    const double left = column.middle - 0.5 * coverage.width;
+    canvas.coverage(coverage, {static_cast<int>(left), static_cast<int>(std::max(top, unit))},
                     procedure.word() == TouchPrompt::Taken || procedure.word() == TouchPrompt::None
                         ? TableColours::white
                         : TableColours::front);
