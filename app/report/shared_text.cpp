@@ -3,6 +3,7 @@
 #include "firmware_host/base/trimmed.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <utility>
@@ -22,10 +23,13 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     return lines;
 }
 
-/// "SerialNumber: " is the kernel's own, "dev-disk-by" of udev's names for disks, which have serials and labels.
+/// The kernel's line of a serial number, and the service manager's lines of device units: their names and descriptions
+/// have serial numbers and labels.
 bool names_a_device(std::string_view line) {
-    return line.find("SerialNumber: ") != std::string_view::npos ||
-           line.find("dev-disk-by") != std::string_view::npos;
+    constexpr std::array<std::string_view, 4> marks{"SerialNumber: ", "dev-disk-by", ".device - ",
+                                                    ".device: "};
+    return std::any_of(marks.begin(), marks.end(),
+                       [&](std::string_view mark) { return line.find(mark) != std::string_view::npos; });
 }
 
 std::uint64_t number_of(std::string_view line) {

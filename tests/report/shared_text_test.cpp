@@ -14,6 +14,8 @@ TEST(SharedText, TheJournalLosesSerialNumbersAndLabelsAlone) {
         "2031-05-04T10:00:00+0000 kernel: usb 1-2: Product: Ultra\n"
         "2031-05-04T10:00:00+0000 kernel: usb 1-2: SerialNumber: 4C531001440704122334\n"
         "2031-05-04T10:00:01+0000 systemd[1]: dev-disk-by\\x2dlabel-ANNA.device: Job timed out.\n"
+        "2031-05-04T10:00:01+0000 systemd[1]: Condition check resulted in dev-sda.device - Ultra ANNA being "
+        "skipped.\n"
         "2031-05-04T10:00:02+0000 frustumscreen[300]: stick: one is there; it is looked through\n";
     const std::string shared = shared_journal(journal, 1000);
     EXPECT_EQ(shared.find("4C531001440704122334"), std::string::npos);
