@@ -5,6 +5,7 @@
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/report/report_files.h"
+#include "app/programs/frustumscreen/status/status_places.h"
 #include "app/report/write_report.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
@@ -43,13 +44,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--counts", places.counts, "folder of the visits' numbers").capture_default_str();
     app.add_option("--faults", places.faults, "the watchdog's ring of faults").capture_default_str();
     app.add_option("--journal", places.journal, "folder of the journal; else this machine's own");
-    app.add_option("--status-file", places.status.status_file, "the exhibit's status").capture_default_str();
-    app.add_option("--watchdog-file", places.status.watchdog_file, "its watchdog's status")
-        .capture_default_str();
-    app.add_option("--boot-folder", places.status.boot_folder, "what the start of an appliance has left")
-        .capture_default_str();
-    app.add_option("--crash-folder", places.status.crash_folder, "what the last crashes have left")
-        .capture_default_str();
+    add_status_places(app, places.status);
     app.add_option("--name", request.name, "the folder's name on the stick, for --outcome");
     app.add_option("--outcome", request.outcome, "file that says what came of it, for frustumscreen-import");
     const CommandOption id = app.add_option("--id", request.id, "name of the stick's import");

@@ -3,6 +3,7 @@
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/staff_service.h"
+#include "app/programs/frustumscreen/status/status_places.h"
 #include "app/status/exhibit_verdict.h"
 #include "app/status/prometheus_text.h"
 #include "app/status/status_document.h"
@@ -37,13 +38,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
     app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
     app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
-    app.add_option("--status-file", request.places.status_file, "the exhibit's status").capture_default_str();
-    app.add_option("--watchdog-file", request.places.watchdog_file, "its watchdog's status")
-        .capture_default_str();
-    app.add_option("--boot-folder", request.places.boot_folder, "what the start of an appliance has left")
-        .capture_default_str();
-    app.add_option("--crash-folder", request.places.crash_folder, "what the last crashes have left")
-        .capture_default_str();
+    add_status_places(app, request.places);
     app.add_option("--data-folder", request.places.data_folder, "on the disk with the packs")
         .capture_default_str();
     app.add_option("--root", request.places.root, "the folder that has sys: another one for a test")

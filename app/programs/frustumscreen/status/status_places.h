@@ -1,0 +1,21 @@
+/// The options that say where the status of an exhibit is read, for each command that reads it.
+///
+/// Threads  the main one.
+#pragma once
+
+#include "app/programs/common/command_line.h"
+#include "app/status/known_exhibit.h"
+
+namespace frustumscreen {
+
+/// The defaults are those of `places`.
+inline void add_status_places(CommandLine& app, StatusPlaces& places) {
+    app.add_option("--status-file", places.status_file, "the exhibit's status").capture_default_str();
+    app.add_option("--watchdog-file", places.watchdog_file, "its watchdog's status").capture_default_str();
+    app.add_option("--boot-folder", places.boot_folder, "what the start of an appliance has left")
+        .capture_default_str();
+    app.add_option("--crash-folder", places.crash_folder, "what the last crashes have left")
+        .capture_default_str();
+}
+
+} // namespace frustumscreen
