@@ -7,26 +7,23 @@ namespace frustumscreen {
 
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
-    : catalogue_(std::move(catalogue)), place_(place), house_language_(language),
-      selection_(make_selection(catalogue_, language, now)), ready_(catalogue_.size(), ArtifactState::Ready),
-      offered_(catalogue_.size(), true), staff_(place.staff_stays), state_since_(now),
-      next_turn_(now + turn_time),
-      guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
-      sentences_(place.words, place.picture_m), table_(lay_out_catalogue(catalogue_, place)),
-      placer_(place.picture_m), labels_(place.picture_m) {}
+    : place_(place), house_language_(language), catalogue_(std::move(catalogue)),
+      selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
+      next_turn_(now + turn_time), table_(lay_out_catalogue(catalogue_.all(), place)),
+      caption_(place.picture_m), labels_(place.picture_m), guide_(place.guidance),
+      advice_(place.words, place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
                            const TrackedState& tracked_state) {
     const bool pressed =
         std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
     // A visitor who is being told something is present, even without moving.
-    const bool narration_sequencer = tells();
-    there_ = presence_.update(now, tracked_state, pressed || narration_sequencer);
+    presence_.update(now, tracked_state, pressed || tells());
     const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
     if (rests && state_ != State::Staff && state_ != State::Attract) {
         rest(now);
     }
-    go_to(next(state_, rests ? Event::Rest : Event::VisitorComes), now);
+    go_to(next(state_, rests ? Event::Rest : Event::VisitorComes));
     offer_what_can_be_shown(now);
     for (const Command command : commands) {
         take(command, now);
@@ -38,8 +35,8 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     const Stand stand =
         attract_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
     side_.update(tracked_state.eye_m);
-    go_to(state_after(state_, observe(now, tracked_state, stand)), now);
-    follow_set(now);
+    go_to(state_after(state_, observe(now, tracked_state, stand)));
+    set_change_.step(now, moment_for_set(now));
     if (state_ == State::Attract && now >= next_turn_ && !leaves_set()) {
         selection_.choose(selection_.next(), now);
         next_turn_ = now + turn_time;
@@ -47,36 +44,13 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     return present(now, tracked_state, stand, pressed);
 }
 
-void Exhibit::note(std::span<const ArtifactState> states) {
-    std::copy_n(states.begin(), std::min(states.size(), ready_.size()), ready_.begin());
-}
-
-void Exhibit::note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
-    if (artifact >= catalogue_.size()) {
-        return;
-    }
-    if (artifact != triangles_of_) {
-        catalogue_[triangles_of_].hotspots.triangles = {};
-    }
-    triangles_of_ = artifact;
-    catalogue_[artifact].hotspots.triangles = std::move(triangles);
-}
-
 void Exhibit::offer_what_can_be_shown(MonotonicTime now) {
-    for (std::size_t artifact = 0; artifact < ready_.size(); ++artifact) {
-        const bool offered = ready_[artifact] != ArtifactState::LeftOut;
-        if (offered != offered_[artifact]) {
-            offered_[artifact] = offered;
-            selection_.offer(artifact, offered, now);
-            if (table_) {
-                table_->offer(artifact, offered);
-            }
+    while (const std::optional<ShownCatalogue::Offer> offer = catalogue_.next_offer()) {
+        selection_.offer(offer->artifact, offer->offered, now);
+        if (table_) {
+            table_->offer(offer->artifact, offer->offered);
         }
     }
-}
-
-bool Exhibit::ready(std::size_t artifact) const {
-    return artifact < ready_.size() && ready_[artifact] == ArtifactState::Ready;
 }
 
 void Exhibit::take(Command command, MonotonicTime now) {
@@ -85,26 +59,26 @@ void Exhibit::take(Command command, MonotonicTime now) {
         return;
     }
     if (is_hold(command)) {
-        take_hold(command == Command::HoldFirst, now);
+        if (state_ == State::Staff) {
+            staff_.hold(command == Command::HoldFirst, now);
+        }
         return;
     }
     const bool counts = state_ != State::Staff;
-    selected_.at(static_cast<std::size_t>(button_of(command))) = counts;
+    presses_.take(command, counts);
     if (counts) {
         selection_.take(command, now);
-        choose_ = choose_ || command == Command::Choose;
-        help_ = help_ || command == Command::Help;
     } else {
         staff_.press(static_cast<std::size_t>(button_of(command)), now);
     }
-    go_to(next(state_, Event::Press), now);
+    go_to(next(state_, Event::Press));
 }
 
 /// Undoes the presses of the first and the last button, with which the chord began, and switches the staff's
 /// mode.
 void Exhibit::take_chord(MonotonicTime now) {
     for (const std::size_t button : {std::size_t{0}, place_.buttons - 1}) {
-        if (button < selected_.size() && std::exchange(selected_[button], false)) {
+        if (presses_.undo(button)) {
             selection_.undo(button_commands[button], now);
         }
     }
@@ -113,39 +87,29 @@ void Exhibit::take_chord(MonotonicTime now) {
     } else {
         staff_.begin(now);
     }
-    go_to(next(state_, Event::Chord), now);
+    go_to(next(state_, Event::Chord));
 }
 
-void Exhibit::take_hold(bool first, MonotonicTime now) {
-    if (state_ == State::Staff) {
-        staff_.hold(first, now);
-    }
-}
-
-void Exhibit::go_to(State state, MonotonicTime now) {
+void Exhibit::go_to(State state) {
     if (state != state_) {
         state_before_ = std::exchange(state_, state);
-        state_since_ = now;
     }
 }
 
 void Exhibit::rest(MonotonicTime now) {
     selection_.reset_language(now);
-    sensed_.forget();
-    if (guide_) {
-        guide_->forget();
-    }
+    guide_.forget_visitor();
     next_turn_ = now + turn_time;
 }
 
 Observed Exhibit::observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand) {
     Observed seen;
-    seen.nothing_to_show = std::find(offered_.begin(), offered_.end(), true) == offered_.end();
+    seen.nothing_to_show = !catalogue_.offers_something();
     seen.tracker_lost = attract_->lost();
     step_table(now, tracked_state, stand, seen);
-    guidance_ = step_guide(now, tracked_state, stand);
+    step_guide(now, tracked_state, stand);
     seen.narration_sequencer = tells();
-    seen.advice_due = guidance_ != nullptr;
+    seen.advice_due = guide_.guidance() != nullptr;
     return seen;
 }
 
@@ -155,14 +119,11 @@ void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, c
     if (!table_) {
         return;
     }
-    TableBrowser::Input input{selection_.artifact(),
-                              side_.quarter_turns(),
-                              stand_hides(place_.prop, stand, place_.lens_m),
-                              std::nullopt,
-                              choose_,
-                              std::nullopt};
-    if (sign_) {
-        input.sign = hull_of({}, sign_->corners_m);
+    TableBrowser::Input input{
+        selection_.artifact(), side_.quarter_turns(), stand_hides(place_.prop, stand, place_.lens_m),
+        std::nullopt,          presses_.choose(),     std::nullopt};
+    if (advice_.sign()) {
+        input.sign = hull_of({}, advice_.sign()->corners_m);
     }
     if (tracked_state.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, tracked_state.table_from_prop);
@@ -173,54 +134,26 @@ void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, c
     if (chosen && state_ != State::Attract) { // in Attract, no visitor has chosen it
         selection_.choose(*chosen, now);
     }
-    choose_ = choose_ && !table_->chose();
-    placer_.set_obstacles(table_->obstacles());
-    sentences_.set_obstacles(table_->obstacles());
+    if (table_->chose()) {
+        presses_.end_choose();
+    }
+    caption_.set_obstacles(table_->obstacles());
+    advice_.set_obstacles(table_->obstacles());
 }
 
-const Guidance* Exhibit::step_guide(MonotonicTime now, const TrackedState& tracked_state,
-                                    const Stand& stand) {
-    const bool lost = attract_->lost();
-    answer_comes_ = false;
-    const Sensing sensing = sensed_.update(now, tracked_state, lost, presence_.touched());
-    const bool on_way = sensing == Sensing::Good && is_on_way_to_picture(now);
-    const bool can_be_guided = lost || (tracked_state.prop_known && !stand.attracts);
-    if (!guide_ || !there_ || !can_be_guided || state_ == State::Attract || state_ == State::Staff) {
-        return nullptr;
-    }
-    if (table_ && table_->prop_is_on_picture()) {
-        guide_->rest(now); // a prop that chooses a picture needs no advice
-        return nullptr;
-    }
-    const std::size_t shown = selection_.at(now).artifact;
-    guide_->show(shown < catalogue_.size() ? std::span<const glm::dvec3>(catalogue_[shown].hull)
-                                           : std::span<const glm::dvec3>());
-    if (help_) {
-        guide_->ask();
-    } else if (on_way) {
-        guide_->rest(now);
-        return nullptr;
-    }
-    // A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
-    const bool may_speak =
-        (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
-    const Guidance& guidance =
-        guide_->step(now, {tracked_state.table_from_prop, tracked_state.eye_m}, sensing, may_speak);
-    answer_comes_ = help_ && guide_->answers();
-    return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
-}
-
-/// True while the prop slides between pictures, on the way to one and back: new advice waits until the prop stands,
-/// or has been moving for long.
-bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
-    constexpr Nanoseconds longest_way = std::chrono::seconds(4);
-    if (!presence_.prop_moves(now)) {
-        way_since_.reset();
-        return false;
-    }
-    way_since_ = way_since_ ? way_since_ : now;
-    const bool pictures = table_ && table_->presented().count > 0;
-    return pictures && guidance_ == nullptr && now - *way_since_ < longest_way;
+/// A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
+void Exhibit::step_guide(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand) {
+    const bool help = presses_.help();
+    const bool narrates = state_ == State::Browse || state_ == State::Describe;
+    guide_.step(now, {.tracked_state = tracked_state,
+                      .stand = stand,
+                      .presence = presence_,
+                      .lost = attract_->lost(),
+                      .permitted = state_ != State::Attract && state_ != State::Staff,
+                      .help = help,
+                      .may_speak = (!advice_.speaking() && !narrates) || (help && tells()),
+                      .table = table_ ? &*table_ : nullptr,
+                      .hull = catalogue_.hull(selection_.at(now).artifact)});
 }
 
 bool Exhibit::tells() const {
@@ -228,11 +161,8 @@ bool Exhibit::tells() const {
 }
 
 void Exhibit::hear(bool speaking, const SpeechProgress& narration) {
-    if (speaking_ && !speaking) {
-        spoken_.reset();
-    }
-    speaking_ = speaking;
-    narration_ = narration;
+    advice_.hear(speaking);
+    narrator_.hear(narration);
 }
 
 } // namespace frustumscreen

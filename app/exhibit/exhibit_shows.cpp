@@ -20,9 +20,8 @@ Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_sta
     presentation.placeholder = comes.picture;
     presentation.wanted = wanted();
     presentation.wanted_language = selection_.language();
-    presentation.language = language_of(shown.artifact);
-    present_words(now, tracked_state, stand, presentation);
-    sign_ = presentation.sign;
+    presentation.language = catalogue_.language(shown.artifact, selection_.language());
+    advise(now, tracked_state, stand, presentation);
     tell(now, tracked_state, shown, stand, pressed, presentation);
     presentation.caption = caption(now, shown, tracked_state, stand);
     if (presentation.caption && presentation.advice) {
@@ -35,12 +34,12 @@ Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_sta
     presentation.title_brightness = shown.language_brightness;
     // Table pictures invite the prop out of the zone, and the zone's frame would cross them.
     const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
-    const ZoneFrame& zone = zone_of(shown.artifact);
+    const ZoneFrame& zone = catalogue_.zone(shown.artifact, place_.zone);
     presentation.zone_sides = zone.sides();
     presentation.zone_share = framed ? zone.share(stand.table_from_prop) * stand.brightness : 0.0;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
-    const double opacity = placer_.at(now).opacity;
+    const double opacity = caption_.opacity(now);
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
                            !comes.waits && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
@@ -55,14 +54,9 @@ Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_sta
     return presentation;
 }
 
-const ZoneFrame& Exhibit::zone_of(std::size_t artifact) const {
-    const bool has_own = artifact < catalogue_.size() && catalogue_[artifact].zone;
-    return has_own ? *catalogue_[artifact].zone : place_.zone;
-}
-
 WantedArtifacts Exhibit::wanted() const {
     WantedArtifacts wanted;
-    if (catalogue_.empty()) {
+    if (catalogue_.all().empty()) {
         return wanted;
     }
     wanted.add(selection_.artifact());
@@ -95,13 +89,16 @@ TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_
 } // namespace
 
 Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, const Stand& stand) {
-    if (catalogue_.empty()) {
+    if (catalogue_.all().empty()) {
         return {0.0, std::nullopt, false};
     }
     const std::size_t chosen = selection_.artifact();
-    Placeholder::Input input{
-        shown,         chosen,       ready(shown.artifact),
-        ready(chosen), std::nullopt, place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
+    Placeholder::Input input{shown,
+                             chosen,
+                             catalogue_.ready(shown.artifact),
+                             catalogue_.ready(chosen),
+                             std::nullopt,
+                             place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
     if (table_) {
         for (const PlacedPicture& picture : table_->presented().pictures()) {
             if (picture.artifact == chosen) {
@@ -121,34 +118,16 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
                                                  const TrackedState& tracked_state, const Stand& stand) {
-    if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
+    const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
+    if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
     }
-    const CatalogueEntry& entry = catalogue_[shown.artifact];
-    const std::size_t language = caption_for(shown.language, entry.languages);
-    const CaptionText text = narrator_.text();
-    const std::vector<glm::dvec2>& sizes =
-        text.portion ? entry.descriptions[language].largest_m : entry.caption_sizes_m[language];
-    if (placed_ != &sizes) {
-        placed_ = &sizes;
-        placer_.set_shapes(sizes);
-    }
-    const RigidTransform& pose = stand.table_from_prop;
-    placer_.update(now, stand_hides(place_.prop, stand, place_.lens_m),
-                   stand_hides(place_.prop, stand, tracked_state.eye_m), glm::dvec2(pose.translation),
-                   side_.quarter_turns());
-    const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * (shown.caption_brightness * stand.brightness) * text.brightness;
-    if (brightness <= 0.0) {
-        return std::nullopt;
-    }
-    PresentedCaption caption{language, place.shape, place.rectangle, brightness, text.portion};
-    if (text.portion) {
-        const DescriptionShape& description = entry.descriptions[language];
-        caption.rectangle = portion_place(place.rectangle, description.sizes_m[*text.portion][place.shape],
-                                          description.flush_right);
-    }
-    return caption;
+    return caption_.step(
+        now, {.entry = *entry,
+              .language = caption_for(shown.language, entry->languages),
+              .text = narrator_.text(),
+              .light = shown.caption_brightness * stand.brightness,
+              .environment = environment_of(place_, stand, tracked_state.eye_m, side_.quarter_turns())});
 }
 
 /// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
@@ -156,10 +135,10 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
                                                const TrackedState& tracked_state, const Stand& stand,
                                                const Presentation& presentation) {
-    if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
+    const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
+    if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
     }
-    const CatalogueEntry& entry = catalogue_[shown.artifact];
     std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = 0;
     for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
@@ -170,46 +149,33 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     }
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     return labels_.step(
-        now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : presentation.tells_of,
-              caption_for(shown.language, entry.languages),
+        now, {&entry->hotspots, shown.artifact, stand.attracts ? std::nullopt : presentation.tells_of,
+              caption_for(shown.language, entry->languages),
               shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
               stand.table_from_prop, tracked_state.eye_m, place_.lens_m, std::span(obstacles).first(count),
               presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
               side_.quarter_turns()});
 }
 
-DescriptionIndex Exhibit::description_of(std::size_t artifact, std::string_view language) const {
-    const bool named = artifact < catalogue_.size() && !catalogue_[artifact].languages.empty();
-    return {artifact, named ? caption_for(language, catalogue_[artifact].languages) : 0};
-}
-
-const Tellable* Exhibit::tellable(const DescriptionIndex& description) const {
-    if (description.artifact >= catalogue_.size()) {
-        return nullptr;
-    }
-    const std::vector<Tellable>& tellables = catalogue_[description.artifact].tellables;
-    return description.language < tellables.size() && tellables[description.language].count() > 0
-               ? &tellables[description.language]
-               : nullptr;
-}
-
 void Exhibit::tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown,
                    const Stand& stand, bool pressed, Presentation& presentation) {
     NarratorInput input;
-    input.subject = description_of(selection_.artifact(), selection_.language());
-    input.visible = description_of(shown.artifact, shown.language);
-    input.tellable = note_of(state_).artifact && !leaves_set() ? tellable(input.subject) : nullptr;
+    input.subject = catalogue_.description(selection_.artifact(), selection_.language());
+    input.visible = catalogue_.description(shown.artifact, shown.language);
+    input.tellable = note_of(state_).artifact && !leaves_set() ? catalogue_.tellable(input.subject) : nullptr;
     input.fades = shown.changing || stand.changing || leaves_set();
     input.attracts = stand.attracts;
-    input.there = there_ && state_ != State::Attract;
+    input.there = presence_.is_there() && state_ != State::Attract;
     input.pressed = pressed;
-    input.next = std::exchange(choose_, false);
-    input.help = help_ && !answer_comes_;
-    help_ = answer_comes_;
-    input.text_has_place = placer_.at(now).opacity > 0.0;
-    input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;
-    input.narration = narration_;
+    input.next = presses_.choose();
+    input.help = presses_.help() && !guide_.answers();
+    input.text_has_place = caption_.opacity(now) > 0.0;
+    input.stage = guide_.guidance() != nullptr ? guide_.guidance()->stage : GuidanceStage::Quiet;
     const Told& told = narrator_.step(now, tracked_state, input);
+    presses_.end_choose();
+    if (!guide_.answers()) {
+        presses_.end_help();
+    }
     presentation.tells_of = told.hotspot;
     presentation.leaves = told.leaves;
     if (told.speaks) {
@@ -225,14 +191,16 @@ std::optional<WordIndex> Exhibit::word() const {
     if (leaves_set()) {
         return std::nullopt; // another set has other texts
     }
+    const std::string& language = selection_.language();
+    const Guidance* const guidance = guide_.guidance();
     switch (note_of(state_).words) {
     case Words::Invitation:
-        return sentences_.find("attract_line", selection_.language());
+        return advice_.find("attract_line", language);
     case Words::Fault:
-        return sentences_.find("fault.no_artifact", selection_.language());
+        return advice_.find("fault.no_artifact", language);
     case Words::Advice: // from the stage at which advice has words
-        return guidance_ != nullptr && guidance_->stage >= GuidanceStage::Text
-                   ? sentences_.find(words_key(*guidance_), selection_.language())
+        return guidance != nullptr && guidance->stage >= GuidanceStage::Text
+                   ? advice_.find(words_key(*guidance), language)
                    : std::nullopt;
     case Words::NarrationSequencer:
     case Words::None:
@@ -241,54 +209,23 @@ std::optional<WordIndex> Exhibit::word() const {
     return std::nullopt;
 }
 
-void Exhibit::present_words(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
-                            Presentation& presentation) {
-    const StateNote& note = note_of(state_);
-    const std::optional<WordIndex> wanted = word();
-    const bool signs = note.sign && guidance_ != nullptr;
-    SentenceEnvironment environment;
-    if (signs || wanted || sentences_.busy()) {
-        const RigidTransform& pose = stand.table_from_prop;
-        environment = {stand_hides(place_.prop, stand, place_.lens_m),
-                       stand_hides(place_.prop, stand, tracked_state.eye_m), glm::dvec2(pose.translation),
-                       side_.quarter_turns()};
+void Exhibit::advise(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
+                     Presentation& presentation) {
+    const Guidance* const guidance = guide_.guidance();
+    const AdvicePresenter::Output advice = advice_.step(now, {.note = note_of(state_),
+                                                              .guidance = guidance,
+                                                              .word = word(),
+                                                              .place = place_,
+                                                              .stand = stand,
+                                                              .eye_m = tracked_state.eye_m,
+                                                              .quarter_turns = side_.quarter_turns()});
+    presentation.sign = advice_.sign();
+    presentation.advice = advice.words;
+    presentation.says = advice.says;
+    presentation.falls_silent = advice.falls_silent;
+    if (guidance != nullptr && !leaves_set()) {
+        presentation.prepares_word = advice_.find(words_key(*guidance), selection_.language());
     }
-    if (signs && environment.around) {
-        presentation.sign =
-            place_sign(*guidance_, now, *environment.around, place_.picture_m, side_.quarter_turns());
-        if (presentation.sign) {
-            environment.around = hull_of(*environment.around, presentation.sign->corners_m);
-        }
-    }
-    presentation.advice = sentences_.place(now, wanted, environment);
-    if (guidance_ != nullptr && !leaves_set()) {
-        presentation.prepares_word = sentences_.find(words_key(*guidance_), selection_.language());
-    }
-    speak(now, wanted, presentation);
-}
-
-/// Speech waits until its words are visible on the table.
-void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation) {
-    if (spoken_ && spoken_ != word) {
-        spoken_.reset();
-        presentation.falls_silent = true;
-    }
-    speech_due_ = guidance_ != nullptr &&
-                  (guidance_->speak || (speech_due_ && guidance_->stage == GuidanceStage::Voice));
-    if (speech_due_ && word && note_of(state_).voice && sentences_.shows(now, *word)) {
-        presentation.says = word;
-        spoken_ = word;
-        speech_due_ = false;
-    }
-}
-
-/// The language of the artifact's caption; without captions, the chosen language.
-std::string_view Exhibit::language_of(std::size_t artifact) const {
-    if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
-        return selection_.language();
-    }
-    const std::vector<std::string>& languages = catalogue_[artifact].languages;
-    return languages[caption_for(selection_.language(), languages)];
 }
 
 std::uint32_t Exhibit::lamps() const {
@@ -299,9 +236,10 @@ std::uint32_t Exhibit::lamps() const {
     for (std::size_t button = 0; button < button_commands.size(); ++button) {
         lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
     }
-    const Tellable* const told = tellable(description_of(selection_.artifact(), selection_.language()));
+    const Tellable* const told =
+        catalogue_.tellable(catalogue_.description(selection_.artifact(), selection_.language()));
     const bool rests_on_picture = table_ && table_->presented().ring;
-    const bool helps = guidance_ != nullptr || (told != nullptr && !told->portions.empty());
+    const bool helps = guide_.guidance() != nullptr || (told != nullptr && !told->portions.empty());
     const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
     lamps |= tells || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
     lamps |= helps ? 1U << button_of(Command::Help) : 0U;

@@ -21,7 +21,7 @@ const Told& Narrator::step(MonotonicTime now, const TrackedState& tracked_state,
     narration_sequencer.describe = input.help && !has_advice;
     narration_sequencer.gives_way = gives_way(now, tracked_state, input);
     narration_sequencer.stops = (input.help && has_advice) || is_unread(now, input);
-    narration_sequencer.narration = input.narration;
+    narration_sequencer.narration = narration_;
     told_ = narration_sequencer_.step(now, narration_sequencer);
     follow_text(now, input);
     return told_;

@@ -35,7 +35,6 @@ struct NarratorInput {
     bool help = false;                  ///< help is requested
     bool text_has_place = true;         ///< the caption is visible, or fades
     GuidanceStage stage = GuidanceStage::Quiet;
-    SpeechProgress narration;
 };
 
 /// The text of the caption.
@@ -50,6 +49,8 @@ public:
     /// A shorter loss of prop or head is a tracker's dropout, not a visitor who leaves.
     static constexpr Nanoseconds lost = std::chrono::seconds(1);
 
+    /// Playback of the description being told; Silent before the first call.
+    void hear(const SpeechProgress& narration) { narration_ = narration; }
     const Told& step(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input);
     [[nodiscard]] const Told& told() const { return told_; }
     [[nodiscard]] CaptionText text() const;
@@ -61,6 +62,7 @@ private:
     void follow_text(MonotonicTime now, const NarratorInput& input);
 
     NarrationSequencer narration_sequencer_;
+    SpeechProgress narration_;
     Told told_;
     Stillness stillness_;
     GuidanceStage stage_ = GuidanceStage::Quiet; ///< in the previous step

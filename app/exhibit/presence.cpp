@@ -28,7 +28,8 @@ bool Presence::update(MonotonicTime now, const TrackedState& tracked_state, bool
     moved_ = moved || active ? now : moved_;
     prop_moved_ = prop ? now : prop_moved_;
     touched_ = prop || active ? now : touched_;
-    return moved_ && now - *moved_ < stays;
+    there_ = moved_ && now - *moved_ < stays;
+    return there_;
 }
 
 } // namespace frustumscreen

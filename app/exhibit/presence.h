@@ -23,6 +23,8 @@ public:
 
     /// `active`: a button was pressed, or narration is heard. Returns true if a visitor is present.
     bool update(MonotonicTime now, const TrackedState& tracked_state, bool active);
+    /// True if a visitor was present at the latest update.
+    [[nodiscard]] bool is_there() const { return there_; }
     /// True if no visitor has been present for `rest`, or ever.
     [[nodiscard]] bool rests(MonotonicTime now, Nanoseconds rest) const {
         return !moved_ || now - *moved_ >= rest;
@@ -39,6 +41,7 @@ private:
     std::optional<MonotonicTime> moved_;
     std::optional<MonotonicTime> touched_;
     std::optional<MonotonicTime> prop_moved_;
+    bool there_ = false;
 };
 
 } // namespace frustumscreen

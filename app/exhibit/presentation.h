@@ -1,0 +1,89 @@
+/// What the exhibit shows in one step, as plain values: the code that draws, lights lamps or speaks needs nothing else.
+///
+/// Frames   table T, metres.
+/// Threads  values; any.
+#pragma once
+
+#include "app/exhibit/advice_sign.h"
+#include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/narration_sequencer.h"
+#include "app/exhibit/notice_place.h"
+#include "app/exhibit/placeholder.h"
+#include "app/exhibit/sentences.h"
+#include "app/exhibit/staff_tool.h"
+#include "app/exhibit/states.h"
+#include "app/exhibit/table_browser.h"
+#include "app/geometry/transform.h"
+#include "app/typography/captions.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct PresentedCaption {
+    std::size_t language = 0; ///< index into CatalogueEntry::languages
+    std::size_t shape = 0;    ///< index into its sizes
+    TableRectangle rectangle;
+    double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
+    /// The portion of the description that is shown in place of the short text.
+    std::optional<std::size_t> portion = std::nullopt;
+};
+
+/// Artifacts that a visitor may see next, most urgent first: the chosen one, the one whose picture the prop rests on,
+/// the next, the previous. Some may be equal.
+class WantedArtifacts {
+public:
+    void add(std::size_t artifact) { artifacts_.at(count_++) = artifact; }
+    [[nodiscard]] std::span<const std::size_t> artifacts() const {
+        return std::span(artifacts_).first(count_);
+    }
+
+private:
+    std::array<std::size_t, 4> artifacts_{};
+    std::size_t count_ = 0;
+};
+
+struct Presentation {
+    State state = State::Attract;
+    State state_before = State::Attract; ///< the latest state other than `state`
+    std::size_t artifact = 0;            ///< index into the catalogue
+    double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
+    WantedArtifacts wanted;  ///< to load ahead
+    std::optional<PresentedPlaceholder> placeholder; ///< in place of the chosen artifact until that is ready
+    std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
+    std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
+    std::optional<PresentedCaption> caption;
+    std::optional<PlacedSign> sign;           ///< advice as a picture
+    std::optional<PresentedAdvice> advice;    ///< advice in words; an invitation; why nothing is shown
+    std::optional<WordIndex> says;            ///< sentence whose speech begins in this step
+    bool falls_silent = false;                ///< the sentence being spoken does not apply any more
+    std::optional<WordIndex> prepares_word;   ///< sentence that may be spoken next; none while the set leaves
+    std::optional<DescriptionIndex> tells;    ///< description to be heard, from its beginning
+    bool leaves = false;                      ///< the description before ends at its next pause, else at once
+    std::optional<DescriptionIndex> prepares; ///< description that may be heard next
+    std::optional<std::size_t> tells_of;      ///< the hotspot pointed out, visible or not
+    std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
+    const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
+    std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit
+    double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light
+    double title_brightness = 1.0;            ///< of the table's titles: 0..1, a factor on linear light
+    std::optional<PresentedNotice> notice;    ///< notice about a stick; not set by the exhibit
+    std::array<TableRectangle, 4> zone_sides{}; ///< of the frame around the zone
+    double zone_share = 0.0;        ///< of the frame around the zone: 0..1, a factor on linear light
+    RigidTransform table_from_prop; ///< the pose to draw for
+    bool attracts = false;          ///< the pose drawn for is not the prop's own
+    bool settled = true;            ///< nothing fades: a good moment for a picture
+    bool staff = false;             ///< State::Staff: the staff picture is shown instead
+    StaffView staff_view;           ///< what the staff picture shows
+    std::uint32_t staff_tones = 0;  ///< number of test tones asked for by the staff
+    int louder_db = 0;              ///< relative to the settings' volume
+    bool calibrate = false;         ///< the staff asked for calibration in this step
+    std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,46 @@
+/// The visitor's presses: which ones the staff's chord undoes, and which requests are not handled yet.
+///
+/// Threads  values; one caller. Allocates nothing.
+#pragma once
+
+#include "app/settings/command.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace frustumscreen {
+
+class Presses {
+public:
+    /// `counts`: the press is the visitor's. `command` is one of `button_commands`.
+    void take(Command command, bool counts) {
+        at(command) = counts;
+        choose_ = choose_ || (counts && command == Command::Choose);
+        help_ = help_ || (counts && command == Command::Help);
+    }
+    /// No chord undoes this press.
+    void forget(Command command) { at(command) = false; }
+    /// True if the button's latest press is to be undone; the next call returns false.
+    [[nodiscard]] bool undo(std::size_t button) {
+        return button < undoable_.size() && std::exchange(undoable_[button], false);
+    }
+
+    /// The next thing is requested: the picture under the prop, or the next fact.
+    [[nodiscard]] bool choose() const { return choose_; }
+    void end_choose() { choose_ = false; }
+    [[nodiscard]] bool help() const { return help_; }
+    void end_help() { help_ = false; }
+
+private:
+    [[nodiscard]] bool& at(Command command) {
+        return undoable_.at(static_cast<std::size_t>(button_of(command)));
+    }
+
+    std::array<bool, button_commands.size()>
+        undoable_{}; ///< by button: its latest press reached the selection
+    bool choose_ = false;
+    bool help_ = false;
+};
+
+} // namespace frustumscreen
