@@ -48,7 +48,8 @@ public:
     void judge(Verdict verdict, std::vector<std::size_t> repeat = {}) {
         EyeFit fit;
         fit.verdict = verdict;
-        fit.reason = "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
+        fit.reason.sentence =
+            "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
         fit.repeat = std::move(repeat);
         if (verdict != Verdict::Refused) {
             fit.eyes.emplace();

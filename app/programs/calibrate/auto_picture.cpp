@@ -146,7 +146,8 @@ Message choice_of(const TouchCalibration& found) {
 
 TableWords words_of_verdict(const TouchCalibration& found) {
     TableWords words{
-        "", {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason)}};
+        "",
+        {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason.sentence)}};
     if (found.table) {
         words.add(
             "",

@@ -100,8 +100,8 @@ Message choice_of(const EyeProcedure& procedure) {
 
 TableWords words_of_verdict(const EyeProcedure& procedure) {
     const EyeFit& fit = *procedure.judged();
-    TableWords words{"",
-                     {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason)}};
+    TableWords words{
+        "", {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason.sentence)}};
     if (fit.eyes) {
         words.add("",
                   fmt::format(
