@@ -99,7 +99,7 @@ public:
     }
     /// Puts the board where it is wanted, within a hand's breadth, and turns it.
     void obey(std::set<int> covered = {}) {
-        const RestRequest wish = procedure.wish();
+        const RestRequest wish = procedure.request();
         const bool leans = wish.posture == Posture::Leaning;
         const double lean = leans ? numbers.between(0.26, 0.5) : 0.0;
         const double block = wish.posture == Posture::Block ? procedure.plan().block_m : 0.0;

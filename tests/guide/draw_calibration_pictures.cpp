@@ -132,7 +132,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
     EyeProcedure::Input input;
     const auto step = [&](bool next) {
         input.now += std::chrono::milliseconds(20);
-        input.prop = wished_place(scene);
+        input.prop = first_place(scene);
         input.next = next;
         procedure.step(input);
     };

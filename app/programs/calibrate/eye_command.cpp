@@ -73,17 +73,17 @@ std::string eye_text(const EyeFit& fit) {
     return text;
 }
 
-/// The crosses for the prop at its wished place and a head at the visitors' usual place.
+/// The crosses for the prop at its requested place and a head at the visitors' usual place.
 Json crosses_json(const Settings& settings) {
     const SightScene scene = sight_scene(settings);
     const SightPlan plan =
-        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
+        plan_sights(scene, first_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
     Json crosses = Json::array();
     for (const SightCross& cross : plan.crosses) {
         crosses.push_back(
             {{"u_px", cross.pixel.x}, {"v_px", cross.pixel.y}, {"tip_m", vector_json(cross.tip_m)}});
     }
-    return {{"table_from_prop", matrix_json(wished_place(scene))}, {"crosses", crosses}};
+    return {{"table_from_prop", matrix_json(first_place(scene))}, {"crosses", crosses}};
 }
 
 Result<int> on_table(const Settings& settings, const CalibrateRequest& request) {
