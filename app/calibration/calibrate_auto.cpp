@@ -23,7 +23,7 @@ namespace {
 /// A larger scale error comes from the printer's driver, not from damp air.
 constexpr double max_print_off = 5e-3;
 
-AutoCalibration refused(std::string reason) {
+AutoCalibration refused(VerdictReason reason) {
     AutoCalibration calibration;
     calibration.found.reason = std::move(reason);
     return calibration;
@@ -121,6 +121,7 @@ void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights
 /// The rests with one mistake undone, and a clause that names the mistake.
 struct Mistake {
     Rests undone;
+    MessageId id;
     std::string_view what;
 };
 
@@ -137,14 +138,17 @@ std::vector<Mistake> mistakes_in(std::span<const Rest> rests) {
         next[k].tracker_from_sensor = rests[(k + 1) % count].tracker_from_sensor;
         before[k].tracker_from_sensor = rests[(k + count - 1) % count].tracker_from_sensor;
     }
-    return {{std::move(mirrored), "the points are mirrored: is the board printed from behind, or does the "
-                                  "camera turn its picture round?"},
-            {std::move(next), "each rest's points belong to the report of the next one"},
-            {std::move(before), "each rest's points belong to the report of the one before"}};
+    return {
+        {std::move(mirrored), "rests.agree_if_mirrored",
+         "the points are mirrored: is the board printed from behind, or does the "
+         "camera turn its picture round?"},
+        {std::move(next), "rests.agree_if_next", "each rest's points belong to the report of the next one"},
+        {std::move(before), "rests.agree_if_before",
+         "each rest's points belong to the report of the one before"}};
 }
 
 /// The mistake whose correction makes most rests agree; nothing if none does.
-std::optional<std::string> cause_of(std::span<const Rest> rests, const AutoSetup& setup) {
+std::optional<VerdictReason> cause_of(std::span<const Rest> rests, const AutoSetup& setup) {
     for (const Mistake& mistake : mistakes_in(rests)) {
         std::vector<std::optional<PlaneView>> views;
         for (const Rest& rest : mistake.undone) {
@@ -157,7 +161,9 @@ std::optional<std::string> cause_of(std::span<const Rest> rests, const AutoSetup
             find_agreement(mistake.undone, views, {setup.noise, setup.priors, setup.sensor_height_m},
                            starting_rest_models(mistake.undone, views, setup.width, setup.height));
         if (found.agreement != Agreement::None) {
-            return fmt::format("the rests contradict each other as given, and agree if {}", mistake.what);
+            return VerdictReason{
+                mistake.id,
+                fmt::format("the rests contradict each other as given, and agree if {}", mistake.what)};
         }
     }
     return std::nullopt;
@@ -176,12 +182,14 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     TouchCalibration& table = calibration.found;
     table.table = in_table_frame(fit.model);
     if (!table.table) {
-        return refused("the light of the picture's middle does not meet the table");
+        return refused({"rests.off_table", "the light of the picture's middle does not meet the table"});
     }
     if (const double off = found.fit.model.print - 1.0; std::abs(off) > max_print_off) {
-        return refused(fmt::format(
-            "the board is printed {:.1f} % too {}: print it at 100 %, without fitting it to the page",
-            100.0 * std::abs(off), off > 0.0 ? "large" : "small"));
+        return refused(
+            {"rests.print_size",
+             fmt::format(
+                 "the board is printed {:.1f} % too {}: print it at 100 %, without fitting it to the page",
+                 100.0 * std::abs(off), off > 0.0 ? "large" : "small")});
     }
     calibration.sensor_from_prop = found.fit.model.prop_in_sensor();
     calibration.pixel_noise = found.pixel_noise;
@@ -201,7 +209,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     }
     table.boards = boards_of(fit.model, covariance, highest_m);
     judge(table, prop_rests, found, names_of(found.wrong, rests));
-    table.reason += in_words(table.boards);
+    table.reason.sentence += in_words(table.boards);
     return calibration;
 }
 
@@ -224,10 +232,11 @@ AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& set
     if (found.agreement == Agreement::None) {
         return refused(
             cause_of(rests, setup)
-                .value_or(
+                .value_or(VerdictReason{
+                    "rests.contradict",
                     "the rests contradict each other, and no single mistake explains it: points of another "
                     "prop, metal near the tracker, or a projector that moved meanwhile; begin again without "
-                    "metal, and with the projector fixed"));
+                    "metal, and with the projector fixed"}));
     }
     return judged(rests, setup, found);
 }

@@ -28,7 +28,7 @@ double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, co
                           inverse_of(fit.information()), zone_places(fit.model, fit.middle, zone));
 }
 
-TouchCalibration refused(std::string reason) {
+TouchCalibration refused(VerdictReason reason) {
     TouchCalibration calibration;
     calibration.reason = std::move(reason);
     return calibration;
@@ -104,13 +104,16 @@ std::optional<std::size_t> doubtful_one(std::span<const Touch> touches, const Fi
 void doubt(TouchCalibration& calibration, std::size_t touch) {
     if (calibration.verdict == Verdict::Good) {
         calibration.verdict = Verdict::Usable;
-        calibration.reason += fmt::format(
-            "; touch {} fits the others less well than it should: done again, it may be good", touch + 1);
+        calibration.reason = {
+            "verdict.doubtful",
+            fmt::format("{}; touch {} fits the others less well than it should: done again, it may be good",
+                        calibration.reason.sentence, touch + 1)};
     } else if (calibration.verdict == Verdict::Usable) {
         calibration.verdict = Verdict::Repeat;
         calibration.repeat = {touch};
-        calibration.reason =
-            fmt::format("touch {} fits the others less well than it should: do it again", touch + 1);
+        calibration.reason = {
+            "verdict.repeat_doubtful",
+            fmt::format("touch {} fits the others less well than it should: do it again", touch + 1)};
     }
 }
 
@@ -188,61 +191,73 @@ std::vector<std::string> row_names(std::span<const std::size_t> rows) {
     return names;
 }
 
-std::string misfits(std::string_view one, std::string_view many, std::span<const std::string> wrong) {
-    return wrong.size() == 1
-               ? fmt::format("{} {} does not fit the others: do it again", one, wrong[0])
-               : fmt::format("{} {} do not fit the others: do them again", many, in_words(wrong));
+VerdictReason misfits(std::string_view one, std::string_view many, std::span<const std::string> wrong) {
+    return {"verdict.misfits",
+            wrong.size() == 1
+                ? fmt::format("{} {} does not fit the others: do it again", one, wrong[0])
+                : fmt::format("{} {} do not fit the others: do them again", many, in_words(wrong))};
 }
 
 void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed& found,
            std::span<const std::string> wrong) {
     calibration.repeat = found.wrong;
     summarise_residuals(calibration);
-    const auto is = [&](Verdict verdict, std::string reason) {
+    const auto is = [&](Verdict verdict, VerdictReason reason) {
         calibration.verdict = verdict;
         calibration.reason = std::move(reason);
     };
     const std::string expected = in_words(calibration.uncertainty);
     if (found.agreement == Agreement::Exchanged) {
         is(Verdict::Repeat,
-           fmt::format("{} {} look exchanged: each fits the other's cross", kind.many, in_words(wrong)));
+           {"verdict.exchanged",
+            fmt::format("{} {} look exchanged: each fits the other's cross", kind.many, in_words(wrong))});
     } else if (found.agreement == Agreement::Without) {
         is(Verdict::Repeat, misfits(kind.one, kind.many, wrong));
     } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
-        is(Verdict::Good, expected);
+        is(Verdict::Good, {"verdict.good", expected});
+    } else if (!keeps(calibration, for_usable) && calibration.hidden_error_m > for_usable.hidden_m) {
+        is(Verdict::Repeat,
+           {"verdict.unchecked",
+            fmt::format(
+                "the {} agree, but are too few to check each other; a wrong one would go unnoticed: {}",
+                kind.many, kind.three_more)});
     } else if (!keeps(calibration, for_usable)) {
         is(Verdict::Repeat,
-           calibration.hidden_error_m > for_usable.hidden_m
-               ? fmt::format(
-                     "the {} agree, but are too few to check each other; a wrong one would go unnoticed: {}",
-                     kind.many, kind.three_more)
-               : fmt::format("{}, which is too much: {}", expected, kind.spread));
+           {"verdict.uncertain", fmt::format("{}, which is too much: {}", expected, kind.spread)});
     } else if (found.agreement == Agreement::Scattered) {
         is(Verdict::Usable,
-           fmt::format("{}; the {} scatter {:.1f} times as much as they should: is metal near, or {}?",
-                       expected, kind.scattered, found.scatter, kind.why_scattered));
+           {"verdict.scattered",
+            fmt::format("{}; the {} scatter {:.1f} times as much as they should: is metal near, or {}?",
+                        expected, kind.scattered, found.scatter, kind.why_scattered)});
     } else {
-        is(Verdict::Usable, fmt::format("{}; with more {} it would be good", expected, kind.many));
+        is(Verdict::Usable,
+           {"verdict.usable", fmt::format("{}; with more {} it would be good", expected, kind.many)});
     }
 }
 
-std::string in_words(const Undetermined& open, const MeasuredKind& kind) {
+VerdictReason in_words(const Undetermined& open, const MeasuredKind& kind) {
     switch (open.what) {
     case Undetermined::What::SensorAcross:
-        return fmt::format("the prop was turned nearly the same way in every {0}, which does not tell where "
-                           "in it the sensor sits: turn it by a quarter from one {0} to the next",
-                           kind.one);
+        return VerdictReason{
+            "verdict.sensor_across",
+            fmt::format("the prop was turned nearly the same way in every {0}, which does not tell where "
+                        "in it the sensor sits: turn it by a quarter from one {0} to the next",
+                        kind.one)};
     case Undetermined::What::SensorAbove:
-        return fmt::format(
-            "the prop stood upright in every {0}, which does not tell the sensor's height in it from the "
-            "tracker's: give it with --sensor-height, or {1} in three of them or more",
-            kind.one, kind.tilt);
+        return VerdictReason{
+            "verdict.sensor_height",
+            fmt::format(
+                "the prop stood upright in every {0}, which does not tell the sensor's height in it from the "
+                "tracker's: give it with --sensor-height, or {1} in three of them or more",
+                kind.one, kind.tilt)};
     case Undetermined::What::Picture:
         break;
     }
-    return fmt::format("these {} tell the picture's place only to {:.0f} mm: spread them over the whole "
-                       "picture, half of them on a block as high as the prop",
-                       kind.many, 1e3 * open.picture_m);
+    return VerdictReason{
+        "verdict.picture_open",
+        fmt::format("these {} tell the picture's place only to {:.0f} mm: spread them over the whole "
+                    "picture, half of them on a block as high as the prop",
+                    kind.many, 1e3 * open.picture_m)};
 }
 
 namespace {
@@ -250,6 +265,7 @@ namespace {
 /// The touches with one mistake undone, and a clause that names the mistake.
 struct Mistake {
     Touches undone;
+    MessageId id;
     std::string_view what;
 };
 
@@ -269,14 +285,14 @@ std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
         touch.pixel.x = width - touch.pixel.x;
     }
     return {
-        {std::move(mirrored),
+        {std::move(mirrored), "touches.mirrored",
          "the projector's picture is mirrored: switch its ceiling or rear projection off, and touch the "
          "crosses again"},
-        {with_pose_of([&](std::size_t k) { return (k + count - 1) % count; }),
+        {with_pose_of([&](std::size_t k) { return (k + count - 1) % count; }), "touches.one_left_out",
          "each touch belongs to the next cross: one was left out, or the list begins too late"},
-        {with_pose_of([&](std::size_t k) { return (k + 1) % count; }),
+        {with_pose_of([&](std::size_t k) { return (k + 1) % count; }), "touches.one_twice",
          "each touch belongs to the cross before: one was taken twice, or the list begins too early"},
-        {with_pose_of([&](std::size_t k) { return count - 1 - k; }),
+        {with_pose_of([&](std::size_t k) { return count - 1 - k; }), "touches.reversed",
          "the crosses were touched in the opposite order"},
     };
 }
@@ -286,7 +302,7 @@ FitSetup fit_setup_for(std::span<const Touch> touches, const TouchSetup& setup, 
 }
 
 /// The mistake whose correction makes the touches agree; nothing if none does.
-std::optional<std::string> cause_of(std::span<const Touch> touches, const TouchSetup& setup) {
+std::optional<VerdictReason> cause_of(std::span<const Touch> touches, const TouchSetup& setup) {
     for (const Mistake& mistake : mistakes_in(touches, setup.width)) {
         if (refusal_of(mistake.undone, setup.width, setup.height)) {
             continue;
@@ -294,7 +310,9 @@ std::optional<std::string> cause_of(std::span<const Touch> touches, const TouchS
         const std::vector<TouchModel> starts = starting_models(mistake.undone, setup.width, setup.height);
         const Fit fit = best_fit(mistake.undone, fit_setup_for(mistake.undone, setup, starts[0]), starts);
         if (fit.chi2 < chi2_limit(fit.freedom)) {
-            return fmt::format("the touches contradict each other as given, and agree if {}", mistake.what);
+            return VerdictReason{
+                mistake.id,
+                fmt::format("the touches contradict each other as given, and agree if {}", mistake.what)};
         }
     }
     return std::nullopt;
@@ -323,14 +341,16 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     }
     if (contradict) {
         return refused(
-            "the touches contradict each other, and no single mistake explains it: metal near the tracker, a "
-            "projector that moved meanwhile, or several slips; take metal away, fix the projector, and "
-            "touch the crosses again");
+            {"touches.contradict",
+             "the touches contradict each other, and no single mistake explains it: metal near the tracker, "
+             "a "
+             "projector that moved meanwhile, or several slips; take metal away, fix the projector, and "
+             "touch the crosses again"});
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);
     if (!calibration.table) {
-        return refused("the light of the picture's middle does not meet the table");
+        return refused({"touches.off_table", "the light of the picture's middle does not meet the table"});
     }
     const Covariance covariance = found.scatter * found.scatter * inverse_of(found.fit.information());
     const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
@@ -348,7 +368,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
             found.agreement == Agreement::All ? doubtful_one(touches, fit_setup, found.fit) : std::nullopt) {
         doubt(calibration, *touch);
     }
-    calibration.reason += in_words(calibration.boards);
+    calibration.reason.sentence += in_words(calibration.boards);
     return calibration;
 }
 

@@ -60,7 +60,7 @@ struct BoardsHeight {
 
 struct TouchCalibration {
     Verdict verdict = Verdict::Refused;
-    std::string reason;                   ///< one sentence
+    VerdictReason reason;
     std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
     std::optional<CalibratedTable> table; ///< none if refused
     std::vector<TouchResidual> residuals; ///< of each touch, leave-one-out
@@ -91,10 +91,10 @@ struct MeasuredKind {
 void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed& found,
            std::span<const std::string> wrong);
 /// Tells how to determine what the points leave undetermined.
-[[nodiscard]] std::string in_words(const Undetermined& open, const MeasuredKind& kind);
-/// A clause that names the misfits; at least one.
-[[nodiscard]] std::string misfits(std::string_view one, std::string_view many,
-                                  std::span<const std::string> wrong);
+[[nodiscard]] VerdictReason in_words(const Undetermined& open, const MeasuredKind& kind);
+/// Names the misfits; at least one.
+[[nodiscard]] VerdictReason misfits(std::string_view one, std::string_view many,
+                                    std::span<const std::string> wrong);
 /// Names of rows, numbered from 1.
 [[nodiscard]] std::vector<std::string> row_names(std::span<const std::size_t> rows);
 

@@ -16,31 +16,36 @@ namespace {
 constexpr double largest_prop_m = 1.0;
 constexpr double min_prop_m = 0.02;
 
-std::optional<std::string> bad_points(const Rest& rest) {
+std::optional<VerdictReason> bad_points(const Rest& rest) {
     if (rest.points.empty()) {
-        return fmt::format("rest {} has no points", rest.name);
+        return VerdictReason{"rests.no_points", fmt::format("rest {} has no points", rest.name)};
     }
     double reach = 0.0;
     for (const PropPoint& point : rest.points) {
         if (!std::isfinite(point.prop_m.x + point.prop_m.y + point.prop_m.z)) {
-            return fmt::format("rest {} has a number that is not finite", rest.name);
+            return VerdictReason{"rests.not_finite",
+                                 fmt::format("rest {} has a number that is not finite", rest.name)};
         }
         reach = std::fmax(reach, glm::length(point.prop_m));
     }
     if (reach > largest_prop_m || reach < min_prop_m) {
-        return fmt::format("the points of rest {} reach {:.3g} m from the prop's middle: are they in "
-                           "millimetres or inches? Allowed are metres",
-                           rest.name, reach);
+        return VerdictReason{
+            "rests.prop_unit",
+            fmt::format("the points of rest {} reach {:.3g} m from the prop's middle: are they in "
+                        "millimetres or inches? Allowed are metres",
+                        rest.name, reach)};
     }
     return std::nullopt;
 }
 
 } // namespace
 
-std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height) {
+std::optional<VerdictReason> refusal_of(std::span<const Rest> rests, int width, int height) {
     if (rests.size() < min_rests) {
-        return fmt::format("{} rests of the prop are too few: at least {} are needed, and 16 are recommended",
-                           rests.size(), min_rests);
+        return VerdictReason{
+            "rests.too_few",
+            fmt::format("{} rests of the prop are too few: at least {} are needed, and 16 are recommended",
+                        rests.size(), min_rests)};
     }
     Touches places; // one per point, for the checks of pixels
     std::vector<int> names;
@@ -60,26 +65,32 @@ std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, in
     return refusal_of_spread(places, width, "rests");
 }
 
-std::optional<std::string> refusal_of(std::span<const Rest> rests,
-                                      std::span<const std::optional<PlaneView>> views) {
+std::optional<VerdictReason> refusal_of(std::span<const Rest> rests,
+                                        std::span<const std::optional<PlaneView>> views) {
     const auto seen =
         std::count_if(views.begin(), views.end(), [](const auto& view) { return view.has_value(); });
     const auto mirrored =
         std::count_if(views.begin(), views.end(), [](const auto& view) { return view && view->is_mirrored; });
     if (3 * seen < 2 * static_cast<std::ptrdiff_t>(rests.size())) {
-        return "in most rests no four points of one level of the prop fit together: do they lie in one line, "
-               "or "
-               "are they named in another order than they were seen?";
+        return VerdictReason{
+            "rests.points_unfit",
+            "in most rests no four points of one level of the prop fit together: do they lie in one line, "
+            "or "
+            "are they named in another order than they were seen?"};
     }
     if (2 * mirrored > seen) {
-        return "the rests are mirrored: is the projector set to rear projection, or are the prop's x and y "
-               "exchanged?";
+        return VerdictReason{
+            "rests.mirrored",
+            "the rests are mirrored: is the projector set to rear projection, or are the prop's x and y "
+            "exchanged?"};
     }
     const Touches standing = as_touches(rests, views);
     if (standing.size() < min_standing) {
-        return fmt::format("the prop stood on the table or on a block in {} rests, which does not tell where "
-                           "the table is: at least {} are needed",
-                           standing.size(), min_standing);
+        return VerdictReason{
+            "rests.too_few_standing",
+            fmt::format("the prop stood on the table or on a block in {} rests, which does not tell where "
+                        "the table is: at least {} are needed",
+                        standing.size(), min_standing)};
     }
     const auto [low, high] =
         std::minmax_element(standing.begin(), standing.end(),

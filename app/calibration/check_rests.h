@@ -6,6 +6,7 @@
 
 #include "app/calibration/plane_view.h"
 #include "app/calibration/rest.h"
+#include "app/calibration/verdict.h"
 
 #include <span>
 #include <string>
@@ -18,9 +19,9 @@ inline constexpr std::size_t min_standing = 4;
 
 /// The reason why these rests are refused, one sentence for a technician; nothing if they are accepted.
 /// Quaternions are as reported, of any length.
-[[nodiscard]] std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height);
+[[nodiscard]] std::optional<VerdictReason> refusal_of(std::span<const Rest> rests, int width, int height);
 /// The same check on the points' plane views.
-[[nodiscard]] std::optional<std::string> refusal_of(std::span<const Rest> rests,
-                                                    std::span<const std::optional<PlaneView>> views);
+[[nodiscard]] std::optional<VerdictReason> refusal_of(std::span<const Rest> rests,
+                                                      std::span<const std::optional<PlaneView>> views);
 
 } // namespace frustumscreen

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-using Refusal = std::optional<std::string>;
+using Refusal = std::optional<VerdictReason>;
 
 /// No table, and no tracker's range, is larger.
 constexpr double farthest_m = 6.0;
@@ -28,7 +28,8 @@ Refusal bad_numbers(std::span<const Touch> touches, const PlaceName& name) {
         const Touch& touch = touches[k];
         const glm::dvec3& t = touch.tracker_from_sensor.translation;
         if (!std::isfinite(t.x + t.y + t.z + touch.pixel.x + touch.pixel.y + touch.block_m)) {
-            return fmt::format("{} has a number that is not finite", name(k));
+            return VerdictReason{"points.not_finite",
+                                 fmt::format("{} has a number that is not finite", name(k))};
         }
     }
     return std::nullopt;
@@ -45,23 +46,30 @@ Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture, c
         pixel = std::fmax(pixel, std::fmax(std::abs(touch.pixel.x), std::abs(touch.pixel.y)));
     }
     if (reach > farthest_m) {
-        return fmt::format(
-            "the tracker's places lie {:.0f} m apart: are they in millimetres or inches? Allowed are metres",
-            reach);
+        return VerdictReason{"points.tracker_unit",
+                             fmt::format("the tracker's places lie {:.0f} m apart: are they in millimetres "
+                                         "or inches? Allowed are metres",
+                                         reach)};
     }
     if (highest > highest_block_m) {
-        return fmt::format("a block is {:.3g} m high: is that in millimetres or inches? Allowed are metres",
-                           highest);
+        return VerdictReason{
+            "points.block_unit",
+            fmt::format("a block is {:.3g} m high: is that in millimetres or inches? Allowed are metres",
+                        highest)};
     }
     if (pixel <= 1.5) {
-        return "the pixels are all below 1.5: are they shares of the picture? Allowed are pixels";
+        return VerdictReason{
+            "points.pixel_unit",
+            "the pixels are all below 1.5: are they shares of the picture? Allowed are pixels"};
     }
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const glm::dvec2& p = touches[k].pixel;
         if (p.x < 0.0 || p.y < 0.0 || p.x > picture.x || p.y > picture.y) {
-            return fmt::format("{} is at pixel ({:.0f}, {:.0f}), outside the picture of {:.0f} x {:.0f}: is "
-                               "that the projector's picture?",
-                               name(k), p.x, p.y, picture.x, picture.y);
+            return VerdictReason{
+                "points.outside_picture",
+                fmt::format("{} is at pixel ({:.0f}, {:.0f}), outside the picture of {:.0f} x {:.0f}: is "
+                            "that the projector's picture?",
+                            name(k), p.x, p.y, picture.x, picture.y)};
         }
     }
     return std::nullopt;
@@ -98,20 +106,23 @@ std::size_t different_places(std::span<const Touch> touches) {
     return found.size();
 }
 
-Refusal too_few(std::size_t count, std::string_view of, std::size_t least, std::size_t recommended) {
+Refusal too_few(MessageId id, std::size_t count, std::string_view of, std::size_t least,
+                std::size_t recommended) {
     if (count >= least) {
         return std::nullopt;
     }
-    return fmt::format("{} {}: at least {} are needed, and {} are recommended", count, of, least,
-                       recommended);
+    return VerdictReason{id, fmt::format("{} {}: at least {} are needed, and {} are recommended", count, of,
+                                         least, recommended)};
 }
 
 Refusal flat(std::span<const Touch> touches) {
     const auto [low, high] = std::minmax_element(
         touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
     if (high->block_m - low->block_m < min_height_m) {
-        return "all touches are at one height, which does not tell a near projector from a far one: touch "
-               "half of them on a block, as high as the prop";
+        return VerdictReason{
+            "points.one_height",
+            "all touches are at one height, which does not tell a near projector from a far one: touch "
+            "half of them on a block, as high as the prop"};
     }
     return std::nullopt;
 }
@@ -132,16 +143,19 @@ Refusal refusal_of_values(std::span<const Touch> touches, const glm::dvec2& pict
 Refusal refusal_of_spread(std::span<const Touch> touches, double width, std::string_view places) {
     const glm::dvec2 spread_px = spread(touches);
     if (spread_px.x < min_length * width) {
-        return fmt::format(
-            "the {} are too near to each other, so that the picture's edges would be guessed: spread "
-            "them over the whole picture",
-            places);
+        return VerdictReason{
+            "points.too_near",
+            fmt::format(
+                "the {} are too near to each other, so that the picture's edges would be guessed: spread "
+                "them over the whole picture",
+                places)};
     }
     if (spread_px.y < min_breadth * width) {
-        return fmt::format(
-            "the {} lie nearly in one line, which does not say how the picture lies beside it: "
-            "spread them over the whole picture",
-            places);
+        return VerdictReason{
+            "points.in_one_line",
+            fmt::format("the {} lie nearly in one line, which does not say how the picture lies beside it: "
+                        "spread them over the whole picture",
+                        places)};
     }
     return std::nullopt;
 }
@@ -152,10 +166,12 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
     if (scale < 0.2 || scale > 5.0) {
         // Wrong units give factors of 1000, 100, 39.37 or 25.4. Factors between these limits are noise or the
         // sensor's lever arm.
-        return fmt::format(
-            "the blocks' heights change by {:.3g} m where the tracker moved by 1 m upwards: are places and "
-            "heights in the same unit, and the heights those of the touched places?",
-            scale);
+        return VerdictReason{
+            "points.height_unit",
+            fmt::format("the blocks' heights change by {:.3g} m where the tracker moved by 1 m upwards: are "
+                        "places and "
+                        "heights in the same unit, and the heights those of the touched places?",
+                        scale)};
     }
     const PixelFit pixels = fit_pixels(touches);
     // Seen from the projector's side, u to the right and v down make a left-handed system with up.
@@ -163,19 +179,22 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
     const glm::dvec3 v = glm::normalize(pixels.across_v);
     const double handed = glm::dot(glm::cross(u, v), heights.up / scale);
     if (handed > 0.3) {
-        return fmt::format("the {} are mirrored: is the projector set to rear projection, or are two of the "
-                           "tracker's columns exchanged?",
-                           places);
+        return VerdictReason{
+            "points.mirrored",
+            fmt::format("the {} are mirrored: is the projector set to rear projection, or are two of the "
+                        "tracker's columns exchanged?",
+                        places)};
     }
     return std::nullopt;
 }
 
-std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
-    if (Refusal few = too_few(touches.size(), "touches are too few", min_touches, 9)) {
+Refusal refusal_of(std::span<const Touch> touches, int width, int height) {
+    if (Refusal few = too_few("points.too_few", touches.size(), "touches are too few", min_touches, 9)) {
         return few;
     }
     for (Refusal found : {refusal_of_values(touches, {width, height}, touch_name),
-                          too_few(different_places(touches), "different places were touched", min_touches, 9),
+                          too_few("points.too_few_places", different_places(touches),
+                                  "different places were touched", min_touches, 9),
                           flat(touches), refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;
@@ -184,14 +203,14 @@ std::optional<std::string> refusal_of(std::span<const Touch> touches, int width,
     return refusal_of_directions(touches, "touches");
 }
 
-std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width, int height) {
-    if (Refusal few = too_few(touches.size(), "touches are too few", min_touch_up, 5)) {
+Refusal refusal_of_few(std::span<const Touch> touches, int width, int height) {
+    if (Refusal few = too_few("points.too_few", touches.size(), "touches are too few", min_touch_up, 5)) {
         return few;
     }
-    for (Refusal found :
-         {refusal_of_values(touches, {width, height}, touch_name),
-          too_few(different_places(touches), "different places were touched", min_touch_up, 5),
-          refusal_of_spread(touches, width, "touches")}) {
+    for (Refusal found : {refusal_of_values(touches, {width, height}, touch_name),
+                          too_few("points.too_few_places", different_places(touches),
+                                  "different places were touched", min_touch_up, 5),
+                          refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;
         }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/calibration/touch.h"
+#include "app/calibration/verdict.h"
 
 #include <functional>
 #include <optional>
@@ -23,21 +24,21 @@ inline constexpr double min_height_m = 0.02;
 
 /// The reason why these touches are refused, one sentence for a technician; nothing if they are accepted.
 /// Quaternions are as reported, of any length.
-[[nodiscard]] std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height);
+[[nodiscard]] std::optional<VerdictReason> refusal_of(std::span<const Touch> touches, int width, int height);
 
 /// Checks that touches share with rests. `name`: the name of the measurement at an index; `places`: the noun
 /// for all of them, in a technician's words.
 using PlaceName = std::function<std::string(std::size_t)>;
-[[nodiscard]] std::optional<std::string> refusal_of_values(std::span<const Touch> touches,
-                                                           const glm::dvec2& picture, const PlaceName& name);
-[[nodiscard]] std::optional<std::string> refusal_of_spread(std::span<const Touch> touches, double width,
-                                                           std::string_view places);
+[[nodiscard]] std::optional<VerdictReason>
+refusal_of_values(std::span<const Touch> touches, const glm::dvec2& picture, const PlaceName& name);
+[[nodiscard]] std::optional<VerdictReason> refusal_of_spread(std::span<const Touch> touches, double width,
+                                                             std::string_view places);
 /// Checks by affine fits whether places, pixels and heights are consistent.
-[[nodiscard]] std::optional<std::string> refusal_of_directions(std::span<const Touch> touches,
-                                                               std::string_view places);
+[[nodiscard]] std::optional<VerdictReason> refusal_of_directions(std::span<const Touch> touches,
+                                                                 std::string_view places);
 /// The check for touches on a calibrated table: they need no second height, and are compared with the table
 /// later.
-[[nodiscard]] std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width,
-                                                        int height);
+[[nodiscard]] std::optional<VerdictReason> refusal_of_few(std::span<const Touch> touches, int width,
+                                                          int height);
 
 } // namespace frustumscreen

@@ -169,22 +169,25 @@ double degrees_between(const Place& a, const Place& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
 }
 
-CornerCalibration refused(std::string reason) {
+CornerCalibration refused(VerdictReason reason) {
     CornerCalibration calibration;
     calibration.reason = std::move(reason);
     return calibration;
 }
 
-std::optional<std::string> refusal_of(const Lines& lines) {
+std::optional<VerdictReason> refusal_of(const Lines& lines) {
     for (const std::vector<Place>& places : lines) {
         if (places.size() < 2) {
-            return "each of the four corners is needed at two distances or more";
+            return VerdictReason{"corners.too_few",
+                                 "each of the four corners is needed at two distances or more"};
         }
         for (const Place& place : places) {
             if (place.norm() > 50.0) {
-                return fmt::format(
-                    "a corner is {:.0f} m away: are these millimetres or inches? Allowed are metres",
-                    place.norm());
+                return VerdictReason{
+                    "corners.unit",
+                    fmt::format(
+                        "a corner is {:.0f} m away: are these millimetres or inches? Allowed are metres",
+                        place.norm())};
             }
         }
     }
@@ -213,18 +216,20 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
         const double way = min_way(lines[k], fitted[k].along);
         const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
         if (way < 0.05 * off) {
-            return refused("the two distances are too near to each other to say where the lines meet: "
-                           "measure one of them on a "
-                           "board held much nearer to the projector");
+            return refused({"corners.too_near",
+                            "the two distances are too near to each other to say where the lines meet: "
+                            "measure one of them on a "
+                            "board held much nearer to the projector"});
         }
     }
     if (const auto misfit = worst_misfit(lines)) {
-        CornerCalibration wrong = refused(fmt::format("the {} corner does not fit the others: the line "
-                                                      "through its places passes {:.0f} mm beside where "
-                                                      "their lines meet, which a ruler's {:.0f} mm do not "
-                                                      "explain; measure this corner again at every distance",
-                                                      corner_words[misfit->corner], 1e3 * misfit->off_m,
-                                                      1e3 * usual_ruler_error_m));
+        CornerCalibration wrong =
+            refused({"corners.misfit", fmt::format("the {} corner does not fit the others: the line "
+                                                   "through its places passes {:.0f} mm beside where "
+                                                   "their lines meet, which a ruler's {:.0f} mm do not "
+                                                   "explain; measure this corner again at every distance",
+                                                   corner_words[misfit->corner], 1e3 * misfit->off_m,
+                                                   1e3 * usual_ruler_error_m)});
         for (std::size_t row = 0; row < corners.size(); ++row) {
             if (static_cast<std::size_t>(corners[row].corner) == misfit->corner) {
                 wrong.repeat.push_back(row);
@@ -239,8 +244,9 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     }
     const auto projector = projector_of(rays, width, height);
     if (!projector) {
-        return refused("these cannot be the corners of a picture: are two of them exchanged, or is the "
-                       "picture mirrored?");
+        return refused({"corners.no_picture",
+                        "these cannot be the corners of a picture: are two of them exchanged, or is the "
+                        "picture mirrored?"});
     }
     CornerCalibration calibration;
     TouchModel model;
@@ -251,7 +257,7 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
         -(model.projector_from_tracker.rotation * glm_vector(meeting.place));
     const auto table = in_table_frame(model);
     if (!table) {
-        return refused("the light of the picture's middle does not meet z = 0");
+        return refused({"corners.off_table", "the light of the picture's middle does not meet z = 0"});
     }
     calibration.table_from_projector = table->table_from_projector;
     calibration.measured_from_projector = model.projector_from_tracker.inverse();
@@ -280,9 +286,10 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     calibration.mean_residual_m /= count;
     calibration.mean_residual_px /= count;
     calibration.verdict = Verdict::Usable;
-    calibration.reason = fmt::format("the corners lie within {:.1f} mm of four rays through one point; a "
-                                     "calibration by touch is more exact",
-                                     1e3 * calibration.worst_residual_m);
+    calibration.reason = {"corners.usable",
+                          fmt::format("the corners lie within {:.1f} mm of four rays through one point; a "
+                                      "calibration by touch is more exact",
+                                      1e3 * calibration.worst_residual_m)};
     return calibration;
 }
 

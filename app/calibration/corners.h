@@ -35,7 +35,7 @@ struct MeasuredCorner {
 
 struct CornerCalibration {
     Verdict verdict = Verdict::Refused;
-    std::string reason;
+    VerdictReason reason;
     std::vector<std::size_t>
         repeat; ///< rows to measure again, counted from 0: all of a corner that does not fit
     std::optional<Pinhole> pinhole; ///< none if refused, as are the members below

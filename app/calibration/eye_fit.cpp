@@ -228,31 +228,38 @@ double spread_rad(std::span<const Line> lines, Eigen::Index first) {
     return std::sqrt(std::fmax(0.0, 1.0 - axes.values[2]));
 }
 
-/// The reason why the sightings determine nothing; empty if they may.
-std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> lines) {
+/// The reason why the sightings determine nothing; nothing if they may determine the eyes.
+std::optional<VerdictReason> refusal_of(std::span<const EyeSight> sights, std::span<const Line> lines) {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         if (!(lines[k].from_cross > 0.02) || sights[k].tip_m.z < sights[k].cross_m.z) {
-            return fmt::format(
-                "sighting {}: the cross is less than 2 cm from the place that covers it, or above it", k + 1);
+            return VerdictReason{
+                "sightings.cross_too_near",
+                fmt::format(
+                    "sighting {}: the cross is less than 2 cm from the place that covers it, or above it",
+                    k + 1)};
         }
     }
     const auto of_left = static_cast<std::size_t>(
         std::count_if(lines.begin(), lines.end(), [](const Line& line) { return line.first == 0; }));
     const std::size_t of_right = lines.size() - of_left;
     if (std::min(of_left, of_right) < min_sights) {
-        return fmt::format(
-            "there are {} sightings with the left eye and {} with the right one; {} with each are needed",
-            of_left, of_right, min_sights);
+        return VerdictReason{
+            "sightings.too_few",
+            fmt::format(
+                "there are {} sightings with the left eye and {} with the right one; {} with each are needed",
+                of_left, of_right, min_sights)};
     }
     for (const Eigen::Index first : {0, 3}) {
         if (spread_rad(lines, first) < min_spread_rad) {
-            return fmt::format(
-                "the head was held nearly alike in all sightings with the {} eye, which does not tell how "
-                "far in front of the sensor it is: between them turn the head, and move the chin up and down",
-                first == 0 ? "left" : "right");
+            return VerdictReason{"sightings.head_alike",
+                                 fmt::format("the head was held nearly alike in all sightings with the {} "
+                                             "eye, which does not tell how "
+                                             "far in front of the sensor it is: between them turn the head, "
+                                             "and move the chin up and down",
+                                             first == 0 ? "left" : "right")};
         }
     }
-    return {};
+    return std::nullopt;
 }
 
 /// The linear map from both eyes to their mean.
@@ -304,23 +311,27 @@ void judge(EyeFit& fit) {
     const double pupils_m = glm::distance(eyes.left_m, eyes.right_m);
     if (pupils_m < nearest_pupils_m || pupils_m > farthest_pupils_m) {
         fit.eyes.reset();
-        fit.reason = fmt::format(
-            "the two eyes would be {:.0f} mm apart; allowed is {:.0f} to {:.0f} mm: was the other eye "
-            "shut in some sightings, or did the sensor slip on the head?",
-            1e3 * pupils_m, 1e3 * nearest_pupils_m, 1e3 * farthest_pupils_m);
+        fit.reason = {
+            "sightings.pupils",
+            fmt::format(
+                "the two eyes would be {:.0f} mm apart; allowed is {:.0f} to {:.0f} mm: was the other eye "
+                "shut in some sightings, or did the sensor slip on the head?",
+                1e3 * pupils_m, 1e3 * nearest_pupils_m, 1e3 * farthest_pupils_m)};
     } else if (!fit.repeat.empty()) {
         fit.verdict = Verdict::Repeat;
         fit.reason = misfits("sighting", "sightings", row_names(fit.repeat));
     } else if (eyes.picture_m <= good_m && eyes.hidden_m <= good_hidden_m) {
         fit.verdict = Verdict::Good;
-        fit.reason = expected;
+        fit.reason = {"sightings.good", expected};
     } else if (eyes.picture_m <= usable_m && eyes.hidden_m <= usable_hidden_m) {
         fit.verdict = Verdict::Usable;
-        fit.reason = expected + "; with more sightings it would be good";
+        fit.reason = {"sightings.usable", expected + "; with more sightings it would be good"};
     } else {
         fit.verdict = Verdict::Repeat;
-        fit.reason =
-            expected + "; a wrong sighting may go unnoticed: make more of them, with the head turned further";
+        fit.reason = {
+            "sightings.unchecked",
+            expected +
+                "; a wrong sighting may go unnoticed: make more of them, with the head turned further"};
     }
 }
 
@@ -330,21 +341,23 @@ EyeFit fit_eyes(std::span<const EyeSight> sights, double deep_m, const SightNois
     EyeFit fit;
     std::vector<Line> lines;
     std::transform(sights.begin(), sights.end(), std::back_inserter(lines), line_of);
-    fit.reason = refusal_of(sights, lines);
-    if (!fit.reason.empty()) {
+    if (std::optional<VerdictReason> refusal = refusal_of(sights, lines)) {
+        fit.reason = *std::move(refusal);
         return fit;
     }
     const std::optional<std::vector<bool>> used = agreeing(lines, noise);
     if (!used) {
-        fit.reason = "the sightings contradict each other, and one or two wrong ones do not explain it: did "
-                     "the sensor slip on the head, was the prop moved, or was the wrong eye shut?";
+        fit.reason = {"sightings.contradict",
+                      "the sightings contradict each other, and one or two wrong ones do not explain it: did "
+                      "the sensor slip on the head, was the prop moved, or was the wrong eye shut?"};
         return fit;
     }
     const Solution solution = solved(lines, *used, noise);
     if (is_shared_off(solution, *used)) {
-        fit.reason = "all sightings together say that the crosses or the prop's place lie beside where the "
-                     "calibration has them: put the "
-                     "picture right first (table --touch-up), and let the prop lie";
+        fit.reason = {"sightings.crosses_off",
+                      "all sightings together say that the crosses or the prop's place lie beside where the "
+                      "calibration has them: put the "
+                      "picture right first (table --touch-up), and let the prop lie"};
         return fit;
     }
     double count = 0.0;

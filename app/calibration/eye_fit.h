@@ -26,7 +26,7 @@ namespace frustumscreen {
 
 struct EyeFit {
     Verdict verdict = Verdict::Refused;
-    std::string reason;              ///< one sentence
+    VerdictReason reason;
     std::vector<std::size_t> repeat; ///< sightings to do again, counted from 0
     /// Distance of each sighting's line from the eye that the others determine. Empty if refused before a
     /// fit.

@@ -68,7 +68,7 @@ Explanation explained(std::span<const Touch> touches, const FitSetup& setup, con
     return out;
 }
 
-TouchUp refused(std::string reason) {
+TouchUp refused(VerdictReason reason) {
     TouchUp result;
     result.reason = std::move(reason);
     return result;
@@ -127,12 +127,13 @@ std::string what_moved(Moved moved) {
 void judge_unmoved(TouchUp& result) {
     if (result.uncertainty.mean_m <= for_good.mean_m) {
         result.verdict = Verdict::Good;
-        result.reason = "nothing moved: the kept calibration holds";
+        result.reason = {"touch_up.unmoved", "nothing moved: the kept calibration holds"};
     } else {
         result.verdict = Verdict::Usable;
-        result.reason =
+        result.reason = {
+            "touch_up.nearly_unmoved",
             "nothing moved by more than two or three millimetres: the kept calibration holds; two more "
-            "touches would tell more";
+            "touches would tell more"};
     }
 }
 
@@ -145,14 +146,15 @@ void judge(TouchUp& result) {
                                           what_moved(result.moved), 1e3 * result.off_m);
     if (few_good.keep(result.uncertainty, result.hidden_error_m)) {
         result.verdict = Verdict::Good;
-        result.reason = found;
+        result.reason = {"touch_up.moved", found};
     } else if (few_usable.keep(result.uncertainty, result.hidden_error_m)) {
         result.verdict = Verdict::Usable;
-        result.reason = found + "; with more touches the correction would be good";
+        result.reason = {"touch_up.usable", found + "; with more touches the correction would be good"};
     } else {
         result.verdict = Verdict::Repeat;
-        result.reason = found + "; the touches are too few to check each other: touch two more crosses, on "
-                                "another height";
+        result.reason = {"touch_up.unchecked",
+                         found + "; the touches are too few to check each other: touch two more crosses, on "
+                                 "another height"};
     }
 }
 
@@ -192,8 +194,9 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     const bool something = unmoved - best.chi2 > chi2_limit(6);
     if (!(something ? best.chi2 < chi2_limit(equations - 6) : unmoved < chi2_limit(equations))) {
         return refused(
-            "the touches contradict each other, or projector and tracker both moved: touch the crosses "
-            "again, or calibrate anew");
+            {"touch_up.contradict",
+             "the touches contradict each other, or projector and tracker both moved: touch the crosses "
+             "again, or calibrate anew"});
     }
     const std::vector<ZonePlace> places = zone_of(best.model, touches, setup.top_m);
     TouchUp result;

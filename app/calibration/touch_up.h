@@ -16,7 +16,7 @@ namespace frustumscreen {
 
 struct TouchUp {
     Verdict verdict = Verdict::Refused;
-    std::string reason; ///< one sentence for a technician
+    VerdictReason reason;
     Moved moved = Moved::Nothing;
     std::optional<CalibratedTable> table; ///< the kept table, corrected for the move; none if refused
     double off_m = 0.0;                   ///< mean error of the picture over the zone before the correction

@@ -3,6 +3,9 @@
 /// Threads  values; any.
 #pragma once
 
+#include "firmware_host/base/result.h"
+
+#include <string>
 #include <string_view>
 
 namespace frustumscreen {
@@ -14,5 +17,11 @@ enum class Verdict {
     Refused, ///< the points determine nothing; the reason says why
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
+
+/// Why a calibration has its verdict.
+struct VerdictReason {
+    MessageId id = "verdict.none"; ///< stays when the wording changes; docs/calibration.md lists all of them
+    std::string sentence;          ///< one sentence
+};
 
 } // namespace frustumscreen

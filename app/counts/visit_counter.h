@@ -34,7 +34,7 @@ public:
     struct Frame {
         MonotonicTime now;
         std::optional<MonotonicTime> used; ///< last press of a button or move of the prop
-        bool rests = false;                ///< nobody is present: attract state or asleep
+        bool rests = false;                ///< no visitor is present: attract state or asleep
         bool staff = false;                ///< the staff's picture is shown
         std::string_view artifact, language;
     };

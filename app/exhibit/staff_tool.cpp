@@ -63,8 +63,10 @@ void StaffTool::act(std::size_t button) {
 
 /// The volume wraps around from the loudest to the quietest: two buttons reach all steps.
 void StaffTool::change_volume(int steps) {
-    const int wished_db = view_.louder_db + steps * volume_step_db;
-    view_.louder_db = wished_db > loudest_db ? quietest_db : wished_db < quietest_db ? loudest_db : wished_db;
+    const int requested_db = view_.louder_db + steps * volume_step_db;
+    view_.louder_db = requested_db > loudest_db    ? quietest_db
+                      : requested_db < quietest_db ? loudest_db
+                                                   : requested_db;
 }
 
 void StaffTool::hold(bool first, MonotonicTime now) {

@@ -145,7 +145,7 @@ inline constexpr std::array transitions{
     Transition{State::Degraded, Event::TrackerBack, State::View},
     Transition{State::Degraded, Event::NarrationBegins, State::Describe},
 
-    // The next rest begins anew; while there is still nothing to show, that step returns to Fault.
+    // A rest leads to Attract; if there is still nothing to show, the next step returns to Fault.
     Transition{State::Fault, Event::Rest, State::Attract},
     Transition{State::Fault, Event::Chord, State::Staff},
     Transition{State::Fault, Event::SomethingToShow, State::View},

@@ -4,7 +4,7 @@
 ///     ImportReport, now, presses -> StickNotice -> the part of it that is shown, and how full its ring is
 ///
 /// Shown    from the report until two minutes after its end, or until a button is pressed after its end. A report
-///          that ended two minutes before the exhibit began is not shown. Another import begins anew.
+///          that ended two minutes before the exhibit began is not shown. Another import is a new notice.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `at` and `press` allocate nothing.
 /// Errors   none.

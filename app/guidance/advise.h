@@ -33,7 +33,7 @@ class Advisor {
 public:
     explicit Advisor(GuidanceSetup setup) : reader_(std::move(setup)) {}
 
-    /// As FaceReader::show; a running search must be begun anew.
+    /// As FaceReader::show; a running search must be started again with `begin`.
     void show(std::span<const glm::dvec3> hull) { reader_.show(hull); }
     [[nodiscard]] std::optional<Advice> advise(const GuidedState& tracked_state);
 

@@ -71,13 +71,13 @@ public:
     /// while the words are not visible on the table.
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
-    /// No advice is needed now, whatever the visitor sees; the next step begins anew.
+    /// No advice is needed now, whatever the visitor sees; the next step starts a new search.
     void rest(MonotonicTime now);
     /// Call when a visitor asks for help: the next steps search for an advice and give it in all forms at once.
     void ask() { asked_ = true; }
     /// True while the answer to `ask` is being searched.
     [[nodiscard]] bool answers() const { return asked_; }
-    /// Forgets the visitor, who has gone: the next one is told everything anew.
+    /// Forgets the visitor, who has gone: the next one gets every advice again.
     void forget();
     /// The faces seen and lit in the latest step.
     [[nodiscard]] const FaceSets& faces() const { return faces_; }

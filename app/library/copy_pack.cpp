@@ -60,10 +60,6 @@ InstalledPack described(const SignedPack& opened, std::uint64_t bytes) {
     return pack;
 }
 
-tl::unexpected<ImportFailure> failed(ImportFailure failure) {
-    return tl::unexpected<ImportFailure>(std::move(failure));
-}
-
 tl::unexpected<ImportFailure> changed() {
     return failed({ImportRefusal::Altered,
                    "the stick held something else when it was read again; copy the pack onto another stick",

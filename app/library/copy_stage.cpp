@@ -6,17 +6,7 @@
 
 namespace frustumscreen {
 
-namespace {
-
-using Outcome = tl::expected<void, ImportFailure>;
-
-Outcome failed(ImportFailure failure) {
-    return tl::unexpected<ImportFailure>(std::move(failure));
-}
-
-} // namespace
-
-Outcome CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
+ImportResult<void> CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
     std::uint64_t decided_bytes = 0; // whole packs, even if their copy ended early
     for (const std::size_t k : copy_order(packs)) {
         StickPack& pack = packs[k];
@@ -32,7 +22,7 @@ Outcome CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
     }
     const FileResult<void> synced =
         decided_bytes > 0 ? library_.sync_folder(std::string(packs_folder_name)) : FileResult<void>();
-    return synced ? Outcome() : failed(disk_failure(packs_folder_name, synced.error()));
+    return synced ? ImportResult<void>() : failed(disk_failure(packs_folder_name, synced.error()));
 }
 
 void CopyStage::add(std::uint64_t bytes) {
@@ -40,7 +30,7 @@ void CopyStage::add(std::uint64_t bytes) {
     progress_(done_bytes_);
 }
 
-Outcome CopyStage::copy(StickPack& pack, const PackTrust& trust) {
+ImportResult<void> CopyStage::copy(StickPack& pack, const PackTrust& trust) {
     if (in_vain_.is_hopeless(pack.pack.manifest_sha256)) {
         refuse(pack.told, {ImportRefusal::Altered,
                            "it was not tried, because other copies of this pack on the stick are damaged; "
@@ -68,7 +58,7 @@ Outcome CopyStage::copy(StickPack& pack, const PackTrust& trust) {
     in_vain_.add_copy(outside_.work() - before, pack.pack.manifest_sha256);
     return in_vain_.is_too_much()
                ? failed(too_much("many packs on the stick are damaged; copy them onto another stick"))
-               : Outcome();
+               : ImportResult<void>();
 }
 
 } // namespace frustumscreen

@@ -28,11 +28,10 @@ public:
           progress_(std::move(progress)), pace_(limits) {}
 
     /// Takes or refuses each wanted pack. At the end, the names of the taken packs are on the disk.
-    [[nodiscard]] tl::expected<void, ImportFailure> run(std::vector<StickPack>& packs,
-                                                        const PackTrust& trust);
+    [[nodiscard]] ImportResult<void> run(std::vector<StickPack>& packs, const PackTrust& trust);
 
 private:
-    tl::expected<void, ImportFailure> copy(StickPack& pack, const PackTrust& trust);
+    ImportResult<void> copy(StickPack& pack, const PackTrust& trust);
     void add(std::uint64_t bytes);
 
     FileTree& stick_;

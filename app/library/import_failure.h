@@ -9,6 +9,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -18,6 +19,12 @@ struct ImportFailure {
     bool whole = false;       ///< concerns the whole stick, not only this pack
     bool by_set_file = false; ///< it follows from what the set file says
 };
+
+template <typename T> using ImportResult = tl::expected<T, ImportFailure>;
+
+[[nodiscard]] inline tl::unexpected<ImportFailure> failed(ImportFailure failure) {
+    return tl::unexpected<ImportFailure>(std::move(failure));
+}
 
 /// A part of the stick could not be read. A file without read permission and a failing stick have different
 /// sentences.

@@ -3,7 +3,6 @@
 #include "app/library/json_document.h"
 #include "firmware_host/base/printable.h"
 
-#include <array>
 #include <limits>
 
 namespace frustumscreen {
@@ -13,12 +12,10 @@ namespace {
 constexpr std::size_t max_verdict_bytes = 64U << 10U;
 constexpr std::size_t max_reason_bytes = 1000;
 constexpr int max_counted_starts = 1000000;
-/// In the order of TrialState.
-constexpr std::array<std::string_view, 3> verdict_names{"trying", "good", "bad"};
 
 void verdict_fields(auto& fields, auto& verdict) {
     fields.whole("number", verdict.number, std::numeric_limits<std::uint64_t>::max());
-    fields.choice("verdict", verdict.state, verdict_names);
+    fields.choice("verdict", verdict.state, trial_state_names);
     fields.whole("starts", verdict.starts, max_counted_starts);
     fields.text("reason", verdict.reason);
 }

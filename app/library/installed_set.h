@@ -15,6 +15,7 @@
 
 #include "firmware_host/base/result.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ struct InstalledSet {
 };
 
 enum class TrialState : std::uint8_t { Trying, Good, Bad };
+/// As the verdict and the status write it, in the order of TrialState.
+inline constexpr std::array<std::string_view, 3> trial_state_names{"trying", "good", "bad"};
 struct SetVerdict {
     std::uint64_t number = 0; ///< of the set
     TrialState state = TrialState::Trying;

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-tl::unexpected<ImportFailure> failed(ImportFailure failure) {
+tl::unexpected<ImportFailure> failed_whole(ImportFailure failure) {
     failure.whole = true;
     return tl::unexpected<ImportFailure>(std::move(failure));
 }
@@ -31,15 +31,16 @@ tl::expected<std::optional<Signer>, ImportFailure> signer_of(const SignedText& f
 /// Errors: a newer file, or another one of the same serial, was taken before.
 tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const SetFile& known) {
     if (exhibit.serial() < known.exhibit_serial) {
-        return failed(lower_serial(exhibit_file_name, exhibit.serial(), known.exhibit_serial));
+        return failed_whole(lower_serial(exhibit_file_name, exhibit.serial(), known.exhibit_serial));
     }
     if (exhibit.signer && exhibit.serial() == known.exhibit_serial &&
         exhibit.sha256 != known.exhibit_sha256) {
-        return failed({ImportRefusal::Older,
-                       fmt::format("{}: it has the same serial {} as the one that was taken last, and other "
-                                   "contents; sign it again with a higher serial",
-                                   exhibit_file_name, exhibit.serial()),
-                       true});
+        return failed_whole(
+            {ImportRefusal::Older,
+             fmt::format("{}: it has the same serial {} as the one that was taken last, and other "
+                         "contents; sign it again with a higher serial",
+                         exhibit_file_name, exhibit.serial()),
+             true});
     }
     return {};
 }
@@ -55,10 +56,10 @@ read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile&
     TRY_VOID(weigh(exhibit, known));
     Result<ExhibitFile> file = parse_exhibit_file(bytes);
     if (!file) {
-        return failed({ImportRefusal::NotAPack, file.error().message, true});
+        return failed_whole({ImportRefusal::NotAPack, file.error().message, true});
     }
     if (!file->keys.empty() && !exhibit.signer) {
-        return failed(
+        return failed_whole(
             {ImportRefusal::Unsigned,
              fmt::format("{}: it brings keys and is unsigned; sign it with a key that the kiosk knows",
                          exhibit_file_name),

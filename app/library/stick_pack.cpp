@@ -25,8 +25,8 @@ std::string without_name(const std::string& reason, const std::string& name) {
     return rest.starts_with(' ') ? rest.substr(1) : "line " + rest;
 }
 
-/// Refuses a pack that contradicts another one, and thereby a set that it belongs to: which of the two is meant
-/// cannot be known.
+/// Refuses a pack that contradicts another one, and so the set that it belongs to: it is unknown which of the two is
+/// meant.
 void clash(StickPack& pack, std::string_view other) {
     pack.clashes = true;
     refuse(pack.told,

@@ -90,32 +90,32 @@ void ArtifactCache::add_text(Queue& queue, std::size_t artifact, TextPart part,
 
 /// The artifacts shown and waited for. Captions come first, because they are small and are shown before their
 /// artifact.
-ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& wish) const {
+ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& request) const {
     Queue needed;
-    needed.add(levels_item(wish.shown));
-    add_text(needed, wish.shown, TextPart::Caption, wish.shown_language);
-    if (!wish.wanted.empty()) {
-        add_text(needed, wish.wanted.front(), TextPart::Caption, wish.language);
-        needed.add(levels_item(wish.wanted.front()));
+    needed.add(levels_item(request.shown));
+    add_text(needed, request.shown, TextPart::Caption, request.shown_language);
+    if (!request.wanted.empty()) {
+        add_text(needed, request.wanted.front(), TextPart::Caption, request.language);
+        needed.add(levels_item(request.wanted.front()));
     }
-    add_text(needed, wish.shown, TextPart::NarrationSequencer, wish.shown_language);
-    if (!wish.wanted.empty()) {
-        add_text(needed, wish.wanted.front(), TextPart::NarrationSequencer, wish.language);
+    add_text(needed, request.shown, TextPart::NarrationSequencer, request.shown_language);
+    if (!request.wanted.empty()) {
+        add_text(needed, request.wanted.front(), TextPart::NarrationSequencer, request.language);
     }
     return needed;
 }
 
 /// The chosen artifact's captions in the other languages come last; they let the language button respond at
 /// once.
-ArtifactCache::Queue ArtifactCache::wanted(const CacheRequest& wish) const {
+ArtifactCache::Queue ArtifactCache::wanted(const CacheRequest& request) const {
     Queue wanted;
-    for (std::size_t k = 1; k < wish.wanted.size(); ++k) {
-        wanted.add(levels_item(wish.wanted[k]));
-        add_text(wanted, wish.wanted[k], TextPart::Caption, wish.language);
+    for (std::size_t k = 1; k < request.wanted.size(); ++k) {
+        wanted.add(levels_item(request.wanted[k]));
+        add_text(wanted, request.wanted[k], TextPart::Caption, request.language);
     }
-    if (!wish.wanted.empty()) {
-        for (const std::string& language : known(wish.wanted.front()).texts.entry.languages) {
-            add_text(wanted, wish.wanted.front(), TextPart::Caption, language);
+    if (!request.wanted.empty()) {
+        for (const std::string& language : known(request.wanted.front()).texts.entry.languages) {
+            add_text(wanted, request.wanted.front(), TextPart::Caption, language);
         }
     }
     return wanted;
@@ -153,21 +153,21 @@ void ArtifactCache::start(const FrameCost& cost, const PropShape& prop, const Pl
         });
 }
 
-void ArtifactCache::step(GpuStore& store, const CacheRequest& wish) {
-    step_once(store, wish);
+void ArtifactCache::step(GpuStore& store, const CacheRequest& request) {
+    step_once(store, request);
     while (set_up_.waits && !steady_) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        step_once(store, wish);
+        step_once(store, request);
     }
 }
 
-void ArtifactCache::step_once(GpuStore& store, const CacheRequest& wish) {
-    note_shown(wish);
+void ArtifactCache::step_once(GpuStore& store, const CacheRequest& request) {
+    note_shown(request);
     if (const std::unique_ptr<ArtifactReader::Answer> answer = reader_ ? reader_->take() : nullptr) {
         receive(answer->item, std::move(answer->prepared));
     }
-    const Queue needs = needed(wish);
-    const Queue wants = wanted(wish);
+    const Queue needs = needed(request);
+    const Queue wants = wanted(request);
     const ResidencyStep next = next_step(records_, needs.items(), wants.items(), set_up_.budget_bytes);
     if (next.release) {
         release(store, *next.release);
@@ -182,8 +182,8 @@ void ArtifactCache::step_once(GpuStore& store, const CacheRequest& wish) {
     steady_ = !next.release && (!next.load || !reader_) && !arriving;
 }
 
-bool ArtifactCache::has(const CacheRequest& wish) const {
-    const Queue needs = needed(wish);
+bool ArtifactCache::has(const CacheRequest& request) const {
+    const Queue needs = needed(request);
     return std::all_of(needs.items().begin(), needs.items().end(), [&](std::size_t item) {
         return records_[item].left_out || (loaded_[item] && !arrives(item));
     });
@@ -206,15 +206,15 @@ bool ArtifactCache::release_some(GpuStore& store) {
     return false;
 }
 
-void ArtifactCache::note_shown(const CacheRequest& wish) {
-    if (shown_ != wish.shown) {
-        shown_ = wish.shown;
+void ArtifactCache::note_shown(const CacheRequest& request) {
+    if (shown_ != request.shown) {
+        shown_ = request.shown;
         ++shows_;
     }
     Queue shown;
-    shown.add(levels_item(wish.shown));
-    add_text(shown, wish.shown, TextPart::Caption, wish.shown_language);
-    add_text(shown, wish.shown, TextPart::NarrationSequencer, wish.shown_language);
+    shown.add(levels_item(request.shown));
+    add_text(shown, request.shown, TextPart::Caption, request.shown_language);
+    add_text(shown, request.shown, TextPart::NarrationSequencer, request.shown_language);
     for (const std::size_t item : shown.items()) {
         records_[item].last_shown = shows_;
     }

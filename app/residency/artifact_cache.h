@@ -79,9 +79,9 @@ public:
     /// `eye_m`: the pose and eye for the expected times of quality levels.
     void start(const FrameCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
     /// Once a frame.
-    void step(GpuStore& store, const CacheRequest& wish);
+    void step(GpuStore& store, const CacheRequest& request);
     /// True if everything shown and waited for is in memory, except for items that were left out.
-    [[nodiscard]] bool has(const CacheRequest& wish) const;
+    [[nodiscard]] bool has(const CacheRequest& request) const;
     /// Releases one more artifact or text from the store and stops requesting; false: nothing was left.
     bool release_some(GpuStore& store);
 
@@ -132,13 +132,13 @@ private:
     [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
     /// Adds nothing if the artifact has no such text.
     void add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const;
-    [[nodiscard]] Queue needed(const CacheRequest& wish) const;
-    [[nodiscard]] Queue wanted(const CacheRequest& wish) const;
+    [[nodiscard]] Queue needed(const CacheRequest& request) const;
+    [[nodiscard]] Queue wanted(const CacheRequest& request) const;
     [[nodiscard]] Result<ArtifactReader::Prepared> prepare(std::size_t item,
                                                            const ArtifactReader::GivenUp& given_up) const;
 
-    void step_once(GpuStore& store, const CacheRequest& wish);
-    void note_shown(const CacheRequest& wish);
+    void step_once(GpuStore& store, const CacheRequest& request);
+    void note_shown(const CacheRequest& request);
     void receive(std::size_t item, Result<ArtifactReader::Prepared> prepared);
     [[nodiscard]] bool arrives(std::size_t item) const;
     void upload(GpuStore& store, std::span<const std::size_t> needed, std::span<const std::size_t> wanted);

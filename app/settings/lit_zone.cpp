@@ -169,9 +169,9 @@ bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec
     });
 }
 
-/// The distance from the lens's foot up to which every face is turned to the light at every yaw; negative if
-/// there is none.
-double lit_radius(const Scene& scene) {
+/// The distance from the lens's foot up to which every face is turned to the light at every yaw: the sine where the
+/// prop's axis meets the table. Negative if there is none. Compare radius_lit_at_farthest_corner in whole_zone.cpp.
+double radius_lit_at_foot(const Scene& scene) {
     const auto lit = [&](double radius) {
         const glm::dvec2 place = glm::dvec2(scene.lens) + glm::dvec2(radius, 0.0);
         return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
@@ -207,7 +207,7 @@ Polygon hand_zone(const Settings& settings, const Scene& scene) {
 }
 
 Polygon upright_zone(const Settings& settings, const Scene& scene) {
-    const double radius = lit_radius(scene);
+    const double radius = radius_lit_at_foot(scene);
     if (radius < 0.0) {
         return {};
     }

@@ -13,8 +13,8 @@ namespace frustumscreen {
 namespace {
 
 /// The distance from the lens's foot up to which every face is turned to the light at every yaw, by FaceReader's
-/// criterion: the sine at the farthest corner. Negative if there is none.
-double lit_radius(const PropShape& prop, const glm::dvec3& lens) {
+/// criterion: the sine at the farthest corner. Negative if there is none. Compare radius_lit_at_foot in lit_zone.cpp.
+double radius_lit_at_farthest_corner(const PropShape& prop, const glm::dvec3& lens) {
     double reach = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
         reach = std::fmax(reach, glm::length(corner));
@@ -60,7 +60,7 @@ WholeZone whole_zone(const Settings& settings, const EyesAround& eyes, std::span
     }
     const PropShape prop = make_prop(settings.prop);
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
-    const double radius = lit_radius(prop, lens);
+    const double radius = radius_lit_at_farthest_corner(prop, lens);
     Polygon places = radius > 0.0 ? places_on_table(settings.table, prop) : Polygon();
     // The circle about the prop's axis through which the artifact is seen must lie in the picture.
     const std::array<Plane, 4> picture =

@@ -27,7 +27,7 @@ struct FileStamp {
 [[nodiscard]] std::optional<FileStamp> stamp_of_set(const std::filesystem::path& library);
 /// Nothing: there is no set.txt.
 [[nodiscard]] Result<std::optional<SetChoice>> read_choice(const std::filesystem::path& library);
-/// Nothing: there is none, or it is unusable, as after a power cut; then the set's trial begins anew.
+/// Nothing: there is none, or it is unusable, as after a power cut; then the set's trial starts again.
 [[nodiscard]] std::optional<SetVerdict> read_verdict(const std::filesystem::path& library);
 [[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict);
 

@@ -47,8 +47,8 @@ std::unique_ptr<ShownSet> LibraryWatch::take() {
 }
 
 bool LibraryWatch::give_back(std::unique_ptr<ShownSet>& set) {
-    ShownSet* nobody = nullptr;
-    if (!gone_.compare_exchange_strong(nobody, set.get())) {
+    ShownSet* none = nullptr;
+    if (!gone_.compare_exchange_strong(none, set.get())) {
         return false;
     }
     static_cast<void>(set.release());

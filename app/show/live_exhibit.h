@@ -40,7 +40,7 @@ public:
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
-    [[nodiscard]] const SoundRequest& wish() const override { return speaker_.wish(); }
+    [[nodiscard]] const SoundRequest& sound_request() const override { return speaker_.request(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
     [[nodiscard]] bool sleeps() const override { return true; }

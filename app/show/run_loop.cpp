@@ -102,7 +102,7 @@ private:
         const std::vector<Command>& commands = intake_.commands();
         show_.step(now, commands, tracked_state);
         if (inputs_.sound) {
-            const SoundReport heard = inputs_.sound->poll(now, show_.wish());
+            const SoundReport heard = inputs_.sound->poll(now, show_.sound_request());
             show_.hear(heard);
             result_.status.sound_underruns = heard.underruns;
         }

@@ -36,13 +36,13 @@ Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
                     "staff what its camera sees");
     }
     earliest_ = monotonic_now() + between_pictures;
-    turn_ = Turn::Nobody;
+    turn_ = Turn::None;
     return &picture_;
 }
 
 /// A copy that hung last time may be done by then, and is old. One that still hangs is waited for.
 void Screenshot::ask() {
-    for (const Turn from : {Turn::Nobody, Turn::Done}) {
+    for (const Turn from : {Turn::None, Turn::Done}) {
         Turn turn = from;
         turn_.compare_exchange_strong(turn, Turn::Asked);
     }
@@ -53,7 +53,7 @@ bool Screenshot::comes(MonotonicTime until, const std::stop_token& stop) {
     while (turn_.load() != Turn::Done) {
         if (stop.stop_requested() || monotonic_now() >= until) {
             Turn asked = Turn::Asked;
-            turn_.compare_exchange_strong(asked, Turn::Nobody);
+            turn_.compare_exchange_strong(asked, Turn::None);
             return false;
         }
         std::this_thread::sleep_for(between_looks);

@@ -34,11 +34,11 @@ public:
     [[nodiscard]] Result<const Image8*> take(const std::stop_token& stop);
 
 private:
-    enum class Turn : std::uint8_t { Nobody, Asked, Copying, Done };
+    enum class Turn : std::uint8_t { None, Asked, Copying, Done };
     void ask();
     [[nodiscard]] bool comes(MonotonicTime until, const std::stop_token& stop);
 
-    std::atomic<Turn> turn_ = Turn::Nobody;
+    std::atomic<Turn> turn_ = Turn::None;
     Image8 picture_; ///< owned by the render thread while it copies, otherwise by the caller of `take`
     Nanoseconds patience_;
     MonotonicTime earliest_{};

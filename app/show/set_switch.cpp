@@ -76,12 +76,12 @@ void SetSwitch::bring(State state, Exhibit& exhibit) {
         return;
     }
     const std::array<std::size_t, 1> wanted{*first};
-    const CacheRequest wish{*first, exhibit.language(), wanted, exhibit.language()};
-    if (const Result<void> uploaded = coming_->upload(artifacts_.store(), wish, frame_bytes); !uploaded) {
+    const CacheRequest request{*first, exhibit.language(), wanted, exhibit.language()};
+    if (const Result<void> uploaded = coming_->upload(artifacts_.store(), request, frame_bytes); !uploaded) {
         give_up(uploaded.error().message, exhibit);
         return;
     }
-    exhibit.await_set(coming_->ready(wish));
+    exhibit.await_set(coming_->ready(request));
 }
 
 void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {

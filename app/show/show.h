@@ -63,7 +63,7 @@ public:
     /// picture is shown.
     virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
     /// The sound to play.
-    [[nodiscard]] virtual const SoundRequest& wish() const {
+    [[nodiscard]] virtual const SoundRequest& sound_request() const {
         static const SoundRequest silence;
         return silence;
     }

@@ -110,7 +110,7 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
 }
 
 /// Small pictures that are visible at once come first.
-Result<void> ShownSet::upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes) {
+Result<void> ShownSet::upload(GpuStore& store, const CacheRequest& request, std::uint64_t max_bytes) {
     if (!word_pictures.ready()) {
         return word_pictures.upload(store, max_bytes);
     }
@@ -118,12 +118,12 @@ Result<void> ShownSet::upload(GpuStore& store, const CacheRequest& wish, std::ui
         table.upload(store, max_bytes);
         return {};
     }
-    artifact_cache->step(store, wish);
+    artifact_cache->step(store, request);
     return {};
 }
 
-bool ShownSet::ready(const CacheRequest& wish) const {
-    return word_pictures.ready() && table.ready() && artifact_cache->has(wish);
+bool ShownSet::ready(const CacheRequest& request) const {
+    return word_pictures.ready() && table.ready() && artifact_cache->has(request);
 }
 
 bool ShownSet::release_some(GpuStore& store) {

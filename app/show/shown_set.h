@@ -79,9 +79,9 @@ struct ShownSet {
     std::optional<TableBrowser>
         browser; ///< from lay_out_catalogue; the exhibit takes it. A run's first set has none
 
-    /// Uploads about `max_bytes` more of what `wish` needs to be shown, or a little more.
-    [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes);
-    [[nodiscard]] bool ready(const CacheRequest& wish) const;
+    /// Uploads about `max_bytes` more of what `request` needs to be shown, or a little more.
+    [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& request, std::uint64_t max_bytes);
+    [[nodiscard]] bool ready(const CacheRequest& request) const;
     /// Releases a part of the store's contents. False: nothing is left in the store. After the first call nothing can
     /// be shown.
     bool release_some(GpuStore& store);

@@ -27,7 +27,7 @@ bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
         return false;
     }
     if (is_alive(tone_number_)) {
-        wish_.stop();
+        request_.stop();
     }
     tell(presentation, stage);
     advise(presentation, stage);
@@ -40,16 +40,16 @@ void Speaker::play_tones(std::uint32_t asked) {
         return;
     }
     if (is_alive(tone_number_)) {
-        wish_.stop();
+        request_.stop();
     }
-    tone_number_ = wish_.say(tone_);
+    tone_number_ = request_.say(tone_);
 }
 
 bool Speaker::announce(const SharedRecording& announcement) {
     const bool another = speaks() || word_ || comes_ || is_alive(std::max(description_, advice_));
     const SharedReading reading = another ? nullptr : reader_->find(announcement);
     if (reading && reading->prompt) {
-        advice_ = wish_.say(reading->prompt);
+        advice_ = request_.say(reading->prompt);
     }
     return reading != nullptr;
 }
@@ -61,10 +61,10 @@ void Speaker::end_description(bool at_pause) {
     }
     // A description not heard yet waits for other speech to end, which goes on to its own next pause.
     if (!at_pause && is_heard) {
-        wish_.stop();
+        request_.stop();
         ending_ = Ending::Stopped;
     } else if (ending_ == Ending::None) {
-        wish_.leave();
+        request_.leave();
         ending_ = Ending::Left;
     }
 }
@@ -83,7 +83,7 @@ void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) 
     }
     if (reading_ && !is_alive(description_)) {
         if (description_ > advice_) {
-            wish_.leave(); // releases its samples
+            request_.leave(); // releases its samples
         }
         reading_ = nullptr;
     }
@@ -96,9 +96,9 @@ void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) 
     comes_ = recording && !reading_;
     if (reading_ && reading_->prompt) {
         if (speaks()) {
-            wish_.stop();
+            request_.stop();
         }
-        description_ = wish_.say(reading_->prompt);
+        description_ = request_.say(reading_->prompt);
     }
 }
 
@@ -106,7 +106,7 @@ void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage
     if (presentation.falls_silent) {
         word_.reset();
         if (is_alive(advice_) && advice_ > description_) {
-            wish_.leave();
+            request_.leave();
         }
     }
     if (presentation.says) {
@@ -123,7 +123,7 @@ void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage
     }
     word_.reset();
     if (reading && reading->prompt) {
-        advice_ = wish_.say(reading->prompt);
+        advice_ = request_.say(reading->prompt);
     }
 }
 
@@ -134,7 +134,7 @@ void Speaker::forget() {
 
 void Speaker::fall_silent() {
     if (is_alive(std::max(description_, advice_))) {
-        wish_.stop();
+        request_.stop();
     }
     forget();
 }

@@ -34,9 +34,9 @@ public:
     void forget();
     /// Ends all speech, including what waits.
     void fall_silent();
-    void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
+    void set_gain_db(double gain_db) { request_.set_gain_db(gain_db); }
 
-    [[nodiscard]] const SoundRequest& wish() const { return wish_; }
+    [[nodiscard]] const SoundRequest& request() const { return request_; }
     /// True while something is heard.
     [[nodiscard]] bool speaks() const { return report_.number != 0; }
     /// Playback of the description that the latest step told or left.
@@ -52,7 +52,7 @@ private:
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 
     std::optional<PromptReader> reader_;
-    SoundRequest wish_;
+    SoundRequest request_;
     SoundReport report_;
     std::optional<DescriptionIndex> told_;
     std::uint64_t description_ = 0; ///< its number; 0: it was not played

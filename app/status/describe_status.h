@@ -40,7 +40,7 @@ void set_fields(auto& fields, auto& set, bool library_hangs) {
     });
     fields.object("newest", {}, [&](auto& newest) {
         newest.field("number", set.newest.number);
-        newest.choice("verdict", set.newest.state, verdict_words);
+        newest.choice("verdict", set.newest.state, trial_state_names);
         newest.field("on_trial", set.on_trial);
         newest.field("starts", set.newest.starts);
         newest.field("reason", set.newest.reason);

@@ -5,7 +5,6 @@
 
 #include "app/library/installed_set.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -23,8 +22,6 @@ struct SetStatus {
     std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: no trouble
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };
-/// In the order of TrialState.
-inline constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
 using SharedSetStatus = std::shared_ptr<const SetStatus>;
 
 /// Takes the place of SetStatus::trouble: the thread that fills in SetStatus is the one that hangs.

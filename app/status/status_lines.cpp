@@ -159,7 +159,7 @@ std::string set_line(const StatusReport& status) {
     }
     if (const SetVerdict& newest = set.newest; newest.number != 0) {
         text += fmt::format("; the newest is set {}, {}{}{}", newest.number,
-                            verdict_words.at(static_cast<std::size_t>(newest.state)),
+                            trial_state_names.at(static_cast<std::size_t>(newest.state)),
                             newest.reason.empty() ? "" : ": ", brief(newest.reason));
     }
     const std::string trouble = trouble_of(set, status.library_hangs);

@@ -82,7 +82,7 @@ CameraState state_of_verdict(FrameVerdict verdict, const CameraSetUp& set_up) {
 
 } // namespace
 
-std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& wish) {
+std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& request) {
     std::vector<FoundCamera> found;
     for (const std::string& path : devices.list()) {
         const auto device = devices.open(path);
@@ -90,16 +90,16 @@ std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest&
             continue;
         }
         if (const std::optional<Identity> identity = identity_of(**device)) {
-            found.push_back({path, identity->name, identity->bus, list_modes(**device, wish)});
+            found.push_back({path, identity->name, identity->bus, list_modes(**device, request)});
         }
     }
     return found;
 }
 
-CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, Clock clock,
+CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest request, Clock clock,
                            FrameUse use, CpuThrottle share)
-    : devices_(std::move(devices)), wish_(std::move(wish)), clock_(std::move(clock)), use_(std::move(use)),
-      pace_(std::move(share)) {}
+    : devices_(std::move(devices)), request_(std::move(request)), clock_(std::move(clock)),
+      use_(std::move(use)), pace_(std::move(share)) {}
 
 double CameraDriver::rate_hz() {
     return judge_ ? judge_->rate_hz(clock_()) : 0.0;
@@ -110,12 +110,12 @@ tl::expected<void, CameraState> CameraDriver::open(const std::string& path) {
     if (!device) {
         return tl::unexpected(state_of_open(device.error()));
     }
-    const bool is_path = wish_.device.find('/') != std::string::npos;
+    const bool is_path = request_.device.find('/') != std::string::npos;
     const std::optional<Identity> identity = identity_of(**device);
-    if (!identity || (!is_path && wish_.device != "any" && wish_.device != identity->name)) {
+    if (!identity || (!is_path && request_.device != "any" && request_.device != identity->name)) {
         return tl::unexpected(CameraState::NotConnected);
     }
-    const std::optional<CameraMode> mode = choose_mode(list_modes(**device, wish_), wish_);
+    const std::optional<CameraMode> mode = choose_mode(list_modes(**device, request_), request_);
     if (!mode) {
         return tl::unexpected(CameraState::NoFormat);
     }
@@ -125,7 +125,7 @@ tl::expected<void, CameraState> CameraDriver::open(const std::string& path) {
                        identity->name,
                        identity->bus,
                        {frame.format, frame.width, frame.height, set.rate_hz},
-                       lock_controls(**device, wish_)};
+                       lock_controls(**device, request_)};
     TRY(stream_, V4l2Stream::start(std::move(*device), frame));
     set_up_ = std::move(set_up);
     path_ = path;
@@ -134,7 +134,7 @@ tl::expected<void, CameraState> CameraDriver::open(const std::string& path) {
 
 Nanoseconds CameraDriver::search() {
     std::vector<std::string> paths =
-        wish_.device.find('/') != std::string::npos ? std::vector{wish_.device} : devices_->list();
+        request_.device.find('/') != std::string::npos ? std::vector{request_.device} : devices_->list();
     std::stable_partition(paths.begin(), paths.end(),
                           [this](const std::string& path) { return path != failed_; });
     CameraState trouble = CameraState::NotConnected;
@@ -146,7 +146,7 @@ Nanoseconds CameraDriver::search() {
             has_sent_ = false;
             broken_before_ = counts_.broken;
             // If the driver does not report its rate, the requested rate applies.
-            judge_.emplace(set_up_->mode.rate_hz > 0.0 ? set_up_->mode.rate_hz : wish_.rate_hz, heard_);
+            judge_.emplace(set_up_->mode.rate_hz > 0.0 ? set_up_->mode.rate_hz : request_.rate_hz, heard_);
             // Until the first frame, a previous fault tells more than SettingUp.
             state_ = state_ == CameraState::Silent || state_ == CameraState::Broken ? state_
                                                                                     : CameraState::SettingUp;

@@ -25,7 +25,7 @@ struct FoundCamera {
     std::vector<CameraMode> modes; ///< only those in a readable format
 };
 /// All cameras that can be opened.
-[[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& wish);
+[[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& request);
 
 class CameraDriver {
 public:
@@ -35,7 +35,7 @@ public:
     static constexpr Nanoseconds max_silence = std::chrono::seconds(3);
 
     using Clock = std::function<MonotonicTime()>;
-    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, Clock clock, FrameUse use = {},
+    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest request, Clock clock, FrameUse use = {},
                  CpuThrottle share = CpuThrottle(1.0));
 
     struct Step {
@@ -58,7 +58,7 @@ private:
     void judge(MonotonicTime now);
 
     std::unique_ptr<V4l2Devices> devices_;
-    CameraRequest wish_;
+    CameraRequest request_;
     Clock clock_;
     FrameUse use_; ///< may be empty
     CpuThrottle pace_;

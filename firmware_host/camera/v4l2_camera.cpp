@@ -4,9 +4,9 @@
 
 namespace frustumscreen {
 
-V4l2Camera::V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, FrameUse use,
+V4l2Camera::V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest request, FrameUse use,
                        double max_share)
-    : driver_(std::move(devices), std::move(wish), monotonic_now, std::move(use), CpuThrottle(max_share)),
+    : driver_(std::move(devices), std::move(request), monotonic_now, std::move(use), CpuThrottle(max_share)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void V4l2Camera::run(const std::stop_token& stop) {

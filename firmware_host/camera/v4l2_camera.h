@@ -25,7 +25,7 @@ public:
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
     /// `max_share`: limit of the thread's processor time, as a share of one core.
-    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, FrameUse use = {},
+    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest request, FrameUse use = {},
                double max_share = 1.0);
 
     [[nodiscard]] bool poll(CameraFrame& frame) override { return mailbox_.try_take(frame); }

@@ -40,7 +40,7 @@ bool is_there(V4l2Device& device, std::uint32_t id) {
     return device.ask(VIDIOC_QUERYCTRL, query) == 0 && (query.flags & V4L2_CTRL_FLAG_DISABLED) == 0;
 }
 
-LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<double> wished) {
+LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<double> requested) {
     LockedControl locked{recipe.name, recipe.unit, Lock::NotThere, 0.0};
     const bool has_automatic = is_there(device, recipe.automatic);
     const bool has_value = is_there(device, recipe.value);
@@ -52,25 +52,27 @@ LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<doubl
     }
     const bool fixed = !has_automatic || read(device, recipe.automatic) == recipe.manual;
     const std::int32_t asked =
-        wished ? static_cast<std::int32_t>(std::lround(*wished * recipe.steps_per_unit)) : 0;
-    const bool taken = !has_value || !wished || write(device, recipe.value, asked);
+        requested ? static_cast<std::int32_t>(std::lround(*requested * recipe.steps_per_unit)) : 0;
+    const bool taken = !has_value || !requested || write(device, recipe.value, asked);
     const std::optional<std::int32_t> found =
         has_value ? read(device, recipe.value) : std::optional<std::int32_t>();
     locked.value = found.value_or(0) / recipe.steps_per_unit;
-    const bool as_wished = !wished || (taken && found == asked);
-    locked.lock = !fixed || (has_value && !found) ? Lock::Refused : as_wished ? Lock::Locked : Lock::Changed;
+    const bool as_requested = !requested || (taken && found == asked);
+    locked.lock = !fixed || (has_value && !found) ? Lock::Refused
+                  : as_requested                  ? Lock::Locked
+                                                  : Lock::Changed;
     return locked;
 }
 
 } // namespace
 
-std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& wish) {
-    const auto number = [](const auto& wished) {
-        return wished ? std::optional<double>(*wished) : std::optional<double>();
+std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& request) {
+    const auto number = [](const auto& requested) {
+        return requested ? std::optional<double>(*requested) : std::optional<double>();
     };
-    std::vector<LockedControl> controls{lock(device, exposure, wish.exposure_ms),
-                                        lock(device, gain, number(wish.gain)),
-                                        lock(device, white_balance, number(wish.white_balance_k))};
+    std::vector<LockedControl> controls{lock(device, exposure, request.exposure_ms),
+                                        lock(device, gain, number(request.gain)),
+                                        lock(device, white_balance, number(request.white_balance_k))};
     // A camera that may lengthen its exposure in the dark sends fewer frames then.
     static_cast<void>(write(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0));
     return controls;

@@ -12,6 +12,6 @@
 namespace frustumscreen {
 
 /// In this order: exposure, gain, white balance.
-[[nodiscard]] std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& wish);
+[[nodiscard]] std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& request);
 
 } // namespace frustumscreen

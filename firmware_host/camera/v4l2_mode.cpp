@@ -43,14 +43,14 @@ double hertz(const v4l2_fract& interval) {
     return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0.0;
 }
 
-/// The value in the range that is nearest to `wished`.
-int in_range(int wished, std::uint32_t least, std::uint32_t most, std::uint32_t step) {
+/// The value in the range that is nearest to `requested`.
+int in_range(int requested, std::uint32_t least, std::uint32_t most, std::uint32_t step) {
     const std::int64_t unit = std::max<std::int64_t>(step, 1);
-    const std::int64_t inside = std::clamp<std::int64_t>(wished, least, std::max(least, most));
+    const std::int64_t inside = std::clamp<std::int64_t>(requested, least, std::max(least, most));
     return static_cast<int>(least + (inside - least) / unit * unit);
 }
 
-void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, double wished_hz,
+void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, double requested_hz,
                 std::vector<CameraMode>& modes) {
     v4l2_frmivalenum rate{};
     rate.pixel_format = fourcc;
@@ -59,7 +59,7 @@ void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, doubl
     for (; rate.index < max_rates && device.ask(VIDIOC_ENUM_FRAMEINTERVALS, rate) == 0; ++rate.index) {
         if (rate.type != V4L2_FRMIVAL_TYPE_DISCRETE) {
             const double slowest = hertz(rate.stepwise.max);
-            mode.rate_hz = std::clamp(wished_hz, slowest, std::max(slowest, hertz(rate.stepwise.min)));
+            mode.rate_hz = std::clamp(requested_hz, slowest, std::max(slowest, hertz(rate.stepwise.min)));
             modes.push_back(mode);
             return;
         }
@@ -71,12 +71,12 @@ void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, doubl
     }
 }
 
-void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, const CameraRequest& wish,
+void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, const CameraRequest& request,
                 std::vector<CameraMode>& modes) {
     const auto add = [&](std::int64_t width, std::int64_t height) {
         if (width > 0 && height > 0 && width <= longest_side && height <= longest_side) {
             list_rates(device, fourcc, {format, static_cast<int>(width), static_cast<int>(height), 0.0},
-                       wish.rate_hz, modes);
+                       request.rate_hz, modes);
         }
     };
     v4l2_frmsizeenum size{};
@@ -84,40 +84,40 @@ void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, co
     for (; size.index < max_sizes && device.ask(VIDIOC_ENUM_FRAMESIZES, size) == 0; ++size.index) {
         if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) {
             const v4l2_frmsize_stepwise& range = size.stepwise;
-            add(in_range(wish.width, range.min_width, range.max_width, range.step_width),
-                in_range(wish.height, range.min_height, range.max_height, range.step_height));
+            add(in_range(request.width, range.min_width, range.max_width, range.step_width),
+                in_range(request.height, range.min_height, range.max_height, range.step_height));
             return;
         }
         add(size.discrete.width, size.discrete.height);
     }
-    if (size.index == 0) { // the driver lists no sizes; it may accept the wished one
-        add(wish.width, wish.height);
+    if (size.index == 0) { // the driver lists no sizes; it may accept the requested one
+        add(request.width, request.height);
     }
 }
 
 } // namespace
 
-std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& wish) {
+std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& request) {
     std::vector<CameraMode> modes;
     v4l2_fmtdesc description{};
     description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     for (; description.index < max_formats && device.ask(VIDIOC_ENUM_FMT, description) == 0;
          ++description.index) {
         if (const std::optional<PixelFormat> format = format_of(description.pixelformat)) {
-            list_sizes(device, description.pixelformat, *format, wish, modes);
+            list_sizes(device, description.pixelformat, *format, request, modes);
         }
     }
     return modes;
 }
 
-std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes, const CameraRequest& wish) {
-    const auto badness = [&wish](const CameraMode& mode) {
-        const int off = std::abs(mode.width - wish.width) + std::abs(mode.height - wish.height);
-        const double reached = std::fmin(mode.rate_hz / wish.rate_hz, 1.0);
+std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes, const CameraRequest& request) {
+    const auto badness = [&request](const CameraMode& mode) {
+        const int off = std::abs(mode.width - request.width) + std::abs(mode.height - request.height);
+        const double reached = std::fmin(mode.rate_hz / request.rate_hz, 1.0);
         const double missing = reached >= near_enough ? 0.0 : 1.0 - reached;
-        // Among sufficient rates, the nearest to the wish: more light for each frame, fewer bytes to
+        // Among sufficient rates, the nearest to the request: more light for each frame, fewer bytes to
         // transfer.
-        const double beyond = std::fabs(mode.rate_hz - wish.rate_hz);
+        const double beyond = std::fabs(mode.rate_hz - request.rate_hz);
         return std::tuple(off, missing, mode.format, beyond);
     };
     const auto best =

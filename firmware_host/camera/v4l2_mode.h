@@ -25,13 +25,13 @@ struct SetMode {
     double rate_hz = 0.0; ///< 0: not reported by the driver
 };
 
-/// All modes in a readable format; for a range, the value nearest to the wish.
-[[nodiscard]] std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& wish);
+/// All modes in a readable format; for a range, the value nearest to the request.
+[[nodiscard]] std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& request);
 
-/// Among the modes of the size nearest to the wish, the one that reaches the rate, or is fastest; then the
+/// Among the modes of the size nearest to the request, the one that reaches the rate, or is fastest; then the
 /// format that is cheapest to decode. nullopt: there are no modes.
 [[nodiscard]] std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes,
-                                                    const CameraRequest& wish);
+                                                    const CameraRequest& request);
 
 /// Returns the mode that the driver has accepted.
 [[nodiscard]] tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode& mode);

@@ -31,7 +31,7 @@ MonotonicTime time_of(const v4l2_buffer& buffer, MonotonicTime now) {
 
 bool V4l2Stream::map_buffers() {
     v4l2_requestbuffers request{};
-    request.count = wished_buffers;
+    request.count = requested_buffers;
     request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     request.memory = V4L2_MEMORY_MMAP;
     if (device_->ask(VIDIOC_REQBUFS, request) != 0 || request.count == 0) {

@@ -16,7 +16,7 @@ namespace frustumscreen {
 
 class V4l2Stream {
 public:
-    static constexpr std::uint32_t wished_buffers = 4;
+    static constexpr std::uint32_t requested_buffers = 4;
 
     /// Errors: InUse, SetUpRefused.
     [[nodiscard]] static tl::expected<std::unique_ptr<V4l2Stream>, CameraState>

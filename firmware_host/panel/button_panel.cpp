@@ -104,7 +104,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
             mailbox_.put(events);
             said_.put(state_of(buttons, whole));
         }
-        if (Result<void> lit = lamps.follow(wished_, buttons, lines); !lit) {
+        if (Result<void> lit = lamps.follow(requested_, buttons, lines); !lit) {
             return lit.error();
         }
         const std::optional<MonotonicTime> due = buttons.due();

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool chord_held(MonotonicTime now) const override {
         return now < held_until_.promised_until();
     }
-    void light(std::uint32_t buttons) override { wished_ = buttons; }
+    void light(std::uint32_t buttons) override { requested_ = buttons; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
     }
@@ -54,7 +54,7 @@ private:
     Latest<DeviceState> said_;
     DeviceState state_{{DeviceHealth::Away, "panel.not_opened"},
                        Sentence("its buttons are not opened yet")}; ///< the latest that `poll` saw
-    std::atomic<std::uint32_t> wished_{0};                          ///< lamps
+    std::atomic<std::uint32_t> requested_{0};                       ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     Heartbeat held_until_{MonotonicTime{}}; ///< the chord counts as held until then
     std::jthread thread_;                   ///< last: it uses all members above

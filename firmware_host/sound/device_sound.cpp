@@ -41,9 +41,9 @@ private:
 DeviceSound::DeviceSound(OpenPcm open)
     : open_(std::move(open)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundRequest& wish) {
-    if (wish != wished_ && wishes_.try_put(wish)) {
-        wished_ = wish;
+SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundRequest& request) {
+    if (request != requested_ && requests_.try_put(request)) {
+        requested_ = request;
     }
     if (SoundReport latest; reports_.try_take(latest)) {
         report_ = latest;
@@ -81,7 +81,7 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const MonotonicTime now = monotonic_now();
         heartbeat_.promise(now + longest_round);
-        follow_wish();
+        follow_request();
         const Result<std::size_t> room = device.room();
         if (!room) {
             return room.error();
@@ -122,13 +122,13 @@ void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {
 
 void DeviceSound::go_on_silently() {
     mix_in_blocks(mixer_, clock_.take_due(monotonic_now()), [](std::span<const std::int16_t>) {});
-    follow_wish();
+    follow_request();
     report(Nanoseconds(0), false);
 }
 
-void DeviceSound::follow_wish() {
-    if (SoundRequest wish; wishes_.take(wish)) {
-        mixer_.follow(wish);
+void DeviceSound::follow_request() {
+    if (SoundRequest request; requests_.take(request)) {
+        mixer_.follow(request);
     }
 }
 

@@ -29,7 +29,7 @@ public:
 
     explicit DeviceSound(OpenPcm open);
 
-    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& request) override;
     [[nodiscard]] std::string name() const override { return "device"; }
     [[nodiscard]] std::string_view state() const override { return state_.sentence.view(); }
     [[nodiscard]] DeviceCondition condition() const override { return state_.condition; }
@@ -44,17 +44,17 @@ private:
     /// Keeps time without a device.
     void rest(Nanoseconds length, const std::stop_token& stop);
     void go_on_silently();
-    void follow_wish();
+    void follow_request();
     void report(Nanoseconds queued, bool audible);
 
     OpenPcm open_;
     // Shared between the threads:
-    Latest<SoundRequest> wishes_;
+    Latest<SoundRequest> requests_;
     Latest<SoundReport> reports_;
     Latest<DeviceState> said_;
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     // Used by the caller:
-    SoundRequest wished_; ///< the latest one handed over
+    SoundRequest requested_; ///< the latest one handed over
     SoundReport report_;
     DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
                        Sentence("its sound device is not opened yet")};

@@ -51,8 +51,8 @@ float soft_limit(float x) {
     return size <= knee ? x : std::copysign(knee + room * std::tanh((size - knee) / room), x);
 }
 
-void Mixer::follow(const SoundRequest& wish) {
-    if (wish.stops_ != wish_.stops_) {
+void Mixer::follow(const SoundRequest& request) {
+    if (request.stops_ != request_.stops_) {
         waiting_ = {};
         if (spoken_.prompt && fade_left_ == 0) {
             fade_left_ = fade_samples;
@@ -61,21 +61,21 @@ void Mixer::follow(const SoundRequest& wish) {
         breath_ = 0;
         next_breath_ = 0;
     }
-    if (wish.leaves_ != wish_.leaves_) {
+    if (request.leaves_ != request_.leaves_) {
         waiting_ = {};
         leaving_ = true;
     }
-    if (wish.number_ != wish_.number_) {
-        waiting_ = {wish.prompt_, wish.number_};
+    if (request.number_ != request_.number_) {
+        waiting_ = {request.prompt_, request.number_};
         leaving_ = true;
     }
     leaving_ = leaving_ && spoken_.prompt != nullptr;
-    gain_goal_ = amplitude_of(wish.gain_db_);
+    gain_goal_ = amplitude_of(request.gain_db_);
     if (!begun_) {
         gain_ = Ramp(gain_goal_, gain_samples);
     }
-    wish_ = wish;
-    wish_.prompt_.reset();
+    request_ = request;
+    request_.prompt_.reset();
 }
 
 void Mixer::mix(std::span<std::int16_t> samples) {
@@ -88,7 +88,7 @@ void Mixer::mix(std::span<std::int16_t> samples) {
 SoundReport Mixer::report(Nanoseconds queued) const {
     SoundReport report;
     const std::uint64_t living = spoken_.prompt ? spoken_.number : waiting_.prompt ? waiting_.number : 0;
-    report.over = living > 0 ? living - 1 : wish_.number_;
+    report.over = living > 0 ? living - 1 : request_.number_;
     if (spoken_.prompt) {
         report.number = spoken_.number;
         report.heard = std::max(duration_of(position_) - queued, Nanoseconds(0));

@@ -36,8 +36,8 @@ public:
     static constexpr std::uint32_t gain_samples = sample_rate_hz / 2; ///< for the volume from 0 to 1
     static constexpr float linear_up_to = 0.8F;
 
-    /// The wish from the next sample on.
-    void follow(const SoundRequest& wish);
+    /// The request from the next sample on.
+    void follow(const SoundRequest& request);
     void mix(std::span<std::int16_t> samples);
     /// `queued`: duration of the mixed samples that are not heard yet.
     [[nodiscard]] SoundReport report(Nanoseconds queued) const;
@@ -52,8 +52,8 @@ private:
     void end_speech();
     [[nodiscard]] bool may_leave_here();
 
-    bool begun_ = false; ///< before the first sample the volume changes without a ramp
-    SoundRequest wish_;  ///< without its prompt
+    bool begun_ = false;   ///< before the first sample the volume changes without a ramp
+    SoundRequest request_; ///< without its prompt
     Numbered spoken_;
     Numbered waiting_;
     std::uint32_t position_ = 0;                 ///< next sample of `spoken_`
@@ -77,7 +77,7 @@ template <typename Take> void mix_in_blocks(Mixer& mixer, std::uint64_t count, c
     }
 }
 
-/// The amplitude of `gain_db`, within the limits of sound_wish.h.
+/// The amplitude of `gain_db`, within the limits of sound_request.h.
 [[nodiscard]] float amplitude_of(double gain_db);
 /// Returns x up to `Mixer::linear_up_to`, and bends it above so that it stays below 1; odd, rising, with a
 /// slope of at most 1.

@@ -2,9 +2,9 @@
 
 namespace frustumscreen {
 
-SoundReport SilentSound::poll(MonotonicTime now, const SoundRequest& wish) {
+SoundReport SilentSound::poll(MonotonicTime now, const SoundRequest& request) {
     mix_in_blocks(mixer_, clock_.take_due(now), [](std::span<const std::int16_t>) {});
-    mixer_.follow(wish);
+    mixer_.follow(request);
     return mixer_.report(Nanoseconds(0));
 }
 

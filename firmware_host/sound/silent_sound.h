@@ -1,6 +1,6 @@
 /// A silent sound, for an exhibit without a loudspeaker: it only keeps time.
 ///
-/// Time     that of `poll`, in whole samples since `start`; a wish takes effect where the last `poll` ended.
+/// Time     that of `poll`, in whole samples since `start`; a request takes effect where the last `poll` ended.
 #pragma once
 
 #include "firmware_host/sound/mixer.h"
@@ -13,7 +13,7 @@ class SilentSound final : public Sound {
 public:
     explicit SilentSound(MonotonicTime start) : clock_(start) {}
 
-    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& request) override;
     [[nodiscard]] std::string name() const override { return "silent"; }
 
 private:

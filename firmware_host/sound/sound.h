@@ -8,7 +8,7 @@
 
 #include "firmware_host/base/device_state.h"
 #include "firmware_host/base/time.h"
-#include "firmware_host/sound/sound_wish.h"
+#include "firmware_host/sound/sound_request.h"
 
 #include <optional>
 #include <string>
@@ -31,8 +31,8 @@ struct SoundReport {
 class Sound {
 public:
     virtual ~Sound() = default;
-    /// The wish takes effect at `now`; returns what is heard.
-    virtual SoundReport poll(MonotonicTime now, const SoundRequest& wish) = 0;
+    /// The request takes effect at `now`; returns what is heard.
+    virtual SoundReport poll(MonotonicTime now, const SoundRequest& request) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     /// The device's state in one plain sentence, valid until the next `poll`; empty if there is nothing to
     /// report.

@@ -38,12 +38,12 @@ Bytes wav_header(std::size_t samples) {
 
 } // namespace
 
-SoundReport WavSound::poll(MonotonicTime now, const SoundRequest& wish) {
+SoundReport WavSound::poll(MonotonicTime now, const SoundRequest& request) {
     mix_in_blocks(mixer_, clock_.take_due(now), [this](std::span<const std::int16_t> block) {
         const std::size_t fit = std::min<std::size_t>(block.size(), max_samples - samples_.size());
         samples_.insert(samples_.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(fit));
     });
-    mixer_.follow(wish);
+    mixer_.follow(request);
     SoundReport report = mixer_.report(Nanoseconds(0));
     report.audible = true;
     return report;

@@ -1,6 +1,6 @@
 /// A sound that goes to a WAV file (RIFF, 16-bit PCM, mono, 48 kHz); equal polls give equal samples.
 ///
-/// Time     that of `poll`, in whole samples since `start`; a wish takes effect where the last `poll` ended.
+/// Time     that of `poll`, in whole samples since `start`; a request takes effect where the last `poll` ended.
 /// Memory   96 kB per second, until `write`; it holds `longest` and drops later samples.
 /// Errors   those of the file, one sentence; the file appears by rename.
 #pragma once
@@ -20,7 +20,7 @@ public:
 
     explicit WavSound(MonotonicTime start) : clock_(start) {}
 
-    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& request) override;
     [[nodiscard]] std::string name() const override { return "wav"; }
     [[nodiscard]] std::string_view state() const override;
     /// Writes all samples up to the last `poll`.

@@ -99,7 +99,7 @@ public:
     }
     /// Puts the board where it is wanted, within a hand's breadth, and turns it.
     void obey(std::set<int> covered = {}) {
-        const RestRequest wish = procedure.wish();
+        const RestRequest wish = procedure.request();
         const bool leans = wish.posture == Posture::Leaning;
         const double lean = leans ? numbers.between(0.26, 0.5) : 0.0;
         const double block = wish.posture == Posture::Block ? procedure.plan().block_m : 0.0;
@@ -219,7 +219,7 @@ RegistrationError whole_way(const LiveSetup& setup) {
     live.procedure.judge(calibrate_auto(live.procedure.rests(), live.setup()));
     const AutoCalibration& got = *live.procedure.judged();
     if (!got.found.table) {
-        ADD_FAILURE() << got.found.reason;
+        ADD_FAILURE() << got.found.reason.sentence;
         return {1.0, 1.0};
     }
     const RegistrationError error = registration_error(live.table, *got.found.table, prop.height_m);
@@ -228,7 +228,7 @@ RegistrationError whole_way(const LiveSetup& setup) {
                 "%s; pixels within %.2f, print %.4f\n",
                 static_cast<int>(setup.seed), setup.rests, live.table.truth.pinhole.width, setup.camera_width,
                 1e3 * to_seconds(*live.procedure.delay()), to_seconds(live.now.time_since_epoch()),
-                1e3 * error.mean_m, 1e3 * error.worst_m, got.found.reason.c_str(), got.pixel_noise,
+                1e3 * error.mean_m, 1e3 * error.worst_m, got.found.reason.sentence.c_str(), got.pixel_noise,
                 got.print);
     std::fflush(stdout);
     live.press_next();

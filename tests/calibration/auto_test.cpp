@@ -31,7 +31,7 @@ TEST(Auto, WithoutNoiseTheTruthIsFound) {
         setup.priors = wide_priors(); // the priors' means are not the truth
         const AutoCalibration got =
             calibrate_auto(simulated_rests(table, sheet_with_prop(), {}, no_noise, numbers), setup);
-        ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason;
+        ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason.sentence;
         EXPECT_LT(registration_error(table, *got.found.table, 0.12).worst_m, 2e-5) << seed;
         EXPECT_LT(prop_error(table, *got.found.table, got.sensor_from_prop, 0.12).worst_m, 2e-5) << seed;
         EXPECT_LT(got.found.worst_residual_m, 1e-5) << seed;
@@ -73,7 +73,7 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
         }
         const AutoCalibration got = calibrate_auto(rests, setup_for(table));
         if (!got.found.table) {
-            std::printf("  seed %d: %s\n", static_cast<int>(seed), got.found.reason.c_str());
+            std::printf("  seed %d: %s\n", static_cast<int>(seed), got.found.reason.sentence.c_str());
             worst.push_back(1e3);
             prop_worst.push_back(1e3);
             continue;
@@ -88,7 +88,7 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
         if (verdict == Verdict::Good || verdict == Verdict::Usable) {
             figures.judged += share;
         } else {
-            std::printf("  seed %d: %s\n", static_cast<int>(seed), got.found.reason.c_str());
+            std::printf("  seed %d: %s\n", static_cast<int>(seed), got.found.reason.sentence.c_str());
         }
         figures.uncertainty += share * std::pow(error.mean_m / got.found.uncertainty.mean_m, 2.0);
     }
@@ -289,7 +289,8 @@ void run_faults(std::uint64_t seeds) {
             }
             if (fault.refused_for != nullptr) {
                 EXPECT_EQ(verdict, Verdict::Refused) << fault.name << ", seed " << seed;
-                EXPECT_NE(got.found.reason.find(fault.refused_for), std::string::npos) << got.found.reason;
+                EXPECT_NE(got.found.reason.sentence.find(fault.refused_for), std::string::npos)
+                    << got.found.reason.sentence;
             }
         }
         std::printf("%-45s %3d sets: %d good or usable, of these %d off by 2 mm; repeat %d; refused %d\n",
@@ -313,10 +314,11 @@ TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
     AutoSetup setup = setup_for(table);
     const AutoCalibration refused = calibrate_auto(upright, setup);
     EXPECT_EQ(refused.found.verdict, Verdict::Refused);
-    EXPECT_NE(refused.found.reason.find("--sensor-height"), std::string::npos) << refused.found.reason;
+    EXPECT_NE(refused.found.reason.sentence.find("--sensor-height"), std::string::npos)
+        << refused.found.reason.sentence;
     setup.sensor_height_m = table.sensor_height_m;
     const AutoCalibration found = calibrate_auto(upright, setup);
-    ASSERT_TRUE(found.found.table) << found.found.reason;
+    ASSERT_TRUE(found.found.table) << found.found.reason.sentence;
     EXPECT_LT(registration_error(table, *found.found.table, 0.12).mean_m, 5e-4);
 }
 
@@ -328,7 +330,8 @@ TEST(AutoFaults, TheRestThatMovedIsNamed) {
     const AutoCalibration found = calibrate_auto(rests, setup_for(table));
     EXPECT_EQ(found.found.verdict, Verdict::Repeat);
     EXPECT_EQ(found.found.repeat, std::vector<std::size_t>{7});
-    EXPECT_NE(found.found.reason.find("rest 8 does"), std::string::npos) << found.found.reason;
+    EXPECT_NE(found.found.reason.sentence.find("rest 8 does"), std::string::npos)
+        << found.found.reason.sentence;
 }
 
 } // namespace

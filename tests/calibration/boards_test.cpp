@@ -39,7 +39,7 @@ TEST(Boards, OfAnotherHeightAreMeasured) {
             const TouchCalibration right = calibrate_touch(
                 on_boards(table, crosses.of(table, 9), said_m, same_numbers), setup_for(table));
             ASSERT_TRUE(found.table && right.table)
-                << off_mm << " mm, table " << seed << ": " << found.reason;
+                << off_mm << " mm, table " << seed << ": " << found.reason.sentence;
             ASSERT_TRUE(found.boards);
             EXPECT_NEAR(found.boards->found_m, true_m, 4.0 * found.boards->sd_m) << seed;
             EXPECT_LT(found.boards->sd_m, 1e-3) << seed;
@@ -62,8 +62,8 @@ TEST(Boards, AreToldOnlyWhereTheyDiffer) {
             calibrate_touch(on_boards(table, chosen, said_m, numbers), setup_for(table));
         const TouchCalibration wrong =
             calibrate_touch(on_boards(table, chosen, 0.117, numbers), setup_for(table));
-        told_of_right += right.reason.find("; the boards are 1") != std::string::npos ? 1 : 0;
-        told_of_wrong += wrong.reason.find("; the boards are 11") != std::string::npos ? 1 : 0;
+        told_of_right += right.reason.sentence.find("; the boards are 1") != std::string::npos ? 1 : 0;
+        told_of_wrong += wrong.reason.sentence.find("; the boards are 11") != std::string::npos ? 1 : 0;
     }
     EXPECT_LE(told_of_right, 1);
     EXPECT_GE(told_of_wrong, 38);

@@ -127,13 +127,13 @@ RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& 
     setup.height = table.truth.pinhole.height;
     const AutoCalibration got = calibrate_auto(given, setup);
     if (!got.found.table) {
-        ADD_FAILURE() << seed << ": " << got.found.reason;
+        ADD_FAILURE() << seed << ": " << got.found.reason.sentence;
         return {1.0, 1.0};
     }
     const RegistrationError error = registration_error(table, *got.found.table, 0.12);
     std::printf("seed %d, %d rests captured: mean %.3f mm, worst place %.3f mm; %s; pixels within %.2f\n",
                 static_cast<int>(seed), rests, 1e3 * error.mean_m, 1e3 * error.worst_m,
-                got.found.reason.c_str(), got.pixel_noise);
+                got.found.reason.sentence.c_str(), got.pixel_noise);
     return error;
 }
 

@@ -20,7 +20,7 @@ TEST(Corners, WithoutErrorTheProjectorIsFound) {
         const Pinhole& p = table.truth.pinhole;
         const CornerCalibration found =
             calibrate_corners(measured_corners(table, 0.4, 0.0, numbers), p.width, p.height);
-        ASSERT_TRUE(found.pinhole) << found.reason;
+        ASSERT_TRUE(found.pinhole) << found.reason.sentence;
         EXPECT_NEAR(found.pinhole->fx, p.fx, 1e-7 * p.fx);
         EXPECT_NEAR(found.pinhole->fy, p.fy, 1e-7 * p.fy);
         EXPECT_NEAR(found.pinhole->cx, p.cx, 1e-6 * p.width);

@@ -48,7 +48,8 @@ public:
     void judge(Verdict verdict, std::vector<std::size_t> repeat = {}) {
         EyeFit fit;
         fit.verdict = verdict;
-        fit.reason = "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
+        fit.reason.sentence =
+            "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
         fit.repeat = std::move(repeat);
         if (verdict != Verdict::Refused) {
             fit.eyes.emplace();
@@ -78,12 +79,12 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     };
     const SightScene scene = shipped_scene(640, 400);
     for (const Verdict verdict : {Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
-        Person person(scene, wished_place(scene), listen);
+        Person person(scene, first_place(scene), listen);
         person.go_to_solve();
         person.judge(verdict);
         person.step(true);
     }
-    Person doubtful(scene, wished_place(scene), listen);
+    Person doubtful(scene, first_place(scene), listen);
     doubtful.go_to_solve();
     doubtful.judge(Verdict::Repeat, {3});
     // The errors.
@@ -97,7 +98,7 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     wait(std::chrono::milliseconds(1500)); // it does not stand on the table
     person.prop.translation = {0.1, 0.3, 0.0};
     wait(std::chrono::milliseconds(1500)); // no room
-    person.prop = wished_place(scene);
+    person.prop = first_place(scene);
     wait(std::chrono::milliseconds(1500));
     person.step(true); // the eye is shut
     person.step(true);

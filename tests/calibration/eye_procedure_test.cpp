@@ -116,7 +116,7 @@ TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
         live.sight();
     }
     live.judge();
-    ASSERT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+    ASSERT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason.sentence;
     const glm::dvec3 off = live.procedure.judged()->eyes->middle_m - live.world.person.middle_m();
     EXPECT_LT(glm::length(off), 0.02);
     live.next();
@@ -152,7 +152,7 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.sight_all();
     EXPECT_EQ(live.procedure.sights().front().tip_m, before) << "it keeps its own corner";
     live.judge();
-    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason.sentence;
 }
 
 TEST(EyeProcedure, AWrongAimComesAgainByItself) {
@@ -164,7 +164,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
     }
     live.sight_all();
     live.judge();
-    ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Repeat) << live.procedure.judged()->reason;
+    ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Repeat) << live.procedure.judged()->reason.sentence;
     ASSERT_EQ(live.procedure.judged()->repeat, (std::vector<std::size_t>{2}));
     EXPECT_FALSE(live.procedure.asks_for_more());
     live.next();
@@ -173,7 +173,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
     EXPECT_EQ(live.procedure.at(), 2U);
     live.sight();
     live.judge();
-    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason.sentence;
     live.back(); // repeats the one with the largest residual
     live.wait(0.1);
     const std::vector<double>& off = live.procedure.judged()->residuals_m;

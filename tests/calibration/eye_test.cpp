@@ -42,7 +42,7 @@ TEST(Eyes, WithoutNoiseTheTruthIsFound) {
         const SimulatedPerson person = some_person(seed);
         SeededNumbers numbers(seed);
         const EyeFit fit = fit_eyes(some_sights(person, count, {}, none, numbers), deep_m);
-        ASSERT_TRUE(fit.eyes) << seed << ": " << fit.reason;
+        ASSERT_TRUE(fit.eyes) << seed << ": " << fit.reason.sentence;
         EXPECT_LT(glm::distance(fit.eyes->left_m, person.left_m), 1e-9) << seed;
         EXPECT_LT(glm::distance(fit.eyes->right_m, person.right_m), 1e-9) << seed;
         EXPECT_LT(fit.worst_residual_m, 1e-9) << seed;
@@ -124,7 +124,7 @@ TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
         const EyeFit fit = fit_eyes(sights, deep_m);
         EXPECT_EQ(fit.verdict, Verdict::Refused);
         EXPECT_FALSE(fit.eyes);
-        EXPECT_NE(fit.reason.find(because), std::string::npos) << fit.reason;
+        EXPECT_NE(fit.reason.sentence.find(because), std::string::npos) << fit.reason.sentence;
     };
     refused({}, "are needed");
     refused({well.begin(), well.begin() + 9}, "3 with the right");
@@ -204,7 +204,7 @@ TEST(Eyes, NoneOfTwoHundredSetsWithFaultsIsBelievedWrongly) {
             if (off_m > (kind == 7 ? 4e-3 : promised_m)) {
                 ++wrong;
                 std::printf("set %d of kind %d: %.1f mm, %s\n", static_cast<int>(seed), kind, 1e3 * off_m,
-                            fit.reason.c_str());
+                            fit.reason.sentence.c_str());
             }
         }
     }

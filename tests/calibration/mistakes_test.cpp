@@ -58,8 +58,8 @@ TEST(Mistakes, AreNamedByWhatTheyAre) {
             each.spoil(touches, table);
             const TouchCalibration found = calibrate_touch(touches, setup_for(table));
             EXPECT_EQ(found.verdict, Verdict::Refused)
-                << each.what << ", table " << seed << ": " << found.reason;
-            named += found.reason.find(each.named) != std::string::npos ? 1 : 0;
+                << each.what << ", table " << seed << ": " << found.reason.sentence;
+            named += found.reason.sentence.find(each.named) != std::string::npos ? 1 : 0;
         }
         EXPECT_GE(named, 9) << each.what;
     }

@@ -309,7 +309,7 @@ TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
         const TouchUp nine = touch_up(before.truth, touches, setup);
         kept += may_be_kept(seven) ? 1 : 0;
         kept_with_more += may_be_kept(nine) ? 1 : 0;
-        ASSERT_TRUE(nine.table) << nine.reason;
+        ASSERT_TRUE(nine.table) << nine.reason.sentence;
         sum_mm += 1e3 * registration_error(after, *nine.table, shipped_top_m).mean_m;
     }
     std::printf("of %d touch-ups by seven crosses %d may be kept, with two more %d, off by %.2f mm\n", tables,
@@ -401,7 +401,9 @@ TEST(Promises, AWrongCornerIsRefusedAndNamed) {
         const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
         refused += found.verdict == Verdict::Refused ? 1 : 0;
         named +=
-            found.reason.find(names[static_cast<std::size_t>(wrong.corner)]) != std::string::npos ? 1 : 0;
+            found.reason.sentence.find(names[static_cast<std::size_t>(wrong.corner)]) != std::string::npos
+                ? 1
+                : 0;
     }
     std::printf("of %d sets with a corner 50 mm aside %d were refused, %d with its name\n", sets, refused,
                 named);

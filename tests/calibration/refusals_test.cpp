@@ -33,9 +33,10 @@ TouchCalibration calibrated(std::uint64_t seed, const std::vector<Cross>& crosse
 }
 
 void expect_refused(const TouchCalibration& found, const std::string& word) {
-    EXPECT_EQ(found.verdict, Verdict::Refused) << found.reason;
+    EXPECT_EQ(found.verdict, Verdict::Refused) << found.reason.sentence;
     EXPECT_FALSE(found.table);
-    EXPECT_NE(found.reason.find(word), std::string::npos) << found.reason;
+    EXPECT_NE(found.reason.id.view(), "verdict.none");
+    EXPECT_NE(found.reason.sentence.find(word), std::string::npos) << found.reason.sentence;
 }
 
 /// One right touch in a hundred must be repeated. Of five grids, fewer than two kept ones have a probability
@@ -44,7 +45,7 @@ TEST(Refusals, AGridIsNone) {
     int kept = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const TouchCalibration found = calibrated(seed, grid(some_table(seed), 0.9, 0.9));
-        EXPECT_NE(found.verdict, Verdict::Refused) << found.reason;
+        EXPECT_NE(found.verdict, Verdict::Refused) << found.reason.sentence;
         kept += found.verdict == Verdict::Good || found.verdict == Verdict::Usable ? 1 : 0;
     }
     EXPECT_GE(kept, 2);

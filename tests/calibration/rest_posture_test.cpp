@@ -16,7 +16,7 @@ TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHidd
         std::vector<TakenRest> taken;
         std::vector<glm::dvec2> places;
         for (int k = 0; k < 16; ++k) {
-            const RestRequest wish = next_wish(taken, size);
+            const RestRequest wish = next_request(taken, size);
             EXPECT_EQ(wish.posture == Posture::Leaning, k % 4 == 3) << k;
             for (std::size_t j = 0; k < 11 && j < places.size(); ++j) {
                 EXPECT_GT(glm::distance(wish.pixel, places[j]), 50.0); // each place once

@@ -151,7 +151,7 @@ TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
                                         "The picture was 12 mm beside its place. These touches are too few "
                                         "to check each other."}));
     found.moved = Moved::Nothing;
-    found.reason = "the kept calibration holds";
+    found.reason.sentence = "the kept calibration holds";
     EXPECT_TRUE(judgement_of(found).nothing_moved);
     EXPECT_EQ(judgement_of(found).told,
               (std::vector<std::string>{"Nothing has moved.", "The kept calibration holds."}));

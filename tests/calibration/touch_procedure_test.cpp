@@ -304,10 +304,10 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
         ASSERT_NE(procedure.word(), TouchPrompt::SamePlace);
     }
     const TouchCalibration judged = calibrate_touch(procedure.touches(), setup_for(table));
-    ASSERT_TRUE(judged.table) << judged.reason;
+    ASSERT_TRUE(judged.table) << judged.reason.sentence;
     procedure.judge({judged.verdict, {}, judged.repeat, judged.residuals, false});
     procedure.step({now, std::nullopt, true, false});
-    EXPECT_EQ(procedure.stage(), CalibrationStage::Done) << judged.reason;
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Done) << judged.reason.sentence;
     EXPECT_LT(registration_error(table, *judged.table, 0.12).mean_m, 1e-3);
 }
 

@@ -20,7 +20,7 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
         setup.priors = wide_priors(); // the priors' means are not the truth
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup);
-        ASSERT_TRUE(found.table) << seed << ": " << found.reason;
+        ASSERT_TRUE(found.table) << seed << ": " << found.reason.sentence;
         const RegistrationError error = registration_error(table, *found.table, setup.top_m);
         EXPECT_LT(error.worst_m, 2e-5) << seed;
         EXPECT_LT(found.worst_residual_m, 1e-5) << seed;
@@ -60,7 +60,7 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
         setup.noise = little;
         const Touches touches = touches_of(table, chosen, little, numbers);
         const TouchCalibration found = calibrate_touch(touches, setup);
-        ASSERT_TRUE(found.table) << seed << ": " << found.reason;
+        ASSERT_TRUE(found.table) << seed << ": " << found.reason.sentence;
         if (!found.repeat.empty()) {
             continue; // one looks wrong by chance, and is left out of the fit
         }
@@ -99,7 +99,7 @@ Figures figures_of(int count) {
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, count), {}, numbers), setup_for(table));
         if (!found.table) {
-            ADD_FAILURE() << seed << ": " << found.reason;
+            ADD_FAILURE() << seed << ": " << found.reason.sentence;
             continue;
         }
         const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
@@ -219,12 +219,12 @@ TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
     setup.sensor_height_m.reset();
     const TouchCalibration upright = calibrate_touch(touches, setup);
     EXPECT_EQ(upright.verdict, Verdict::Refused);
-    EXPECT_NE(upright.reason.find("--sensor-height"), std::string::npos) << upright.reason;
+    EXPECT_NE(upright.reason.sentence.find("--sensor-height"), std::string::npos) << upright.reason.sentence;
     for (std::size_t k = 0; k < 3; ++k) {
         touches.push_back(simulated_touch(table, {crosses.of(table, 9)[3 * k], 1.5}, {}, numbers));
     }
     const TouchCalibration found = calibrate_touch(touches, setup);
-    ASSERT_TRUE(found.table) << found.reason;
+    ASSERT_TRUE(found.table) << found.reason.sentence;
     EXPECT_LT(glm::distance(found.table->sensor_offset_m, table.truth.sensor_offset_m), 2e-3);
     EXPECT_LT(registration_error(table, *found.table, 0.12).mean_m, 1e-3);
 }

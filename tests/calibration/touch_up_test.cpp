@@ -149,7 +149,8 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
             out.broken += worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
             if (worst_m > 5e-3) {
                 std::printf("  seed %d %s: %s, off by %.1f\n", static_cast<int>(seed),
-                            std::string(name_of(found.verdict)).c_str(), found.reason.c_str(), 1e3 * worst_m);
+                            std::string(name_of(found.verdict)).c_str(), found.reason.sentence.c_str(),
+                            1e3 * worst_m);
             }
         }
     }
@@ -223,7 +224,7 @@ TEST(TouchUp, WhatSaysNothingIsRefused) {
         const TouchUp found = touch_up(one.kept, touches, setup);
         EXPECT_EQ(found.verdict, Verdict::Refused);
         EXPECT_FALSE(found.table);
-        return found.reason;
+        return found.reason.sentence;
     };
     const Touches good = touches_of(one.table, few_crosses(one.table, 3), {}, numbers);
     EXPECT_NE(touch_up(one.kept, good, setup).verdict, Verdict::Refused);

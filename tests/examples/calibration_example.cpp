@@ -20,7 +20,7 @@ TEST(RoomExample, Calibration) {
     }
     const TouchSetup setup{1920, 1200, 0.0, 0.12, {}, {}}; // picture; heights of sensor and prop
     const TouchCalibration found = calibrate_touch(touches, setup);
-    EXPECT_EQ(found.verdict, Verdict::Good) << found.reason;
+    EXPECT_EQ(found.verdict, Verdict::Good) << found.reason.sentence;
     EXPECT_NEAR(found.table->table_from_projector.translation.z, 1.5, 1e-4);
     EXPECT_NEAR(found.table->pinhole.fx, 3600.0, 0.5);
     // end

@@ -132,7 +132,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
     EyeProcedure::Input input;
     const auto step = [&](bool next) {
         input.now += std::chrono::milliseconds(20);
-        input.prop = wished_place(scene);
+        input.prop = first_place(scene);
         input.next = next;
         procedure.step(input);
     };
@@ -150,7 +150,8 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
     }
     EyeFit fit;
     fit.verdict = Verdict::Usable;
-    fit.reason = "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
+    fit.reason.sentence =
+        "the eye's place puts about 1.1 mm on the picture; with more sightings it would be good";
     fit.mean_residual_m = 5e-3;
     fit.worst_residual_m = 9e-3;
     fit.eyes.emplace();
@@ -175,7 +176,7 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     TouchCalibration judged; // a typical result for a table with the usual noise
     judged.verdict = Verdict::Usable;
     judged.uncertainty.shares = {0.7e-3, 1.8e-3, 4.4e-3};
-    judged.reason = in_words(judged.uncertainty) + "; with more touches it would be good";
+    judged.reason.sentence = in_words(judged.uncertainty) + "; with more touches it would be good";
     judged.table.emplace();
     judged.mean_residual_m = 6e-4;
     judged.worst_residual_m = 1.3e-3;

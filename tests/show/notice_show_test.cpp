@@ -100,7 +100,7 @@ protected:
             show->step(now, std::exchange(commands, {}), tracked_state);
             std::vector<std::int16_t> block(sample_rate_hz / 50);
             mixer.mix(block);
-            mixer.follow(show->wish());
+            mixer.follow(show->sound_request());
             heard.insert(heard.end(), block.begin(), block.end());
             show->hear(mixer.report(Nanoseconds(0)));
         }

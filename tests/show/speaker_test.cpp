@@ -55,7 +55,7 @@ protected:
         presentation.falls_silent = false;
         std::vector<std::int16_t> block(sample_rate_hz / 50);
         mixer.mix(block); // as WavSound: first the samples that are due, then the new request
-        mixer.follow(speaker.wish());
+        mixer.follow(speaker.request());
         heard.insert(heard.end(), block.begin(), block.end());
         speaker.hear(mixer.report(Nanoseconds(0)));
     }
@@ -195,7 +195,7 @@ TEST_F(Speaking, a_step_allocates_nothing) {
         k % 100 < 50 ? tell() : leave(k % 3 == 0);
         presentation.says = k % 40 == 0 ? std::optional(WordIndex{}) : std::nullopt;
         speaker.step(presentation, stage);
-        mixer.follow(speaker.wish());
+        mixer.follow(speaker.request());
         speaker.hear(mixer.report(Nanoseconds(0)));
     }
     EXPECT_EQ(synthetic::allocations_so_far(), before);

@@ -94,8 +94,8 @@ public:
     [[nodiscard]] std::size_t least() const { return std::min(enough, wanted_); }
     /// Number of tags that were whole and lit in the latest capture.
     [[nodiscard]] int tags() const { return tags_; }
-    [[nodiscard]] RestRequest wish() const {
-        return next_wish(taken_, {plan_.stripes.width, plan_.stripes.height});
+    [[nodiscard]] RestRequest request() const {
+        return next_request(taken_, {plan_.stripes.width, plan_.stripes.height});
     }
     [[nodiscard]] std::optional<Nanoseconds> delay() const { return delay_; }
 

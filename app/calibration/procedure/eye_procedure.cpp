@@ -18,9 +18,9 @@ constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft,
 
 EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, std::string problem)
     : Procedure(std::move(problem)), scene_(std::move(scene)), registration_(registration) {
-    const SightPlan wished = plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, min_crosses);
-    wished_words_ = wished.words;
-    if (problem_.empty() && wished.crosses.size() < min_crosses) {
+    const SightPlan requested = plan_sights(scene_, first_place(scene_), scene_.usual_eye_m, min_crosses);
+    first_words_ = requested.words;
+    if (problem_.empty() && requested.crosses.size() < min_crosses) {
         problem_ = "the picture is too small for crosses behind a prop of this size";
     }
     ask(0, of_each);

@@ -72,12 +72,12 @@ public:
     void step(const Input& input);
 
     [[nodiscard]] const SightScene& scene() const { return scene_; }
-    /// True once the prop's rest is known. Before that, the prop should stand at the scene's `wished_place`.
+    /// True once the prop's rest is known. Before that, the prop should stand at the scene's `first_place`.
     [[nodiscard]] bool knows_place() const { return knows_place_; }
     /// The prop's pose at its rest.
     [[nodiscard]] const RigidTransform& table_from_prop() const { return table_from_prop_; }
     /// The room for words beside the prop.
-    [[nodiscard]] const WordsBox& words() const { return knows_place_ ? plan_.words : wished_words_; }
+    [[nodiscard]] const WordsBox& words() const { return knows_place_ ? plan_.words : first_words_; }
     /// Index of the requested sighting, from 0; in the stages Shut, Place and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] std::size_t count() const { return asked_.size(); }
@@ -120,7 +120,7 @@ private:
     std::vector<std::optional<Taken>> sights_; ///< one for each
     RigidTransform table_from_prop_;
     bool knows_place_ = false;
-    WordsBox wished_words_;
+    WordsBox first_words_;
     SightPlan plan_;
     std::size_t at_ = 0;
     std::optional<OpenEye> open_; ///< the open eye

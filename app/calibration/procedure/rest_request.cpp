@@ -52,18 +52,18 @@ std::size_t count_of(std::span<const TakenRest> taken, Posture posture) {
         taken.begin(), taken.end(), [&](const TakenRest& each) { return each.posture == posture; }));
 }
 
-RestRequest next_wish(std::span<const TakenRest> taken, const glm::dvec2& size_px) {
+RestRequest next_request(std::span<const TakenRest> taken, const glm::dvec2& size_px) {
     const std::size_t flat = count_of(taken, Posture::Flat);
     const auto with_top = static_cast<std::size_t>(
         std::count_if(taken.begin(), taken.end(), [](const TakenRest& each) { return each.has_top; }));
-    RestRequest wish{Posture::Flat, emptiest(taken, size_px)};
+    RestRequest request{Posture::Flat, emptiest(taken, size_px)};
     if (flat >= first_flat && leaning_every * (count_of(taken, Posture::Leaning) + 1) <= taken.size() + 1) {
-        wish.posture = Posture::Leaning;
+        request.posture = Posture::Leaning;
     } else if (flat > first_flat && 2 * with_top < taken.size() &&
                block_every * (count_of(taken, Posture::Block) + 1) <= taken.size()) {
-        wish.posture = Posture::Block; // all points lie in one plane; the block adds height
+        request.posture = Posture::Block; // all points lie in one plane; the block adds height
     }
-    return wish;
+    return request;
 }
 
 } // namespace frustumscreen

@@ -25,7 +25,7 @@ struct RestRequest {
 /// The first `first_flat` rests should be flat; they determine the table's normal. `size_px`: of the
 /// projector's picture.
 inline constexpr std::size_t first_flat = 3;
-[[nodiscard]] RestRequest next_wish(std::span<const TakenRest> taken, const glm::dvec2& size_px);
+[[nodiscard]] RestRequest next_request(std::span<const TakenRest> taken, const glm::dvec2& size_px);
 
 [[nodiscard]] std::size_t count_of(std::span<const TakenRest> taken, Posture posture);
 

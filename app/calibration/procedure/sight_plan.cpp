@@ -192,7 +192,7 @@ std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& po
 }
 
 /// Right of the middle, so that words fit beside it, and to the front, so that crosses fit behind it.
-RigidTransform wished_place(const SightScene& scene) {
+RigidTransform first_place(const SightScene& scene) {
     constexpr glm::dvec2 share(0.63, 0.6);
     const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);
     const glm::dvec2 lit =

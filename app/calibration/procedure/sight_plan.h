@@ -32,7 +32,7 @@ struct SightScene {
 /// The pixel of a point in the table's frame; nothing if the projector does not light it.
 [[nodiscard]] std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& point_m);
 /// The place that leaves most room for words and crosses, upright: table_from_prop. Anywhere near it will do.
-[[nodiscard]] RigidTransform wished_place(const SightScene& scene);
+[[nodiscard]] RigidTransform first_place(const SightScene& scene);
 
 struct WordsBox {
     glm::dvec2 low{0.0}, high{0.0};

@@ -39,7 +39,7 @@ Json auto_json(const AutoCalibration& c, const Rests& rests) {
 }
 
 std::string auto_text(const AutoCalibration& c, const Rests& rests) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.found.verdict), c.found.reason);
+    std::string text = fmt::format("{}: {}\n", name_of(c.found.verdict), c.found.reason.sentence);
     if (!c.found.table) {
         return text;
     }

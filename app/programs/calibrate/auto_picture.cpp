@@ -101,7 +101,7 @@ TableWords words_of_begin(const AutoProcedure& procedure) {
 
 /// Words before a pattern: the delay will be measured, or a rest taken.
 TableWords words_of_point(const AutoProcedure& procedure) {
-    const Posture wished = procedure.wish().posture;
+    const Posture requested = procedure.request().posture;
     const bool is_delay = procedure.stage() == Stage::Delay;
     const bool may_go_on = is_delay && procedure.plan().crosses_follow;
     TableWords words;
@@ -114,10 +114,10 @@ TableWords words_of_point(const AutoProcedure& procedure) {
     } else {
         words = {"",
                  {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
-                  filled(message_of(posture_messages, wished).english, procedure)}};
+                  filled(message_of(posture_messages, requested).english, procedure)}};
     }
     if (!is_delay || procedure.word() != AutoPrompt::None) {
-        words.add(key_of(procedure.word(), wished, may_go_on),
+        words.add(key_of(procedure.word(), requested, may_go_on),
                   filled(message_of(auto_messages, procedure.word()).english, procedure));
     }
     // The procedure goes on with these faults.
@@ -146,7 +146,8 @@ Message choice_of(const TouchCalibration& found) {
 
 TableWords words_of_verdict(const TouchCalibration& found) {
     TableWords words{
-        "", {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason)}};
+        "",
+        {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason.sentence)}};
     if (found.table) {
         words.add(
             "",
@@ -192,12 +193,12 @@ TableWords table_words(const AutoProcedure& procedure) {
     return words;
 }
 
-std::string_view key_of(AutoPrompt word, Posture wished, bool may_go_on) {
+std::string_view key_of(AutoPrompt word, Posture requested, bool may_go_on) {
     if (may_go_on && (word == AutoPrompt::CameraFault || word == AutoPrompt::NoFrames)) {
         return "calibration.no_camera";
     }
     const std::string_view key = message_of(auto_messages, word).key;
-    return key.empty() ? message_of(posture_messages, wished).key : key;
+    return key.empty() ? message_of(posture_messages, requested).key : key;
 }
 
 Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
@@ -208,7 +209,7 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
     const bool has_place = procedure.stage() == Stage::Place;
-    const glm::dvec2 place = procedure.wish().pixel;
+    const glm::dvec2 place = procedure.request().pixel;
     if (has_place) {
         constexpr double about_the_prop = 0.27; // of the board's width; the prop stands in its middle
         canvas.circle(place, about_the_prop * with.board_px, 4.0, place_colour);

@@ -120,12 +120,12 @@ int end_with(const Result<int>& status) {
     return status ? *status : exit_status("frustumscreen-calibrate", tl::unexpected<Error>(status.error()));
 }
 
-int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason) {
+int status_of(Verdict verdict, const CalibrateRequest& request, const VerdictReason& reason) {
     if (verdict == Verdict::Good || verdict == Verdict::Usable) {
         return 0;
     }
-    fmt::print(stderr, "frustumscreen-calibrate: {}: {}: {}\n", request.from.string(), name_of(verdict),
-               reason);
+    fmt::print(stderr, "frustumscreen-calibrate: {}: {}: {} [{}]\n", request.from.string(), name_of(verdict),
+               reason.sentence, reason.id.view());
     return 1;
 }
 

@@ -94,8 +94,8 @@ template <typename Setup>
                                                     const RigidTransform& table_from_projector);
 /// The projector's place, one sentence.
 [[nodiscard]] std::string projector_text(const RigidTransform& table_from_projector);
-/// 0 if the calibration may be used; otherwise 1, and the reason goes to standard error.
-[[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason);
+/// 0 if the calibration may be used; otherwise 1, and the reason goes to standard error, with its id.
+[[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const VerdictReason& reason);
 
 /// Reports the error, if any, and returns the exit status.
 [[nodiscard]] int end_with(const Result<int>& status);

@@ -18,11 +18,14 @@ using Json = nlohmann::ordered_json;
 
 /// The JSON of a calibration by touch, without the tracker's members.
 Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
-    Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
-              {"residual_mm", nullptr}, {"residual_px", nullptr},        {"centre_m", nullptr},
-              {"angles_deg", nullptr},  {"condition", nullptr},          {"uncertainty_mm", nullptr},
-              {"within_mm", nullptr},   {"ruler_mm", nullptr},           {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},     {"repeat", Json::array()}};
+    Json json{{"projector", nullptr},        {"table_from_tracker", nullptr},
+              {"sensor_offset_m", nullptr},  {"residual_mm", nullptr},
+              {"residual_px", nullptr},      {"centre_m", nullptr},
+              {"angles_deg", nullptr},       {"condition", nullptr},
+              {"uncertainty_mm", nullptr},   {"within_mm", nullptr},
+              {"ruler_mm", nullptr},         {"verdict", name_of(c.verdict)},
+              {"reason", c.reason.sentence}, {"reason_id", c.reason.id.view()},
+              {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -41,7 +44,7 @@ Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertain
 }
 
 std::string corners_text(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
+    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason.sentence);
     if (c.pinhole) {
         text += fmt::format("The light comes from ({:.3f}, {:.3f}, {:.3f}) m in the frame that the corners "
                             "were measured in, {:.1f} degrees "

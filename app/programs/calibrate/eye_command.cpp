@@ -24,12 +24,19 @@ Json vector_json(const glm::dvec3& v) {
 
 /// Every key is always present; unknown values are null.
 Json eye_json(const EyeFit& fit) {
-    Json json{{"eye_in_sensor_m", nullptr}, {"deviation_mm", nullptr},
-              {"left_m", nullptr},          {"right_m", nullptr},
-              {"pupils_mm", nullptr},       {"picture_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"residual_mm", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(fit.verdict)},
-              {"reason", fit.reason},       {"repeat", Json::array()}};
+    Json json{{"eye_in_sensor_m", nullptr},
+              {"deviation_mm", nullptr},
+              {"left_m", nullptr},
+              {"right_m", nullptr},
+              {"pupils_mm", nullptr},
+              {"picture_mm", nullptr},
+              {"hidden_error_mm", nullptr},
+              {"residual_mm", nullptr},
+              {"rows", Json::array()},
+              {"verdict", name_of(fit.verdict)},
+              {"reason", fit.reason.sentence},
+              {"reason_id", fit.reason.id.view()},
+              {"repeat", Json::array()}};
     for (const std::size_t row : fit.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -52,7 +59,7 @@ Json eye_json(const EyeFit& fit) {
 }
 
 std::string eye_text(const EyeFit& fit) {
-    std::string text = fmt::format("{}: {}\n", name_of(fit.verdict), fit.reason);
+    std::string text = fmt::format("{}: {}\n", name_of(fit.verdict), fit.reason.sentence);
     if (fit.eyes) {
         const glm::dvec3& eye = fit.eyes->middle_m;
         text += fmt::format("The point between the eyes, in the head's sensor: eye_in_sensor_m = [{:.4f}, "
@@ -66,17 +73,17 @@ std::string eye_text(const EyeFit& fit) {
     return text;
 }
 
-/// The crosses for the prop at its wished place and a head at the visitors' usual place.
+/// The crosses for the prop at its requested place and a head at the visitors' usual place.
 Json crosses_json(const Settings& settings) {
     const SightScene scene = sight_scene(settings);
     const SightPlan plan =
-        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
+        plan_sights(scene, first_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
     Json crosses = Json::array();
     for (const SightCross& cross : plan.crosses) {
         crosses.push_back(
             {{"u_px", cross.pixel.x}, {"v_px", cross.pixel.y}, {"tip_m", vector_json(cross.tip_m)}});
     }
-    return {{"table_from_prop", matrix_json(wished_place(scene))}, {"crosses", crosses}};
+    return {{"table_from_prop", matrix_json(first_place(scene))}, {"crosses", crosses}};
 }
 
 Result<int> on_table(const Settings& settings, const CalibrateRequest& request) {

@@ -100,8 +100,8 @@ Message choice_of(const EyeProcedure& procedure) {
 
 TableWords words_of_verdict(const EyeProcedure& procedure) {
     const EyeFit& fit = *procedure.judged();
-    TableWords words{"",
-                     {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason)}};
+    TableWords words{
+        "", {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason.sentence)}};
     if (fit.eyes) {
         words.add("",
                   fmt::format(
@@ -146,7 +146,7 @@ public:
 
     /// The square on which the prop should stand.
     void square() {
-        const RigidTransform place = wished_place(scene_);
+        const RigidTransform place = first_place(scene_);
         std::array<glm::dvec2, 4> bottom{};
         for (std::size_t k = 0; k < bottom.size(); ++k) {
             bottom[k] = pixel(place.point(scene_.prop.corners[k]));

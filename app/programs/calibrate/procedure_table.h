@@ -1,7 +1,7 @@
 /// Runs a way through a calibration on the table: shows, speaks and listens until it ends, then keeps the
 /// result.
 ///
-/// Time     the devices'. It sleeps between two rounds; without a screen nobody watches, and that time is
+/// Time     the devices'. It sleeps between two rounds; without a screen it does not, and that time is
 ///          skipped.
 /// Errors   the display stops; points cannot be written; a calibration cannot be kept, which the table shows
 ///          too.

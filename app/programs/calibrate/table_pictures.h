@@ -31,7 +31,7 @@ namespace frustumscreen {
 [[nodiscard]] TableWords table_words(const EyeProcedure& procedure);
 /// The key of a word: what is wrong, else how to put the board next. `may_go_on`: Back leads on to the
 /// crosses.
-[[nodiscard]] std::string_view key_of(AutoPrompt word, Posture wished, bool may_go_on);
+[[nodiscard]] std::string_view key_of(AutoPrompt word, Posture requested, bool may_go_on);
 /// The result of a technician's touches, in words for the table and as the procedure needs it.
 [[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
 [[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);

@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 TableVoice::TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db)
     : sound_(std::move(sound)) {
-    wish_.set_gain_db(gain_db);
+    request_.set_gain_db(gain_db);
     for (const auto& [key, opus] : words.sounds) {
         if (!key.starts_with("calibration.")) {
             continue;
@@ -18,9 +18,9 @@ TableVoice::TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound,
 }
 
 void TableVoice::say(std::string_view key) {
-    wish_.stop();
+    request_.stop();
     if (const auto found = prompts_.find(key); found != prompts_.end()) {
-        wish_.say(found->second);
+        request_.say(found->second);
     }
 }
 

@@ -21,12 +21,12 @@ public:
 
     /// Interrupts the current prompt. A key without a recording is silent.
     void say(std::string_view key);
-    void poll(MonotonicTime now) { static_cast<void>(sound_->poll(now, wish_)); }
+    void poll(MonotonicTime now) { static_cast<void>(sound_->poll(now, request_)); }
 
 private:
     std::map<std::string, SharedPrompt, std::less<>> prompts_;
     std::unique_ptr<Sound> sound_;
-    SoundRequest wish_;
+    SoundRequest request_;
 };
 
 } // namespace frustumscreen

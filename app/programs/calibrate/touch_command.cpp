@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string touch_text(const TouchCalibration& c) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
+    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason.sentence);
     if (!c.table) {
         return text;
     }
@@ -79,11 +79,12 @@ nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
 }
 
 nlohmann::ordered_json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
-              {"residual_mm", nullptr}, {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
-              {"within_mm", nullptr},   {"hidden_error_mm", nullptr},    {"prior_share", nullptr},
-              {"boards_mm", nullptr},   {"rows", Json::array()},         {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},     {"repeat", Json::array()}};
+    Json json{
+        {"projector", nullptr},        {"table_from_tracker", nullptr},   {"sensor_offset_m", nullptr},
+        {"residual_mm", nullptr},      {"residual_px", nullptr},          {"uncertainty_mm", nullptr},
+        {"within_mm", nullptr},        {"hidden_error_mm", nullptr},      {"prior_share", nullptr},
+        {"boards_mm", nullptr},        {"rows", Json::array()},           {"verdict", name_of(c.verdict)},
+        {"reason", c.reason.sentence}, {"reason_id", c.reason.id.view()}, {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }

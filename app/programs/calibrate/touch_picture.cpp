@@ -236,7 +236,7 @@ TableWords table_words(const TouchProcedure& procedure) {
 TouchJudgement judgement_of(const TouchCalibration& calibration) {
     TouchJudgement judged{.verdict = calibration.verdict,
                           .told = {fmt::format("The calibration is: {}", name_of(calibration.verdict)),
-                                   as_sentence(calibration.reason)},
+                                   as_sentence(calibration.reason.sentence)},
                           .repeat = calibration.repeat,
                           .residuals = calibration.residuals};
     if (calibration.table) {
@@ -250,12 +250,13 @@ TouchJudgement judgement_of(const TouchCalibration& calibration) {
 TouchJudgement judgement_of(const TouchUp& found) {
     TouchJudgement judged{.verdict = found.verdict, .told = {}, .repeat = {}, .residuals = found.residuals};
     if (!found.table) {
-        judged.told = {"The touches do not fit what was measured before.", as_sentence(found.reason)};
+        judged.told = {"The touches do not fit what was measured before.",
+                       as_sentence(found.reason.sentence)};
         return judged;
     }
     judged.nothing_moved = found.moved == Moved::Nothing;
     judged.told = {what_moved(found.moved),
-                   judged.nothing_moved ? as_sentence(found.reason) : right_again(found)};
+                   judged.nothing_moved ? as_sentence(found.reason.sentence) : right_again(found)};
     return judged;
 }
 

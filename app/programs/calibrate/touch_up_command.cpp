@@ -19,11 +19,16 @@ using Json = nlohmann::ordered_json;
 
 /// Every key is always present; unknown values are null.
 Json touch_up_json(const TouchUp& found) {
-    Json json{{"moved", nullptr},          {"off_mm", nullptr},
-              {"projector", nullptr},      {"table_from_tracker", nullptr},
-              {"uncertainty_mm", nullptr}, {"hidden_error_mm", nullptr},
-              {"rows", Json::array()},     {"verdict", name_of(found.verdict)},
-              {"reason", found.reason}};
+    Json json{{"moved", nullptr},
+              {"off_mm", nullptr},
+              {"projector", nullptr},
+              {"table_from_tracker", nullptr},
+              {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr},
+              {"rows", Json::array()},
+              {"verdict", name_of(found.verdict)},
+              {"reason", found.reason.sentence},
+              {"reason_id", found.reason.id.view()}};
     if (found.table) {
         json["moved"] = name_of(found.moved);
         json["off_mm"] = 1e3 * found.off_m;
@@ -90,7 +95,7 @@ Result<int> touch_up_kept(const CalibrateRequest& request, const Described& desc
     if (request.json) {
         fmt::print("{}\n", touch_up_json(found).dump(2));
     } else {
-        fmt::print("{}: {}\n", name_of(found.verdict), found.reason);
+        fmt::print("{}: {}\n", name_of(found.verdict), found.reason.sentence);
     }
     if (!request.map.empty()) {
         TRY_VOID(write_uncertainty(request.map, map_of(found), places_of(touches), described.top_m));

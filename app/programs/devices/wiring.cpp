@@ -213,17 +213,17 @@ std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
 }
 
 CameraRequest camera_request(const CameraSettings& settings) {
-    CameraRequest wish{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
+    CameraRequest request{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
     if (settings.exposure_ms > 0.0) {
-        wish.exposure_ms = settings.exposure_ms;
+        request.exposure_ms = settings.exposure_ms;
     }
     if (settings.gain >= 0) {
-        wish.gain = settings.gain;
+        request.gain = settings.gain;
     }
     if (settings.white_balance_k > 0) {
-        wish.white_balance_k = settings.white_balance_k;
+        request.white_balance_k = settings.white_balance_k;
     }
-    return wish;
+    return request;
 }
 
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {

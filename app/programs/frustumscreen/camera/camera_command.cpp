@@ -82,19 +82,19 @@ void look(Camera& camera, const Request& request, const StopSignals& stop, Camer
 Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     const StopSignals stop;
     TRY(const CheckedSettings settings, load_settings(request.config));
-    const CameraSettings& wished = settings->camera;
+    const CameraSettings& requested = settings->camera;
     CameraReport report;
-    report.is_on = wished.kind == CameraKind::V4l2;
+    report.is_on = requested.kind == CameraKind::V4l2;
     if (request.is_on) {
         return report.is_on ? 0 : 1;
     }
-    report.found = list_cameras(*kernel_v4l2_devices(), camera_request(wished));
+    report.found = list_cameras(*kernel_v4l2_devices(), camera_request(requested));
     report.begun = monotonic_now();
     if (report.is_on) {
-        camera = make_camera(wished);
+        camera = make_camera(requested);
         look(*camera, request, stop, report);
     }
-    const std::string text = request.json ? camera_json(report) : camera_text(report, wished);
+    const std::string text = request.json ? camera_json(report) : camera_text(report, requested);
     fmt::print("{}", text);
     return report.is_on && health_of(report.state) != CameraHealth::Well ? 1 : 0;
 }

@@ -64,7 +64,7 @@ Json json_of(const CameraSetUp& set_up) {
 
 } // namespace
 
-std::string camera_text(const CameraReport& report, const CameraSettings& wished) {
+std::string camera_text(const CameraReport& report, const CameraSettings& requested) {
     std::string text;
     for (const FoundCamera& camera : report.found) {
         add(text, "found", found_text(camera));
@@ -79,7 +79,7 @@ std::string camera_text(const CameraReport& report, const CameraSettings& wished
         add(text, "taken", fmt::format("{}: \"{}\"", report.set_up->path, report.set_up->name));
         add(text, "mode",
             fmt::format("{}; the settings ask for {} x {} at {:.4g} Hz", mode_text(report.set_up->mode),
-                        wished.width, wished.height, wished.rate_hz));
+                        requested.width, requested.height, requested.rate_hz));
         for (const LockedControl& control : report.set_up->controls) {
             add(text, control.name, control_text(control));
         }

@@ -32,7 +32,7 @@ struct CameraReport {
     std::vector<CameraChange> changes; ///< the first is the state at the start
 };
 
-[[nodiscard]] std::string camera_text(const CameraReport& report, const CameraSettings& wished);
+[[nodiscard]] std::string camera_text(const CameraReport& report, const CameraSettings& requested);
 [[nodiscard]] std::string camera_json(const CameraReport& report);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-#include "firmware_host/sound/sound_wish.h"
+#include "firmware_host/sound/sound_request.h"
 
 #include <cassert>
 #include <utility>
