@@ -43,12 +43,14 @@ BenchCommand report_command(CommandLine& app) {
     CommandLine command =
         app.add_subcommand("report", "writes the tables of docs/measurements.md from measured CSV files");
     const auto arguments = std::make_shared<Arguments>();
-    command.add_option("--from", arguments->from, "folder with a folder for each measurement (docs/bench.md)")
+    command
+        .add_option("--from", arguments->from,
+                    "folder that has a folder for each measurement (docs/bench.md lists them)")
         .required();
     command.add_option("--page", arguments->page, "the page whose marked tables are written")
         .capture_default_str();
     command.add_flag("--check", arguments->check,
-                     "write nothing; exit with 1 when a table differs from its CSV files");
+                     "write nothing; exit status 1 if a table differs from its CSV files");
     return {command, [arguments](BenchProgress&) { return run(*arguments); }};
 }
 
