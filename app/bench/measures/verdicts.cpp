@@ -46,7 +46,7 @@ LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose,
                         limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
                         limits.times_floor),
             fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
-                            : std::string("no level or relief meets it"),
+                            : std::string("no level or relief is as accurate"),
             fine != nullptr && fine->times_floor <= limits.times_floor};
 }
 
