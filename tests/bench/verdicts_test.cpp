@@ -226,10 +226,10 @@ TEST(Verdicts, WishesAreSaidOfThePacksCheapestRowAndEndNoRun) {
     ASSERT_EQ(wishes().size(), 2U);
     EXPECT_EQ(wishes()[0].found, "mesh 1: 5.00 x");
     EXPECT_FALSE(wishes()[0].held);
-    EXPECT_EQ(wishes()[1].found, "no level or relief is as fine");
+    EXPECT_EQ(wishes()[1].found, "no level or relief is as accurate");
     EXPECT_FALSE(wishes()[1].held);
     EXPECT_TRUE(require_limits({&result, 1}));
-    EXPECT_NE(lines_of(judge(result)).find("unmet  wished: <= 0.15 % or 0.1 px, <= 0.05 mm at <= 2 x floor"),
+    EXPECT_NE(lines_of(judge(result)).find("unmet  goal: <= 0.15 % or 0.1 px, <= 0.05 mm at <= 2 x floor"),
               std::string::npos);
     EXPECT_NE(verdicts_csv({&result, 1}, {}).find("mesh 1: 5.00 x\",unmet"), std::string::npos);
     result.techniques.push_back(

@@ -102,5 +102,65 @@ TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) 
     EXPECT_NE(text("out.txt").find("finest relief"), std::string::npos) << text("out.txt");
 }
 
+/// A page with the ladder's table, and the CSV of one policy.
+class BenchReport : public ProgramFolder {
+protected:
+    void SetUp() override {
+        ProgramFolder::SetUp();
+        std::filesystem::create_directories(folder / "from/ladder");
+        write("page.md", page("old\n"));
+        write_ladder("0.00019");
+    }
+    void write(const std::string& file, const std::string& text) const {
+        ASSERT_TRUE(write_file(folder / file, as_bytes(text)));
+    }
+    void write_ladder(const std::string& dark) const {
+        write("from/ladder/ladder_policies.csv",
+              "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n"
+              "ladder,0.9856,0.009,0.0052," +
+                  dark + ",120,47,0\n");
+    }
+    [[nodiscard]] static std::string page(const std::string& table) {
+        return "# A page\n<!-- table: ladder -->\n" + table + "<!-- end -->\nprose\n";
+    }
+    [[nodiscard]] int report(const std::string& more = {}) const {
+        return run("frustumscreen-bench report --from from --page page.md " + more);
+    }
+    const std::string measured =
+        page("| policy | whole exhibit | does not follow | words for staff | dark | longest dark | reboots | "
+             "false alarms |\n|---|---|---|---|---|---|---|---|\n"
+             "| ladder | 98.56 % | 0.90 % | 0.52 % | 0.019 % | 2 min | 47 | 0 |\n");
+};
+
+TEST_F(BenchReport, ACheckEndsWithOneUntilTheTableIsWritten) {
+    EXPECT_EQ(report("--check"), 1);
+    EXPECT_EQ(text("page.md"), page("old\n"));
+    EXPECT_EQ(text("out.txt"), "ladder: differs from from/ladder/ladder_policies.csv\n");
+    EXPECT_NE(text("err.txt").find("[report.differs]"), std::string::npos) << text("err.txt");
+    EXPECT_EQ(report(), 0) << text("err.txt");
+    EXPECT_EQ(text("out.txt"), "ladder: written\n");
+    EXPECT_EQ(text("page.md"), measured);
+    EXPECT_EQ(report("--check"), 0) << text("err.txt");
+    EXPECT_EQ(text("out.txt"), "ladder: is as measured\n");
+}
+
+TEST_F(BenchReport, ABadNumberIsOneLineAndLeavesThePageAsItIs) {
+    write_ladder("much");
+    EXPECT_EQ(report(), 1);
+    const std::string said = text("err.txt");
+    EXPECT_NE(said.find("from/ladder/ladder_policies.csv, line 2, column 'dark': 'much' is no number"),
+              std::string::npos)
+        << said;
+    EXPECT_EQ(said.find('\n'), said.size() - 1);
+    EXPECT_EQ(text("page.md"), page("old\n"));
+}
+
+TEST_F(BenchReport, APageOrAFolderThatIsMissingIsNamed) {
+    EXPECT_EQ(run("frustumscreen-bench report --from nowhere --page page.md"), 1);
+    EXPECT_NE(text("err.txt").find("nowhere"), std::string::npos);
+    EXPECT_EQ(run("frustumscreen-bench report --from from --page none.md"), 1);
+    EXPECT_NE(text("err.txt").find("none.md"), std::string::npos);
+}
+
 } // namespace
 } // namespace frustumscreen

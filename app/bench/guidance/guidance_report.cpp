@@ -130,26 +130,26 @@ std::string guidance_table(const GuidedProp& prop) {
         later += proof.mended_after[k];
     }
     std::string text = fmt::format(
-        "{}: {} situations, followed by people whose direction is up to 20 degrees and amount up to 40 % "
-        "off\n"
-        "  whole already {:.2f} %, after one move {:.2f} %, two {:.2f} %, three {:.2f} %, more {:.2f} %, "
+        "{}: {} situations; people follow the advice with errors of up to 20 degrees and 40 % of the amount\n"
+        "  whole at the start {:.2f} %, after one move {:.2f} %, two {:.2f} %, three {:.2f} %, more {:.2f} "
+        "%, "
         "never {:.3f} %"
         " ({} without any advice)\n"
-        "  advices of a single move: {}, of which {} made nothing better; found in {:.2f} ms, 99th "
+        "  advice of one move: {} cases, {} without improvement; time to find advice: median {:.2f} ms, 99th "
         "percentile {:.2f} ms\n",
         prop.name, proof.situations, share(proof.valid), share(proof.mended_after[0]),
         share(proof.mended_after[1]), share(proof.mended_after[2]), share(later), share(proof.never),
         proof.without_advice, proof.single, proof.failed, proof.median_ms, proof.p99_ms);
     text += fmt::format("  {:<28} {:>16} {:>16} {:>12} {:>18} {:>17}\n", "simulated visitors",
-                        "mended, median", "95th percentile", "whole", "advices a minute", "losses a minute");
+                        "whole in, median", "95th percentile", "whole", "advice a minute", "losses a minute");
     for (const VisitsOf& visits : prop.visits) {
         text += fmt::format("  {:<28} {:>14.1f} s {:>14.1f} s {:>10.1f} % {:>18.1f} {:>17.1f}\n",
                             name_of(visits.adviser), visits.quantile_s(0.5), visits.quantile_s(0.95),
                             100.0 * visits.whole_share, visits.advices_a_minute, visits.losses_a_minute);
     }
-    text += "  not whole, of the time, while the visitor\n";
+    text += "  share of the time in which the artifact is not whole and the visitor\n";
     text += fmt::format("  {:<28} {:>9} {:>17} {:>13} {:>9} {:>15} {:>8}\n", "", "plays on",
-                        "waits for a sign", "overlooks it", "reacts", "does the wrong", "mends");
+                        "waits for a sign", "overlooks it", "reacts", "moves wrongly", "corrects");
     for (const VisitsOf& visits : prop.visits) {
         const auto& dark = visits.dark_share;
         text += fmt::format("  {:<28} {:>7.1f} % {:>15.1f} % {:>11.1f} % {:>7.1f} % {:>13.1f} % {:>6.1f} %\n",
@@ -178,12 +178,12 @@ std::vector<LimitVerdict> judge(const GuidedProp& prop) {
     const VisitsOf& paper = prop.visits[1];
     const double p95_s = ours.quantile_s(0.95);
     return {
-        {prop.name + ": every advice of a single move helps, however it is carried out",
+        {prop.name + ": advice of one move always improves, with all errors of following it",
          fmt::format("{} of {} do not", prop.proof.failed, prop.proof.single), prop.proof.failed == 0},
-        {prop.name + ": every situation is mended",
+        {prop.name + ": every situation becomes whole",
          fmt::format("{} of {} are not within {} moves", prop.proof.never, prop.proof.situations, max_moves),
          prop.proof.never == 0},
-        {fmt::format("{}: 95 % of the losses mended within {:g} s", prop.name, max_p95_s),
+        {fmt::format("{}: 95 % of the losses end within {:g} s", prop.name, max_p95_s),
          fmt::format("{:.1f} s", p95_s), p95_s <= max_p95_s},
         {fmt::format("{}: whole for {:g} % of the time", prop.name, 100.0 * min_whole),
          fmt::format("{:.1f} %", 100.0 * ours.whole_share), ours.whole_share >= min_whole},

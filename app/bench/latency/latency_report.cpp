@@ -62,7 +62,7 @@ std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOption
                         shown.rest.rms <= max_rest_mm});
     verdicts.push_back(
         {fmt::format(
-             "trembles by <= {:g} mm RMS from picture to picture while it is slid at {:g} m/s at most",
+             "jitter <= {:g} mm RMS from picture to picture while the prop slides at {:g} m/s at most",
              max_tremble_mm, fastest_calm_m_s),
          fmt::format("{:.2f} mm at the worst speed", worst_tremble_mm(shown)),
          worst_tremble_mm(shown) <= max_tremble_mm});
@@ -90,7 +90,7 @@ std::string latency_table(const TrackerResult& result, const LatencyOptions& opt
     for (const double speed_m_s : options.slides_m_s) {
         text += fmt::format(" {:>6}", fmt::format("{:g}", speed_m_s));
     }
-    text += " m/s: trembles\n";
+    text += " m/s: jitter, RMS\n";
     for (const ContestantResult& contestant : result.contestants) {
         text += fmt::format("{:<29}", contestant.name);
         for (const SpeedSlip& stroke : contestant.strokes) {

@@ -109,8 +109,9 @@ LimitVerdict judge(std::span<const NamedCoverage> rows) {
     }
     const double share = poses > 0 ? static_cast<double>(covered) / static_cast<double>(poses) : 0.0;
     return {
-        fmt::format("the true mean is {:g} to {:g} x the estimate, below its p95, in >= {:g} % of the poses",
-                    min_of_estimate, max_of_estimate, 100.0 * min_covered),
+        fmt::format(
+            "true mean error within {:g} to {:g} x the estimate and below its p95, in >= {:g} % of the poses",
+            min_of_estimate, max_of_estimate, 100.0 * min_covered),
         fmt::format("{:.1f} % of {}", 100.0 * share, poses), share >= min_covered};
 }
 

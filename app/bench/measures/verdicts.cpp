@@ -46,7 +46,7 @@ LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose,
                         limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
                         limits.times_floor),
             fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
-                            : std::string("no level or relief is as fine"),
+                            : std::string("no level or relief is as accurate"),
             fine != nullptr && fine->times_floor <= limits.times_floor};
 }
 
@@ -66,9 +66,9 @@ std::vector<LimitVerdict> judge_shown(const TechniqueResult& level, const Limits
              fmt::format("worst pose {:.2f}", worst.colour.rmse), worst.colour.rmse <= limits.colour_rmse},
             {fmt::format("as shown: within {:g} px of its place", px),
              fmt::format("worst pose {:.3f} px", worst.shift_px), worst.shift_px <= px},
-            {fmt::format("as shown: pixels are covered at most {:g} px worse than by exact outlines", px),
+            {fmt::format("as shown: cover errs by at most {:g} px more than that of exact outlines", px),
              fmt::format("worst pose {:.3f} px", beside_samples_px), beside_samples_px <= px},
-            {fmt::format("as shown: neither fatter nor thinner by more than {:g} px", px),
+            {fmt::format("as shown: outline wider or narrower by at most {:g} px", px),
              fmt::format("worst pose {:.3f} px", worst.cover_bias_px), worst.cover_bias_px <= px}};
 }
 
@@ -175,7 +175,7 @@ std::vector<LimitVerdict> judge(const SetUpResult& result) {
     }
     verdicts.push_back(judge_cheapest(result, "a fine level or relief", fine_level_limits));
     for (const Limits& limits : {wished_cheap_limits, wished_fine_limits}) {
-        verdicts.push_back(judge_cheapest(result, "wished", limits));
+        verdicts.push_back(judge_cheapest(result, "goal", limits));
         verdicts.back().wished = true;
     }
     const std::vector<LimitVerdict> dominance = judge_dominance(result);

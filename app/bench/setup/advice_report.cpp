@@ -77,24 +77,25 @@ std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& 
         table += line_of(name, choice);
     }
     table += fmt::format(
-        "\nlens, side: over the table, and behind its middle (before it: negative). "
-        "darkest/bright.: of the faces in one\n"
-        "pose, the least over the whole table. light sent: what the artifact sends back "
-        "everywhere. artifact: the heights\n"
-        "of one as wide as high and of one half as wide. 'no': it does not reach {:g} "
-        "darkest/bright. with {:g} x the pixels\n"
-        "and {}. seen whole: an artifact so high, 0.65 as wide, by all eyes at any turn.\n",
+        "\nlens: height above the table. side: distance behind the table's middle, negative in front of it. "
+        "darkest/bright.: light\nof the darkest face over that of the brightest face, in the worst pose. "
+        "light sent: "
+        "what the artifact sends back in\nevery pose. artifact: heights of one as wide as high and of one "
+        "half as wide. "
+        "no: the choice misses {:g} darkest/bright.,\n{:g} x the present pixels, or {}. "
+        "seen whole: a zone in which all eyes see an artifact\nof that height, 0.65 as wide, whole at any "
+        "turn.\n",
         options.evenness, options.pixels,
         options.asks_for_zone()
             ? fmt::format("artifacts of {:.0f} mm that are seen whole within {:.0f} x {:.0f} mm",
                           1e3 * options.artifact_m, 1e3 * options.zone_m.x, 1e3 * options.zone_m.y)
-            : std::string("artifacts as large as they are"));
+            : std::string("the present size of artifacts"));
     if (timed) {
-        table +=
-            "frame: the time of one, the processor's time in brackets, over those of the settings as they "
-            "are; "
-            "the prop at the\ntable's middle, turned in twelve steps; only for the best that work. samples: "
-            "drawn and averaged for a frame.\n";
+        table += "frame: time of a frame, and processor time in brackets, as a multiple of the present "
+                 "settings'; the "
+                 "prop stands at the\ntable's middle and turns in twelve steps; only of the best choices. "
+                 "samples: drawn and "
+                 "averaged for a frame.\n";
     }
     return table;
 }

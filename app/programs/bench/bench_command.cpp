@@ -30,18 +30,20 @@ void add_place_options(CommandLine& command, BenchPlace& place) {
 }
 
 void add_picture_options(CommandLine& command, PictureOptions& picture) {
-    command.add_option("--samples", picture.samples, "samples a pixel; 0 = what the pack asks for")
+    command.add_option("--samples", picture.samples, "samples a pixel; 0: as many as the pack asks for")
         .one_of_numbers({0, 1, 2, 4, 8, 16})
         .capture_default_str();
 }
 
 void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed) {
-    command.add_option("--poses", poses, "poses of prop and eye").within(1, 10000).capture_default_str();
-    command.add_option("--seed", seed, "of the poses").capture_default_str();
+    command.add_option("--poses", poses, "number of random poses of prop and eye")
+        .within(1, 10000)
+        .capture_default_str();
+    command.add_option("--seed", seed, "seed of the random poses").capture_default_str();
 }
 
 void add_artifact_options(CommandLine& command, BenchArtifact& artifact) {
-    command.add_option("--pack", artifact.pack, "pack").required();
+    command.add_option("--pack", artifact.pack, "pack to measure").required();
     command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from").required();
 }
 
@@ -58,9 +60,10 @@ Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
     TRY(const Bytes bytes, read_file(artifact.mesh));
     if (sha256_hex(bytes) != pack->provenance.source_sha256) {
         warn(artifact.mesh,
-             fmt::format("not the file that {} was baked from (that one was {}); right only if "
-                         "both hold the same surface",
-                         artifact.pack.string(), pack->provenance.source_name));
+             fmt::format(
+                 "not the file that {} was baked from (that was {}); the errors are valid only if both have "
+                 "the same surface",
+                 artifact.pack.string(), pack->provenance.source_name));
     }
     TRY(SourceMesh mesh, load_mesh(artifact.mesh));
     return LoadedArtifact{std::move(pack), std::make_shared<const SourceMesh>(std::move(mesh))};

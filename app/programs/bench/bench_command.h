@@ -126,6 +126,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand stability_command(CommandLine& app);
 /// The results of several artifacts on one sheet.
 [[nodiscard]] BenchCommand plot_command(CommandLine& app);
+/// The tables of a page, from measured CSV files.
+[[nodiscard]] BenchCommand report_command(CommandLine& app);
 /// The cost of a frame in numbers that do not depend on the machine.
 [[nodiscard]] BenchCommand counts_command(CommandLine& app);
 /// Displacement of the picture on a moving prop, with and without prediction.

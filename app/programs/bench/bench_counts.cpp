@@ -78,12 +78,12 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand counts_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "counts", "triangles, samples and bytes of a frame; their change against a reference");
+        "counts", "triangles, samples and bytes of a frame, and their change against a reference");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     command.add_option("--pack", arguments->packs, "one or several packs").required();
     command.add_option("--reference", arguments->reference,
-                       "counts.json to compare with, as docs/reference_counts.json");
+                       "counts.json to compare with, such as docs/reference_counts.json");
     add_pose_options(command, arguments->poses, arguments->seed);
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }

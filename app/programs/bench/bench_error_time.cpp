@@ -42,7 +42,7 @@ std::vector<LimitVerdict> judge_figures(const LoadedArtifact& artifact, const Se
     progress.clear();
     const double mm_per_box = 1e3 * place(*artifact.pack, make_prop(set_up.settings.prop)).metres_per_box;
     std::vector<LimitVerdict> verdicts = judge(figures, mm_per_box);
-    fmt::print("Are the pack's own figures true?\n{}\n", lines_of(verdicts));
+    fmt::print("Error figures in the pack, against those measured now\n{}\n", lines_of(verdicts));
     return verdicts;
 }
 
@@ -67,9 +67,9 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     TRY(const LoadedArtifact artifact, load_artifact(arguments.artifact));
     if (!artifact.pack->unlit) {
         fmt::print(stderr,
-                   "frustumscreen-bench: {}: baked with light; its levels are held against that light at "
-                   "each ray's hit, "
-                   "peers have none and are compared by shape alone\n",
+                   "frustumscreen-bench: {}: baked with light; levels are compared with that light at each "
+                   "ray's hit, peers have "
+                   "no light and are compared by shape alone\n",
                    arguments.artifact.pack.string());
     }
     progress.plan(all_steps(set_ups, artifact, arguments.options));
@@ -97,20 +97,19 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand error_time_command(CommandLine& app) {
-    CommandLine command =
-        app.add_subcommand("error-time", "every level of a pack and its peers against a ray cast");
+    CommandLine command = app.add_subcommand(
+        "error-time", "error and run time of every level of a pack and of its peers, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);
     add_picture_options(command, arguments->options.picture);
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
-    command.add_flag(
-        "--timed-lit", arguments->options.picture.timed_lit,
-        "time levels and reliefs in the projector's light, as visitors see them; peers have none");
+    command.add_flag("--timed-lit", arguments->options.picture.timed_lit,
+                     "time levels and reliefs lit as visitors see them; peers are always unlit");
     command
         .add_option("--peers", arguments->peers,
-                    "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
-                    "relief-cast, relief-gpu, with commas between")
+                    "none, all, or a list of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
+                    "relief-cast, relief-gpu, separated by commas")
         .check({[](const std::string& words) {
                     const Result<PeerChoice> choice = parse_peers(words);
                     return choice ? std::string() : choice.error().message;
@@ -118,15 +117,14 @@ BenchCommand error_time_command(CommandLine& app) {
                 ""})
         .capture_default_str();
     command
-        .add_option(
-            "--peer-samples", arguments->options.peers.samples,
-            "samples a pixel that peers are drawn with, some of 1, 2, 4, 8, with commas between (default: 1 "
-            "and what the pack asks for)")
+        .add_option("--peer-samples", arguments->options.peers.samples,
+                    "samples a pixel of the peers, a list of 1, 2, 4, 8, separated by commas (default: 1 and "
+                    "what the pack asks for)")
         .delimiter(',')
         .one_of_numbers({1, 2, 4, 8});
     command
         .add_option("--limits", arguments->limits,
-                    "all: exit with 1 when a limit of the table is missed; none: only measure")
+                    "all: exit status 1 if a limit is missed; none: measure only")
         .one_of({"all", "none"})
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) {

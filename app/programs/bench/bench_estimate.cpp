@@ -66,19 +66,20 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand estimate_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "estimate", "what the exhibit says of its pictures' errors, level by level, against a ray cast");
+        "estimate", "the exhibit's own estimate of its picture error, level by level, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     command.add_option("--pack", arguments->packs, "one or several packs").required();
-    command.add_option("--mesh", arguments->meshes, "for each pack the file that it was baked from")
+    command
+        .add_option("--mesh", arguments->meshes, "the file that each pack was baked from, in the same order")
         .required();
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
-    command.add_option("--rays", arguments->options.rays, "rays a pixel, of which the true mean is taken")
+    command.add_option("--rays", arguments->options.rays, "rays a pixel for the true mean error")
         .one_of_numbers({1, 2, 4, 8, 16})
         .capture_default_str();
     command
         .add_option("--limits", arguments->limits,
-                    "all: exit with 1 when too few poses are covered; none: only measure")
+                    "all: exit status 1 if too few poses are covered; none: measure only")
         .one_of({"all", "none"})
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};

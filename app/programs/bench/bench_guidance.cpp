@@ -54,22 +54,25 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand guidance_command(CommandLine& app) {
     CommandLine command =
-        app.add_subcommand("guidance", "whether advice helps: seeded situations and simulated visitors");
+        app.add_subcommand("guidance", "effect of advice, in random situations and for simulated visitors");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table and the plot").required();
     command.add_option(
         "--config", arguments->config,
         "settings; without it the shipped set-up, without and with an artifact, and a cube in the hand");
-    command.add_option("--situations", arguments->options.situations, "seeded situations of each prop")
+    command.add_option("--situations", arguments->options.situations, "random situations for each prop")
         .within(1, 10000000)
         .capture_default_str();
-    command.add_option("--visitors", arguments->options.visitors, "of each prop and kind of advice")
+    command
+        .add_option("--visitors", arguments->options.visitors,
+                    "simulated visitors for each prop and kind of advice")
         .within(1, 100000)
         .capture_default_str();
-    command.add_option("--seconds", arguments->options.seconds, "of each visit")
+    command.add_option("--seconds", arguments->options.seconds, "length of each visit")
         .within(5.0, 3600.0)
         .capture_default_str();
-    command.add_option("--seed", arguments->options.seed, "of situations and visitors").capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "seed of situations and visitors")
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -38,12 +38,15 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand ladder_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "ladder", "the recovery ladder over simulated days of a museum, beside other policies");
+        "ladder",
+        "dark time with the recovery ladder and with other policies, over simulated days of a museum");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
-    command.add_option("--days", arguments->days, "simulated").within(1, 10000).capture_default_str();
-    command.add_option("--seed", arguments->seed, "of the faults").capture_default_str();
-    command.add_option("--times", arguments->times, "as many faults as usual")
+    command.add_option("--days", arguments->days, "number of simulated days")
+        .within(1, 10000)
+        .capture_default_str();
+    command.add_option("--seed", arguments->seed, "seed of the faults").capture_default_str();
+    command.add_option("--times", arguments->times, "factor on the usual number of faults")
         .within(0.01, 1000.0)
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};

@@ -48,7 +48,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     for (const RecordingFile& file : recording_files) {
         const std::filesystem::path path = arguments.recordings / file.name;
         if (!std::filesystem::exists(path)) {
-            fmt::print(stderr, "frustumscreen-bench: {}: not there, left out\n", path.string());
+            fmt::print(stderr, "frustumscreen-bench: {}: this recording is missing and is skipped\n",
+                       path.string());
             continue;
         }
         TRY(std::vector<RecordedPose> poses, read_recorded_poses(path));
@@ -67,20 +68,20 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand latency_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "latency", "slip of the picture on a moving prop: filters and prediction against latency");
+        "latency", "displacement of the picture on a moving prop, by filter, prediction and latency");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and plots").required();
-    command.add_option("--recordings", arguments->recordings, "folder of recordings to replay as well")
+    command.add_option("--recordings", arguments->recordings, "folder of recordings to replay, too")
         .capture_default_str();
     command
         .add_option("--display-latency-ms", arguments->options.setting.display_latency_ms,
-                    "from the poll until the picture is lit")
+                    "time from the poll of the tracker until the picture is lit")
         .within(0.0, 200.0)
         .capture_default_str();
-    command.add_option("--seconds", arguments->options.length_s, "of each motion")
+    command.add_option("--seconds", arguments->options.length_s, "length of each motion")
         .within(5.0, 3600.0)
         .capture_default_str();
-    command.add_option("--seed", arguments->options.seed, "of motion and noise").capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "seed of motion and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -13,18 +13,19 @@ namespace frustumscreen {
 namespace {
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
-        " shimmer, numerical stability, latency; which set-up suits a table; what the"
-        " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
-        "frustumscreen-bench");
+    CommandLine app("Measures FrustumScreen: error and run time of its picture, scaling, the visitor's view, "
+                    "shimmer, numerical "
+                    "stability and latency; the set-up that suits a table; the benefit of the recovery "
+                    "ladder; the accuracy of "
+                    "tags on the prop and of a camera that sees visitors.",
+                    "frustumscreen-bench");
     app.set_version_flag("--version", name_and_version("frustumscreen-bench"));
     app.require_subcommand();
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
                                  counts_command(app),     latency_command(app),   setup_command(app),
                                  guidance_command(app),   ladder_command(app),    estimate_command(app),
-                                 tags_command(app),       visitor_command(app)};
+                                 tags_command(app),       visitor_command(app),   report_command(app)};
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

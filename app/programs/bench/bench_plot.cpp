@@ -26,7 +26,7 @@ Result<void> run(const Arguments& arguments) {
 
 BenchCommand plot_command(CommandLine& app) {
     CommandLine command =
-        app.add_subcommand("plot", "results of error-time on several artifacts, as fronts on one sheet");
+        app.add_subcommand("plot", "draws the results of error-time for several artifacts on one sheet");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--from", arguments->from, "folders that error-time wrote").required();
     command.add_option("--out", arguments->out, "folder for the plot").required();

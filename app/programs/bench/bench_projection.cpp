@@ -28,8 +28,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand projection_command(CommandLine& app) {
-    CommandLine command =
-        app.add_subcommand("projection", "the visitor's view of default and finest level against a ray cast");
+    CommandLine command = app.add_subcommand(
+        "projection", "error of the visitor's view at the default and the finest level, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);

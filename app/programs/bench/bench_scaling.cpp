@@ -75,22 +75,24 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand scaling_command(CommandLine& app) {
-    CommandLine command = app.add_subcommand("scaling", "cost against the source's size, built-in amphora");
+    CommandLine command = app.add_subcommand(
+        "scaling", "cost against the number of source triangles, for the built-in amphora");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_picture_options(command, arguments->options.picture);
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
     command.add_flag("--no-peers", arguments->no_peers, "leave out the two-pass method");
-    command.add_flag(
-        "--same-surface", arguments->options.same_surface,
-        "the first count's amphora alone, its triangles cut into four until there are as many as "
-        "each count says: more triangles, no more detail");
+    command.add_flag("--same-surface", arguments->options.same_surface,
+                     "use the first amphora only, and subdivide its triangles into four until each number is "
+                     "reached: more triangles, the same detail");
     command
         .add_option("--size", arguments->options.size,
-                    "of the bakes, texels along the longest edge of a face")
+                    "texels along the longest edge of a face, for the bakes")
         .within(16, 4096)
         .capture_default_str();
-    command.add_option("--triangles", arguments->options.triangles, "counts of source triangles")
+    command
+        .add_option("--triangles", arguments->options.triangles,
+                    "numbers of source triangles, one amphora for each")
         .within(1000, 20'000'000)
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};

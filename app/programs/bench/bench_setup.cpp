@@ -49,7 +49,7 @@ Result<std::optional<VerifiedPack>> load_if_named(const std::filesystem::path& f
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     TRY(const CheckedSettings checked, load_settings(arguments.config));
     if (arguments.options.lowest_m > arguments.options.highest_m) {
-        return bad_input("bench.heights", "--lowest-m is above --highest-m; no lens can hang there");
+        return bad_input("bench.heights", "--lowest-m is above --highest-m; give a lower --lowest-m");
     }
     const Settings& settings = *checked;
     AdviceOptions options = arguments.options;
@@ -70,14 +70,14 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     progress.clear();
     fmt::print("{}\n", setup_table(now, found, options));
     if (!pack) {
-        fmt::print("What a frame costs was not measured: name a baked pack with --pack.\n\n");
+        fmt::print("The cost of a frame is not measured; give a pack with --pack to measure it.\n\n");
     }
     if (const SetUpChoice* best = best_of(found); best != nullptr && best->works) {
         fmt::print("{}", setup_toml(*best));
     } else {
-        fmt::print("None works: hang the projector higher (--highest-m), take a wider table, or ask for less "
-                   "(--evenness, "
-                   "--pixels).\n");
+        fmt::print("No choice meets the limits: hang the projector higher (--highest-m), take a wider table, "
+                   "or lower "
+                   "the limits (--evenness, --pixels).\n");
     }
     Result<void> written = write_all(arguments.out, {{"setup.csv", setup_csv(now, found)}});
     return written ? draw_all(arguments.out, {"setup.csv"}) : written;
@@ -87,44 +87,43 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand setup_command(CommandLine& app) {
     CommandLine command =
-        app.add_subcommand("setup", "which prop and which place of the projector suit a table");
+        app.add_subcommand("setup", "finds the prop and the place of the projector that suit a table");
     const auto arguments = std::make_shared<Arguments>();
-    command.add_option("--config", arguments->config, "settings: the table, the eyes, the prop as it is")
-        .required();
+    command.add_option("--config", arguments->config, "present settings: table, eyes, prop").required();
     command.add_option("--out", arguments->out, "folder for the table and the plot").required();
     command.add_option(
         "--pack", arguments->pack,
-        "a pack: what its frames cost in the best choices, in times of the settings as they are");
+        "pack whose frames are timed in the best choices, as a multiple of the present settings' time");
     command.add_option("--picture", arguments->picture, "width and height of the projector's picture, pixels")
         .expected(2)
         .within(64, 8192);
     command
         .add_option("--zone-m", arguments->zone_m,
-                    "width and depth of a zone in which all eyes see an artifact whole: artifacts may get "
-                    "smaller, the picture wider")
+                    "width and depth of a zone in which all eyes see an artifact whole: artifacts may be "
+                    "smaller then, and the picture wider")
         .expected(2)
         .within(0.01, 5.0);
     AdviceOptions& options = arguments->options;
-    command.add_option("--artifact-m", options.artifact_m, "its height at least, with --zone-m")
+    command.add_option("--artifact-m", options.artifact_m, "least height of the artifact, with --zone-m")
         .within(0.02, 1.0)
         .capture_default_str();
-    command.add_option("--lowest-m", options.lowest_m, "of the lens over the table")
+    command.add_option("--lowest-m", options.lowest_m, "least height of the lens above the table")
         .within(0.3, 5.0)
         .capture_default_str();
-    command.add_option("--highest-m", options.highest_m, "of the lens over the table")
+    command.add_option("--highest-m", options.highest_m, "greatest height of the lens above the table")
         .within(0.3, 5.0)
         .capture_default_str();
-    command.add_option("--sides-m", options.sides_m, "how far from the table's middle the lens may be")
+    command.add_option("--sides-m", options.sides_m, "greatest distance of the lens from the table's middle")
         .within(0.0, 2.0)
         .capture_default_str();
     command
         .add_option("--evenness", options.evenness,
-                    "light of the darkest face that is seen, as a share of the brightest one's")
+                    "least light of the darkest seen face, as a share of the brightest face's")
         .within(0.05, 0.95)
         .capture_default_str();
     command
         .add_option("--pixels", options.pixels,
-                    "projector pixels on the artifact, times as many as it has now")
+                    "least number of projector pixels on the artifact, as a multiple of the present number")
         .within(0.1, 100.0)
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};

@@ -30,9 +30,9 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand shimmer_command(CommandLine& app) {
-    CommandLine command = app.add_subcommand(
-        "shimmer",
-        "the prop moved by small steps: default and finest level against a ray cast, edges between faces");
+    CommandLine command =
+        app.add_subcommand("shimmer", "flicker while the prop moves in small steps: default and finest level "
+                                      "against a ray cast, edges between faces");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);
@@ -40,7 +40,7 @@ BenchCommand shimmer_command(CommandLine& app) {
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
     command
         .add_option("--steps", arguments->options.steps,
-                    "in each direction: of 0.1 projector pixel, and of 0.1 mm for the edges")
+                    "steps in each direction, of 0.1 projector pixel, and of 0.1 mm for the edges")
         .within(2, 1000)
         .capture_default_str();
     command.add_flag("--one-ray", arguments->one_ray, "leave out the ray cast with 16 rays a pixel");

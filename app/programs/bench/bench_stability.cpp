@@ -43,13 +43,13 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand stability_command(CommandLine& app) {
-    CommandLine command =
-        app.add_subcommand("stability", "numerical stability on stiff and extreme cases, bound by bound");
+    CommandLine command = app.add_subcommand(
+        "stability", "numerical stability in stiff and extreme cases, each result against its bound");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
     command.add_option("--recordings", arguments->options.recordings, "folder of tracker recordings")
         .capture_default_str();
-    command.add_option("--triangles", arguments->options.triangles, "of the largest artifact")
+    command.add_option("--triangles", arguments->options.triangles, "triangles of the largest artifact")
         .within(10'000, 8'000'000)
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};

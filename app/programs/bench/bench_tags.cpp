@@ -32,7 +32,8 @@ std::function<PropMotion(std::mt19937_64&)> slid_as(std::shared_ptr<const std::v
 Result<void> add_recordings(const std::filesystem::path& folder, std::vector<TagCase>& cases) {
     for (const char* name : {"vicon_handheld_1.csv", "tum_fr1_xyz_groundtruth.txt"}) {
         if (!std::filesystem::exists(folder / name)) {
-            say_line("frustumscreen-bench", fmt::format("{}: not there, left out", (folder / name).string()));
+            say_line("frustumscreen-bench",
+                     fmt::format("{}: this recording is missing and is skipped", (folder / name).string()));
             continue;
         }
         TRY(std::vector<RecordedPose> poses, read_recorded_poses(folder / name));
@@ -71,20 +72,20 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand tags_command(CommandLine& app) {
-    CommandLine command =
-        app.add_subcommand("tags", "the prop's pose by its tags, in rendered scenes: error, spread and time");
+    CommandLine command = app.add_subcommand(
+        "tags", "pose of the prop from its tags, in rendered scenes: error, spread and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table").required();
     command
         .add_option("--recordings", arguments->recordings,
-                    "folder of recordings of hands to slide the prop by as well")
+                    "folder of recorded hand motions to slide the prop by, too")
         .capture_default_str();
-    command.add_option("--pictures", arguments->pictures, "of each scene")
+    command.add_option("--pictures", arguments->pictures, "pictures of each scene")
         .within(1, 100000)
         .capture_default_str();
     command.add_flag("--half", arguments->half,
-                     "search at half size, as the exhibit does where a frame costs much");
-    command.add_option("--seed", arguments->seed, "of poses and noise").capture_default_str();
+                     "search at half size, as the exhibit does when a frame takes long");
+    command.add_option("--seed", arguments->seed, "seed of poses and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -39,16 +39,17 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand visitor_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "visitor", "the visitor's eye by a camera, in rendered scenes: presence, error, jitter and time");
+        "visitor",
+        "position of the visitor's eye from a camera, in rendered scenes: presence, error, jitter and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables").required();
-    command.add_option("--visits", arguments->visits, "of each scene, seven seconds long")
+    command.add_option("--visits", arguments->visits, "visits of each scene, of seven seconds each")
         .within(1, 100000)
         .capture_default_str();
-    command.add_option("--minutes", arguments->minutes, "of each scene without anybody")
+    command.add_option("--minutes", arguments->minutes, "length of each scene without anybody")
         .within(0.1, 10000.0)
         .capture_default_str();
-    command.add_option("--seed", arguments->seed, "of people, light and noise").capture_default_str();
+    command.add_option("--seed", arguments->seed, "seed of people, light and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

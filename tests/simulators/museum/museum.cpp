@@ -204,7 +204,7 @@ std::string_view name_of(Policy policy) {
     case Policy::SystemdAlone:
         return "systemd alone";
     case Policy::RebootAtEveryTrouble:
-        return "reboot at every trouble";
+        return "reboot at every fault";
     }
     return "";
 }
