@@ -2,7 +2,8 @@
 ///
 ///     commands, situation -> step -> events -> state -> Presentation
 ///
-/// A Presentation is plain values: the code that draws, lights lamps or reports needs nothing else.
+/// Each part decides one thing; the exhibit keeps the state and the order of a step. It takes the values of catalogue.h
+/// and returns those of presentation.h, which are all that the code that draws, lights lamps or reports needs.
 ///
 /// States   all are in app/exhibit/states.h; the state determines what is said and where.
 /// Rest     after `ExhibitPlace::rest` without a visitor, the artifacts are shown in turn, in the house's language.
