@@ -27,8 +27,8 @@ A newcomer to a room opens the header of the fourth column first. A room may inc
 EXAMPLES_HEAD = """
 ## Examples
 
-How each room is used, in some ten lines. The test `examples_test` runs all of them. They are in namespace `frustumscreen`; a function that no
-header declares is in the whole file."""
+How each room is used, in some ten lines. The test `examples_test` runs all of them. They are in a namespace of their own, so that each name shows
+its room; a function that no header declares is in the whole file."""
 
 
 class Lack(Exception):

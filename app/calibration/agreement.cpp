@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -91,7 +91,7 @@ Tried tried_from(std::span<const Touch> touches, const FitSetup& setup, const To
             kept_setup.upright.push_back(setup.upright.empty() || setup.upright[k]);
         }
     }
-    const Pinhole& p = start.pinhole;
+    const geometry::Pinhole& p = start.pinhole;
     const TouchModel own = start_with(kept, p.width, p.height, std::sqrt(p.fx * p.fy));
     Fit rough = fit_roughly(kept, kept_setup, start);
     Fit other = fit_roughly(kept, kept_setup, own);
@@ -216,4 +216,4 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
     return {{}, std::move(all)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

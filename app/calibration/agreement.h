@@ -8,7 +8,7 @@
 
 #include "app/calibration/fit.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class Agreement {
     All,       ///< all, within the noise
@@ -37,4 +37,4 @@ struct AgreeingTouches : Agreed {
 [[nodiscard]] AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& setup,
                                              std::span<const TouchModel> starts);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -29,13 +29,13 @@ double fitting(double room_m) {
     return whole_mm(std::fmin(largest_m, room_m / rim));
 }
 
-PropTag flat_tag(int id, double size_m, const glm::dvec3& middle) {
+tags::PropTag flat_tag(int id, double size_m, const glm::dvec3& middle) {
     return {id, size_m, {{1.0, 0.0, 0.0, 0.0}, middle}};
 }
 
 } // namespace
 
-Result<Board> board_for(const FrustumSize& prop) {
+Result<Board> board_for(const geometry::FrustumSize& prop) {
     const glm::dvec2 reach = 0.5 * Board::size_m - margin_m;
     const glm::dvec2 band = reach - 0.5 * prop.base_m - beside_prop_m;
     const double in_ring = fitting(std::fmin(band.x, band.y));
@@ -80,4 +80,4 @@ Result<Board> board_for(const FrustumSize& prop) {
     return board;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

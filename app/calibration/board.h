@@ -20,18 +20,18 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct Board {
     static constexpr glm::dvec2 size_m{0.420, 0.297}; ///< of the sheet
 
-    FrustumSize prop;
-    std::vector<PropTag> tags; ///< the sheet's tags, then the tag of the prop's top
+    geometry::FrustumSize prop;
+    std::vector<tags::PropTag> tags; ///< the sheet's tags, then the tag of the prop's top
 
-    [[nodiscard]] const PropTag& top() const { return tags.back(); }
+    [[nodiscard]] const tags::PropTag& top() const { return tags.back(); }
 };
 
 /// The sheet for a prop. A cube has a top as large as its base.
-[[nodiscard]] Result<Board> board_for(const FrustumSize& prop);
+[[nodiscard]] Result<Board> board_for(const geometry::FrustumSize& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -241,4 +241,4 @@ AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& set
     return judged(rests, setup, found);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

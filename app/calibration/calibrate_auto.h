@@ -12,7 +12,7 @@
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/rest.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct AutoSetup {
     int width = 0; ///< the projector's picture
@@ -27,12 +27,12 @@ struct AutoCalibration {
     /// As for a calibration by touch. Residuals and `repeat` refer to rests; a rest's residual is the mean
     /// over its points. The touched place is the middle of the prop's bottom.
     TouchCalibration found;
-    RigidTransform sensor_from_prop;       ///< meaningless if refused, like the members below
-    std::vector<std::size_t> points_wrong; ///< points left out, for each rest
-    double print = 1.0;                    ///< the printed sheet's size over its nominal size
-    double pixel_noise = 0.0;              ///< estimated noise of a point, pixels
+    geometry::RigidTransform sensor_from_prop; ///< meaningless if refused, like the members below
+    std::vector<std::size_t> points_wrong;     ///< points left out, for each rest
+    double print = 1.0;                        ///< the printed sheet's size over its nominal size
+    double pixel_noise = 0.0;                  ///< estimated noise of a point, pixels
 };
 
 [[nodiscard]] AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& setup);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

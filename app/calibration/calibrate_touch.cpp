@@ -15,7 +15,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -298,7 +298,10 @@ std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
 }
 
 FitSetup fit_setup_for(std::span<const Touch> touches, const TouchSetup& setup, const TouchModel& start) {
-    return {setup.noise, setup.priors, setup.sensor_height_m, upright_ones(touches, start.table_up)};
+    return {.noise = setup.noise,
+            .priors = setup.priors,
+            .sensor_height_m = setup.sensor_height_m,
+            .upright = upright_ones(touches, start.table_up)};
 }
 
 /// The mistake whose correction makes the touches agree; nothing if none does.
@@ -372,4 +375,4 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     return calibration;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct TouchSetup {
     int width = 0; ///< the projector's picture
@@ -100,4 +100,4 @@ void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed
 
 [[nodiscard]] TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

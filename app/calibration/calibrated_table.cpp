@@ -1,6 +1,6 @@
 #include "app/calibration/calibrated_table.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 std::optional<CalibratedTable> in_table_frame(const TouchModel& model) {
     const glm::dvec2 middle(0.5 * model.pinhole.width, 0.5 * model.pinhole.height);
@@ -15,11 +15,14 @@ std::optional<CalibratedTable> in_table_frame(const TouchModel& model) {
     const glm::dvec3 along = *right - *left;
     const glm::dvec3 x = glm::normalize(along - glm::dot(along, model.table_up) * model.table_up);
     const glm::dmat3 tracker_from_table(x, glm::cross(model.table_up, x), model.table_up);
-    RigidTransform table_from_tracker;
+    geometry::RigidTransform table_from_tracker;
     table_from_tracker.rotation = glm::conjugate(glm::normalize(glm::quat_cast(tracker_from_table)));
     table_from_tracker.translation = -(table_from_tracker.rotation * *origin);
-    return CalibratedTable{model.pinhole, table_from_tracker * model.projector_from_tracker.inverse(),
-                           table_from_tracker, model.sensor_offset_m};
+    return CalibratedTable{.pinhole = model.pinhole,
+                           .table_from_projector =
+                               table_from_tracker * model.projector_from_tracker.inverse(),
+                           .table_from_tracker = table_from_tracker,
+                           .sensor_offset_m = model.sensor_offset_m};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,16 +7,16 @@
 
 #include "app/calibration/touch_model.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct CalibratedTable {
-    Pinhole pinhole;
-    RigidTransform table_from_projector;
-    RigidTransform table_from_tracker;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform table_from_projector;
+    geometry::RigidTransform table_from_tracker;
     glm::dvec3 sensor_offset_m{0.0}; ///< the touched place in the sensor's frame
 };
 
 /// Nothing if the light of the picture's middle does not reach the table.
 [[nodiscard]] std::optional<CalibratedTable> in_table_frame(const TouchModel& model);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::optional<VerdictReason> refusal_of(std::span<const Rest> rests,
                                                        : refusal_of_directions(standing, "rests");
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr std::size_t min_rests = 5;
 /// Rests on the table or on a block; they determine the table's plane.
@@ -24,4 +24,4 @@ inline constexpr std::size_t min_standing = 4;
 [[nodiscard]] std::optional<VerdictReason> refusal_of(std::span<const Rest> rests,
                                                       std::span<const std::optional<PlaneView>> views);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -218,4 +218,4 @@ Refusal refusal_of_few(std::span<const Touch> touches, int width, int height) {
     return std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr std::size_t min_touches = 6;
 inline constexpr std::size_t min_touch_up = 3; ///< of a table that has been calibrated
@@ -41,4 +41,4 @@ refusal_of_values(std::span<const Touch> touches, const glm::dvec2& picture, con
 [[nodiscard]] std::optional<VerdictReason> refusal_of_few(std::span<const Touch> touches, int width,
                                                           int height);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -13,7 +13,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -35,7 +35,7 @@ struct PixelRange {
 /// rectangle that is surely within reach.
 PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double height_m) {
     constexpr double min_range = 0.1; // widths
-    const Pinhole& p = model.pinhole;
+    const geometry::Pinhole& p = model.pinhole;
     const glm::dvec2 margin(setup.margin * p.width);
     PixelRange range{margin, glm::dvec2(p.width, p.height) - margin};
     if (!setup.reach_m) {
@@ -107,7 +107,7 @@ double left_by(const Covariance& information, const Covariance& zone) {
 
 /// A start whose crosses are spread out, different for each `turn`.
 Design spread_out(const Choice& choice, std::span<const std::size_t> fixed, int count, std::size_t turn) {
-    Design design{{fixed.begin(), fixed.end()}, fixed.size(), choice.known};
+    Design design{.chosen = {fixed.begin(), fixed.end()}, .fixed = fixed.size(), .information = choice.known};
     for (int k = 0; k < count; ++k) {
         design.chosen.push_back((static_cast<std::size_t>(k) * 7919 + turn * 389) % choice.rows.size());
     }
@@ -208,7 +208,10 @@ Choice choice_of(const TouchModel& rough, const CrossSetup& setup, const TouchNo
     for (const Cross& cross : choice.grid) {
         touches.push_back(perfect_touch(rough, cross));
     }
-    const FitSetup fit_setup{noise, setup.priors, -glm::dot(rough.table_up, rough.sensor_offset_m), {}};
+    const FitSetup fit_setup{.noise = noise,
+                             .priors = setup.priors,
+                             .sensor_height_m = -glm::dot(rough.table_up, rough.sensor_offset_m),
+                             .upright = {}};
     const glm::dvec3 middle = middle_of(touches);
     choice.rows = whitened_touches(touches, fit_setup, rough, middle).rows;
     const Fit all = information_of(touches, fit_setup, rough, middle);
@@ -258,11 +261,11 @@ double overhang_m(const TouchModel& rough, std::span<const Cross> crosses, const
     return max_m > rounding_m ? max_m : 0.0;
 }
 
-TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m) {
+TouchModel rough_model(const geometry::Pinhole& pinhole, double above_m, double sensor_height_m) {
     TouchModel model;
     model.pinhole = pinhole;
     model.projector_from_tracker =
-        RigidTransform{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, above_m)}.inverse();
+        geometry::RigidTransform{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, above_m)}.inverse();
     model.sensor_offset_m = {0.0, 0.0, -sensor_height_m};
     return model;
 }
@@ -291,4 +294,4 @@ std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSe
     return first_and_more(choice, setup.count, more);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

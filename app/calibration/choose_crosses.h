@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// A cross that the projector shows, and how the prop is laid on it.
 struct Cross {
@@ -55,7 +55,8 @@ inline constexpr double stand_margin_m = 0.005;
 
 /// A rough model from the picture and the throw alone: a projector straight above, a tracker in the table's
 /// frame.
-[[nodiscard]] TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m);
+[[nodiscard]] TouchModel rough_model(const geometry::Pinhole& pinhole, double above_m,
+                                     double sensor_height_m);
 
 /// The first `setup.count` crosses in the order in which to touch them, from low to high; after them `more`, the
 /// best to add to these, also from low to high. `rough`: its frame K must have Z up.
@@ -66,4 +67,4 @@ inline constexpr double stand_margin_m = 0.005;
 [[nodiscard]] std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSetup& setup,
                                                          int more);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -17,9 +17,9 @@ std::optional<glm::dvec2> light_of(const CornerCalibration& calibration, const g
     if (!calibration.pinhole) {
         return std::nullopt;
     }
-    RigidTransform level_from_projector = calibration.measured_from_projector;
+    geometry::RigidTransform level_from_projector = calibration.measured_from_projector;
     level_from_projector.translation.z -= height_m;
-    return lights_table(*calibration.pinhole, level_from_projector, pixel);
+    return geometry::lights_table(*calibration.pinhole, level_from_projector, pixel);
 }
 
 /// Degrees of freedom: each corner has two residuals, across its ray; four rays through one point have eleven
@@ -105,4 +105,4 @@ CornerUncertainty uncertainty_of(const CornerCalibration& calibration,
     return uncertainty;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

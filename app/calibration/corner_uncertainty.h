@@ -12,7 +12,7 @@
 #include "app/calibration/corners.h"
 #include "app/calibration/zone.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr double min_ruler_error_m = 1e-3;
 
@@ -26,4 +26,4 @@ struct CornerUncertainty {
 [[nodiscard]] CornerUncertainty uncertainty_of(const CornerCalibration& calibration,
                                                std::span<const MeasuredCorner> corners, double top_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

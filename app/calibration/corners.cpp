@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -128,7 +128,8 @@ struct Rays {
 
 /// fx, fy, cx, cy and the rotation, from four rays: the homography from pixels to rays, decomposed by RQ like
 /// a camera matrix.
-std::optional<std::pair<Pinhole, Eigen::Matrix3d>> projector_of(const Rays& rays, int width, int height) {
+std::optional<std::pair<geometry::Pinhole, Eigen::Matrix3d>> projector_of(const Rays& rays, int width,
+                                                                          int height) {
     const double w = width;
     const double h = height;
     // Directions d_k = s_k ray_k are linear in (u, v, 1), so d0 - d1 + d2 - d3 = 0 determines the lengths s
@@ -162,7 +163,9 @@ std::optional<std::pair<Pinhole, Eigen::Matrix3d>> projector_of(const Rays& rays
     if (!(fx > 0.0)) {
         return std::nullopt;
     }
-    return std::pair{Pinhole{width, height, fx, fy, cx, cy}, j_from_m};
+    return std::pair{
+        geometry::Pinhole{.width = width, .height = height, .fx = fx, .fy = fy, .cx = cx, .cy = cy},
+        j_from_m};
 }
 
 double degrees_between(const Place& a, const Place& b) {
@@ -293,4 +296,4 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     return calibration;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class PictureCorner { TopLeft, TopRight, BottomRight, BottomLeft };
 
@@ -38,11 +38,11 @@ struct CornerCalibration {
     VerdictReason reason;
     std::vector<std::size_t>
         repeat; ///< rows to measure again, counted from 0: all of a corner that does not fit
-    std::optional<Pinhole> pinhole; ///< none if refused, as are the members below
-    RigidTransform table_from_projector;
-    RigidTransform measured_from_projector; ///< M from J
-    glm::dvec3 centre_m{0.0};               ///< of projection, in M
-    double horizontal_deg = 0.0;            ///< angle of the picture
+    std::optional<geometry::Pinhole> pinhole; ///< none if refused, as are the members below
+    geometry::RigidTransform table_from_projector;
+    geometry::RigidTransform measured_from_projector; ///< M from J
+    glm::dvec3 centre_m{0.0};                         ///< of projection, in M
+    double horizontal_deg = 0.0;                      ///< angle of the picture
     double vertical_deg = 0.0;
     double mean_residual_m = 0.0; ///< distance of the corners from the fitted projector's rays
     double worst_residual_m = 0.0;
@@ -58,4 +58,4 @@ inline constexpr double usual_ruler_error_m = 5e-3;
 [[nodiscard]] CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int width,
                                                   int height);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

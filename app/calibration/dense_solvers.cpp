@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 SymmetricAxes axes_of(const Eigen::MatrixXd& symmetric) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
@@ -14,4 +14,4 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
     return information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct SymmetricAxes {
     Eigen::VectorXd values;  ///< eigenvalues, rising
@@ -17,4 +17,4 @@ struct SymmetricAxes {
 /// Inverse of a symmetric, positive definite matrix: the covariance of an information matrix.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -42,7 +42,11 @@ PriorShares prior_shares(const Fit& fit) {
     const auto share = [&](Unknown which) {
         return std::fmin(1.0, covariance(which, which) * fit.from_priors(which, which));
     };
-    return {share(aspect_log), share(centre_u), share(centre_v), share(lens_k1), share(lens_k2)};
+    return {.aspect = share(aspect_log),
+            .centre_u = share(centre_u),
+            .centre_v = share(centre_v),
+            .k1 = share(lens_k1),
+            .k2 = share(lens_k2)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

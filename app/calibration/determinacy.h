@@ -9,7 +9,7 @@
 #include "app/calibration/fit.h"
 #include "app/calibration/zone.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct Undetermined {
     enum class What {
@@ -31,4 +31,4 @@ struct PriorShares {
 };
 [[nodiscard]] PriorShares prior_shares(const Fit& fit);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

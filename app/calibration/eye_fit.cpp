@@ -14,7 +14,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -381,4 +381,4 @@ EyeFit fit_eyes(std::span<const EyeSight> sights, double deep_m, const SightNois
     return fit;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -22,7 +22,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct EyeFit {
     Verdict verdict = Verdict::Refused;
@@ -50,4 +50,4 @@ inline constexpr std::size_t min_sights = 4;
 /// (distance from the eye to the prop).
 [[nodiscard]] EyeFit fit_eyes(std::span<const EyeSight> sights, double deep_m, const SightNoise& noise = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

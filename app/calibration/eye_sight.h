@@ -14,22 +14,22 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class OpenEye { Left, Right };
 
 struct EyeSight {
     OpenEye eye = OpenEye::Left;
-    RigidTransform table_from_sensor; ///< of the head
-    glm::dvec3 cross_m{0.0};          ///< the cross's middle, on the table
-    glm::dvec3 tip_m{0.0};            ///< the prop's place that covers it
+    geometry::RigidTransform table_from_sensor; ///< of the head
+    glm::dvec3 cross_m{0.0};                    ///< the cross's middle, on the table
+    glm::dvec3 tip_m{0.0};                      ///< the prop's place that covers it
 };
 using EyeSights = std::vector<EyeSight>;
 
 /// A sighting as reported: the head's sensor in the tracker's frame, and the pixel that lights the cross.
 struct ReportedSight {
     OpenEye eye = OpenEye::Left;
-    RigidTransform tracker_from_sensor;
+    geometry::RigidTransform tracker_from_sensor;
     glm::dvec2 pixel{0.0};
     glm::dvec3 tip_m{0.0}; ///< table
 };
@@ -38,9 +38,9 @@ using ReportedSights = std::vector<ReportedSight>;
 /// Sightings on a table whose projector and tracker are known. Nothing if the light of a cross does not reach
 /// the table.
 [[nodiscard]] std::optional<EyeSights> placed_sights(std::span<const ReportedSight> reported,
-                                                     const Pinhole& pinhole,
-                                                     const RigidTransform& table_from_projector,
-                                                     const RigidTransform& table_from_tracker);
+                                                     const geometry::Pinhole& pinhole,
+                                                     const geometry::RigidTransform& table_from_projector,
+                                                     const geometry::RigidTransform& table_from_tracker);
 
 /// Standard deviations. Shared errors do not shrink with the number of sightings.
 struct SightNoise {
@@ -51,4 +51,4 @@ struct SightNoise {
     double tip_m = 7e-4;    ///< shared, of each coordinate: the prop at rest
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

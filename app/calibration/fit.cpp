@@ -10,7 +10,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -154,7 +154,8 @@ Fit fit_in(std::span<const int> rounds, std::span<const Touch> touches, std::spa
            const FitSetup& setup, const TouchModel& start) {
     assert(!touches.empty());
     TouchModel model = start;
-    Residuals residuals{touches, setup, model, middle_of(touches), {}};
+    Residuals residuals{
+        .touches = touches, .setup = setup, .base = model, .middle = middle_of(touches), .whitening = {}};
     for (const int steps : rounds) {
         whiten(residuals, weights);
         model = solved(residuals, steps);
@@ -167,14 +168,14 @@ Fit fit_in(std::span<const int> rounds, std::span<const Touch> touches, std::spa
 
 Fit information_of(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& model,
                    const glm::dvec3& middle) {
-    Residuals residuals{touches, setup, model, middle, {}};
+    Residuals residuals{.touches = touches, .setup = setup, .base = model, .middle = middle, .whitening = {}};
     whiten(residuals, {});
     return measured(residuals, {});
 }
 
 WhitenedTouches whitened_touches(std::span<const Touch> touches, const FitSetup& setup,
                                  const TouchModel& model, const glm::dvec3& middle) {
-    Residuals residuals{touches, setup, model, middle, {}};
+    Residuals residuals{.touches = touches, .setup = setup, .base = model, .middle = middle, .whitening = {}};
     whiten(residuals, {});
     const std::vector<Jet> out = differentiated(residuals);
     WhitenedTouches whitened{std::vector<Eigen::Vector3d>(touches.size()),
@@ -222,4 +223,4 @@ Fit fit_robustly(std::span<const Touch> touches, const FitSetup& setup, const To
     return fit;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

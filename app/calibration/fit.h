@@ -14,7 +14,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct FitSetup {
     TouchNoise noise;
@@ -59,4 +59,4 @@ struct WhitenedTouches {
 
 [[nodiscard]] glm::dvec3 middle_of(std::span<const Touch> touches);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

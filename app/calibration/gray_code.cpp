@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -175,4 +175,4 @@ PixelMap decode(const StripeSetup& setup, const Captures& captures, const Decode
     return map;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

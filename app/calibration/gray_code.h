@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct StripeSetup {
     int width = 0; ///< the projector's picture
@@ -76,4 +76,4 @@ struct PixelMap {
 [[nodiscard]] PixelMap decode(const StripeSetup& setup, const Captures& captures,
                               const DecodeLimits& limits = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

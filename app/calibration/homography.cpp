@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
     return scale_to.inverse() * scaled * scale_from;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// `from` and `to` have the same length. Nothing for fewer than four points, or if they do not span a plane.
 [[nodiscard]] std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
@@ -21,4 +21,4 @@ namespace frustumscreen {
     return out.head<2>() / out.z();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

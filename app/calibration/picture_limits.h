@@ -7,7 +7,7 @@
 
 #include "app/calibration/zone.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct PictureLimits {
     double mean_m;
@@ -20,4 +20,4 @@ struct PictureLimits {
 inline constexpr PictureLimits for_good{0.7e-3, 1.4e-3, 16e-3};
 inline constexpr PictureLimits for_usable{1.2e-3, 2.5e-3, 40e-3};
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

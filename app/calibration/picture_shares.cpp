@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -76,4 +76,4 @@ PictureShares picture_shares(std::span<const ZonePlace> places, const Covariance
     return picture_shares(Eigen::MatrixXd(rows * lower), 0);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -12,7 +12,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// `covariance`: of the unknowns, positive definite.
 [[nodiscard]] PictureShares picture_shares(std::span<const ZonePlace> places, const Covariance& covariance);
@@ -21,4 +21,4 @@ namespace frustumscreen {
 /// standard deviation was estimated from; 0: it is known.
 [[nodiscard]] PictureShares picture_shares(const Eigen::MatrixXd& moves_by_error, int freedom);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::optional<PlaneView> plane_view(const Rest& rest) {
     return view;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

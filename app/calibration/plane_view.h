@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct PlaneView {
     Eigen::Matrix3d pixel_from_plane =
@@ -29,4 +29,4 @@ struct PlaneView {
 /// Nothing if no level has four points that span it, or if most of them do not fit together.
 [[nodiscard]] std::optional<PlaneView> plane_view(const Rest& rest);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

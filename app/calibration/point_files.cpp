@@ -10,7 +10,7 @@
 #include <cmath>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -61,19 +61,19 @@ public:
     }
     [[nodiscard]] std::string_view field(std::size_t column) const { return rows_.fields()[column]; }
     double number(std::size_t column) {
-        const double number = number_in(field(column)).value_or(NAN);
+        const double number = tracker::number_in(field(column)).value_or(NAN);
         if (!std::isfinite(number)) {
             refuse("points.not_a_number", "{} is {}; allowed is a finite number", columns_[column],
-                   quoted(field(column)));
+                   tracker::quoted(field(column)));
         }
         return number;
     }
     /// `allowed`: the allowed values in the message.
     int integer(std::size_t column, std::int64_t min, std::int64_t max, std::string_view allowed) {
-        const std::int64_t number = integer_in(field(column)).value_or(min - 1);
+        const std::int64_t number = tracker::integer_in(field(column)).value_or(min - 1);
         if (number < min || number > max) {
             refuse("points.not_an_integer", "{} is {}; allowed are {}", columns_[column],
-                   quoted(field(column)), allowed);
+                   tracker::quoted(field(column)), allowed);
         }
         return static_cast<int>(number);
     }
@@ -82,7 +82,7 @@ public:
         const auto found = std::find(names.begin(), names.end(), field(column));
         if (found == names.end()) {
             refuse("points.not_a_choice", "{} is {}; allowed are {}{}", columns_[column],
-                   quoted(field(column)), fmt::join(names, ", "), what);
+                   tracker::quoted(field(column)), fmt::join(names, ", "), what);
         }
         return static_cast<std::size_t>(found - names.begin());
     }
@@ -90,7 +90,7 @@ public:
     glm::dvec3 place(std::size_t first) { return {number(first), number(first + 1), number(first + 2)}; }
     /// The tracker's report: place and quaternion. The quaternion is checked after all fields of the row are
     /// known to be numbers. A length within 0.02 of 1 counts as rounding and is normalised.
-    RigidTransform report(std::size_t first, bool is_last_empty = false) {
+    geometry::RigidTransform report(std::size_t first, bool is_last_empty = false) {
         constexpr double max_rounded = 0.02;
         for (std::size_t column = first; column + (is_last_empty ? 1 : 0) < columns_.size(); ++column) {
             number(column);
@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    TextRows rows_;
+    tracker::TextRows rows_;
     Columns columns_;
     std::size_t max_rows_;
     std::size_t count_ = 0;
@@ -126,7 +126,7 @@ private:
 };
 
 /// The text that PointRows::report reads.
-std::string report_text(const RigidTransform& report) {
+std::string report_text(const geometry::RigidTransform& report) {
     const glm::dvec3& t = report.translation;
     const glm::dquat& q = report.rotation;
     return fmt::format("{},{},{},{},{},{},{}", t.x, t.y, t.z, q.w, q.x, q.y, q.z);
@@ -200,8 +200,10 @@ Result<ReportedSights> parse_sights(std::string_view text, std::string_view name
     ReportedSights sights;
     while (rows.next()) {
         const bool is_left = rows.choice(0, eye_names, ": the one that was open") == 0;
-        sights.push_back(
-            {is_left ? OpenEye::Left : OpenEye::Right, rows.report(1), rows.pixel(8), rows.place(10)});
+        sights.push_back({.eye = is_left ? OpenEye::Left : OpenEye::Right,
+                          .tracker_from_sensor = rows.report(1),
+                          .pixel = rows.pixel(8),
+                          .tip_m = rows.place(10)});
     }
     return rows.read(std::move(sights));
 }
@@ -229,4 +231,4 @@ Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::st
     return rows.read(std::move(corners));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -21,7 +21,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// `name`: of the file, for messages.
 [[nodiscard]] Result<Touches> parse_touches(std::string_view text, std::string_view name);
@@ -35,4 +35,4 @@ namespace frustumscreen {
 [[nodiscard]] Result<ReportedSights> parse_sights(std::string_view text, std::string_view name);
 [[nodiscard]] Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,14 +10,14 @@
 #include <cmath>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr int prior_count = 6;
 
 /// Writes prior_count residuals in units of their standard deviations; `change`: unknown_count numbers.
 template <typename T>
 void prior_residuals(const Priors& priors, const TouchModel& model, const T* change, T* out) {
-    const Pinhole& base = model.pinhole;
+    const geometry::Pinhole& base = model.pinhole;
     const double width = base.width;
     out[0] = (change[aspect_log] + std::log(base.fx / base.fy)) / priors.aspect;
     out[1] = (change[centre_u] + (base.cx / width - 0.5)) / priors.centre_u;
@@ -38,4 +38,4 @@ T sensor_height(const ChangedModel<T>& model, std::span<const Eigen::Matrix3d> t
     return sum / static_cast<double>(tracker_from_sensor.size());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

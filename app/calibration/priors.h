@@ -5,7 +5,7 @@
 /// touches determine a table with priors ten times as wide.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct Priors {
     double aspect = 1e-2;   ///< of fx / fy: the pixels of a panel are square
@@ -18,4 +18,4 @@ struct Priors {
     double sensor_height_m = 5e-4; ///< accuracy of a ruler or a drawing
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

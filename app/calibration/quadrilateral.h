@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 using Quadrilateral = std::array<glm::dvec2, 4>;
 
@@ -43,4 +43,4 @@ void for_each_pixel(const Quadrilateral& corners, int width, int height, const a
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

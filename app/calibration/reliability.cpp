@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -35,4 +35,4 @@ double hidden_error_m(std::span<const TouchRows> touches, const Covariance& cova
     return hidden_error_m(std::span<const UnseenError<3>>(unseen), touch_chi2_limit, places);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

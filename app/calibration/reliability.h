@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Limit of the three residuals of a touch: one right touch in a thousand exceeds it.
 inline constexpr double touch_chi2_limit = 16.0;
@@ -48,4 +48,4 @@ double hidden_error_m(std::span<const UnseenError<errors>> unseen, double chi2_l
 [[nodiscard]] double hidden_error_m(std::span<const TouchRows> touches, const Covariance& covariance,
                                     std::span<const ZonePlace> places);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct PropPoint {
     glm::dvec3 prop_m{0.0};
@@ -19,8 +19,8 @@ struct PropPoint {
 };
 
 struct Rest {
-    int name = 0;                       ///< number shown to people
-    RigidTransform tracker_from_sensor; ///< what the tracker reported, once for all points
+    int name = 0;                                 ///< number shown to people
+    geometry::RigidTransform tracker_from_sensor; ///< what the tracker reported, once for all points
     std::vector<PropPoint> points;
     std::optional<double> block_m; ///< height of the prop's flat bottom above the table; none: it leans
 };
@@ -35,4 +35,4 @@ struct RestNoise {
     double block_m = 1e-4;        ///< of each of three heights of the prop's bottom
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -171,4 +171,4 @@ AgreeingRests find_agreement(std::span<const Rest> rests, std::span<const std::o
     return found;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 #include "app/calibration/plane_view.h"
 #include "app/calibration/rest_fit.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// 99.99 % quantile of chi squared for the six residuals of a correct tracker report.
 inline constexpr double rest_chi2_limit = 27.9;
@@ -30,4 +30,4 @@ struct AgreeingRests : Agreed { ///< never Exchanged; `scatter` is the tracker's
 /// units of the tracker's noise.
 [[nodiscard]] PoseCovariance unexplained(const FittedRest& rest, const RestCovariance& covariance);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

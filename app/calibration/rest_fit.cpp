@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -187,7 +187,13 @@ private:
 
 RestResiduals residuals_at(std::span<const Rest> rests, const RestWeights& weights, const RestFitSetup& setup,
                            const RestModel& model) {
-    RestResiduals residuals{rests, setup, model, middle_of(rests), {}, {}, 0};
+    RestResiduals residuals{.rests = rests,
+                            .setup = setup,
+                            .base = model,
+                            .middle = middle_of(rests),
+                            .covariances = {},
+                            .standing = {},
+                            .count = 0};
     for (std::size_t k = 0; k < rests.size(); ++k) {
         const PoseRows by_pose = pose_rows(model, residuals.middle, rests[k], setup.noise);
         Eigen::MatrixXd covariance = by_pose * by_pose.transpose() / weights.rests[k];
@@ -217,7 +223,11 @@ FittedRest fitted_rest(const RestResiduals& residuals, const RestWeights& weight
     const Rest& rest = residuals.rests[k];
     const Eigen::LLT<Eigen::MatrixXd>& covariance = residuals.covariances[k];
     const PoseRows by_pose = pose_rows(residuals.base, residuals.middle, rest, residuals.setup.noise);
-    FittedRest fitted{whitened, rows, covariance.matrixL().solve(by_pose), {}, {}};
+    FittedRest fitted{.residuals = whitened,
+                      .by_unknown = rows,
+                      .by_pose = covariance.matrixL().solve(by_pose),
+                      .pose = {},
+                      .points = {}};
     const Eigen::VectorXd raw_by_covariance = covariance.matrixU().solve(whitened);
     fitted.pose = by_pose.transpose() * raw_by_covariance / weights.rests[k];
     const Eigen::VectorXd own =
@@ -287,4 +297,4 @@ RestFit fit_rests(std::span<const Rest> rests, const RestWeights& weights, const
     return measured(residuals_at(rests, weights, setup, model), weights);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -15,7 +15,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct RestFitSetup {
     RestNoise noise;
@@ -62,4 +62,4 @@ struct RestFit {
 
 [[nodiscard]] glm::dvec3 middle_of(std::span<const Rest> rests);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 RestModel changed(const RestModel& base, const glm::dvec3& middle, const RestChanges& change) {
     const ChangedRestModel<double> now(base, middle, change.data());
@@ -11,4 +11,4 @@ RestModel changed(const RestModel& base, const glm::dvec3& middle, const RestCha
             glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z())), now.print};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct RestModel {
     TouchModel touch;
@@ -23,7 +23,9 @@ struct RestModel {
         return {print * prop_point.x, print * prop_point.y, prop_point.z};
     }
 
-    [[nodiscard]] RigidTransform prop_in_sensor() const { return {sensor_from_prop, touch.sensor_offset_m}; }
+    [[nodiscard]] geometry::RigidTransform prop_in_sensor() const {
+        return {sensor_from_prop, touch.sensor_offset_m};
+    }
 };
 
 /// Unknowns in addition to those of touches.
@@ -65,4 +67,4 @@ template <typename T> struct ChangedRestModel {
 
 [[nodiscard]] RestModel changed(const RestModel& base, const glm::dvec3& middle, const RestChanges& change);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

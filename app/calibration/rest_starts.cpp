@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::vector<RestModel> starting_rest_models(std::span<const Rest> rests,
     return models;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Rests on blocks that have a view, as touches of their levels' middles.
 [[nodiscard]] Touches as_touches(std::span<const Rest> rests,
@@ -21,4 +21,4 @@ namespace frustumscreen {
                                                           std::span<const std::optional<PlaneView>> views,
                                                           int width, int height);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
-RigidTransform rigid(const RigidMove& move, const glm::dvec3& middle) {
+geometry::RigidTransform rigid(const RigidMove& move, const glm::dvec3& middle) {
     const glm::dquat turn = glm::normalize(glm::dquat(1.0, 0.5 * move[0], 0.5 * move[1], 0.5 * move[2]));
     return {turn, middle + glm::dvec3(move[3], move[4], move[5]) - turn * middle};
 }
@@ -45,7 +45,7 @@ TouchModel model_of(const CalibratedTable& table) {
 }
 
 TouchModel moved_model(const TouchModel& kept, Moved which, const RigidMove& move, const glm::dvec3& middle) {
-    const RigidTransform change = rigid(move, middle);
+    const geometry::RigidTransform change = rigid(move, middle);
     TouchModel model = kept;
     model.projector_from_tracker = kept.projector_from_tracker * change;
     if (which == Moved::Tracker) {
@@ -71,4 +71,4 @@ ByRigidMove by_move(const TouchModel& model, Moved which) {
     return rows;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -12,7 +12,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Either: both moves explain the touches and correct the picture alike.
 enum class Moved { Nothing, Projector, Tracker, Either };
@@ -37,4 +37,4 @@ inline constexpr double kept_error_m = 6e-4;
 /// Derivatives of the model's unknowns by a move.
 [[nodiscard]] ByRigidMove by_move(const TouchModel& model, Moved which);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

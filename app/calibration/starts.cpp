@@ -7,7 +7,7 @@
 #include <Eigen/SVD>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -70,7 +70,8 @@ TouchModel straight_down(const TableStart& table, const PixelFit& pixels, const 
                            glm::dot(pixels.across_v, middle) + pixels.at_origin.y);
     const glm::dvec3 in_j((pixel.x - 0.5 * width) / scale, (pixel.y - 0.5 * height) / scale, focal / scale);
     TouchModel model;
-    model.pinhole = {width, height, focal, focal, 0.5 * width, 0.5 * height};
+    model.pinhole = {
+        .width = width, .height = height, .fx = focal, .fy = focal, .cx = 0.5 * width, .cy = 0.5 * height};
     model.projector_from_tracker.rotation = glm::conjugate(glm::quat_cast(tracker_from_j));
     model.projector_from_tracker.translation = in_j - model.projector_from_tracker.rotation * middle;
     model.table_up = table.up;
@@ -134,7 +135,7 @@ std::optional<TouchModel> decomposed(Eigen::Matrix<double, 3, 4> p, const TableS
     const Eigen::Matrix<double, 3, 4> pose = k.inverse() * p / m.row(2).norm();
     const Eigen::Quaterniond q(Eigen::Matrix3d(pose.leftCols<3>()));
     TouchModel model;
-    model.pinhole = {width, height, fx, fy, cx, cy};
+    model.pinhole = {.width = width, .height = height, .fx = fx, .fy = fy, .cx = cx, .cy = cy};
     model.projector_from_tracker = {glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z())),
                                     glm_vector(pose.col(3))};
     model.table_up = table.up;
@@ -174,4 +175,4 @@ std::vector<TouchModel> starting_models(std::span<const Touch> touches, int widt
     return models;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -13,7 +13,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Least squares: height above the table = dot(up, x) + offset. `up` is not normalised: its length reveals
 /// wrong units.
@@ -36,4 +36,4 @@ struct PixelFit {
 /// The start that looks straight down, with a focal length in pixels.
 [[nodiscard]] TouchModel start_with(std::span<const Touch> touches, int width, int height, double focal_px);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

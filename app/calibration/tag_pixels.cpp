@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
     return pixels;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,11 +10,11 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// `corners`: of the tag in the camera's picture, in order around it. Nothing if too few pixels there are
 /// decoded.
 [[nodiscard]] std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
                                                                   const std::array<glm::dvec2, 4>& corners);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -9,12 +9,12 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct Touch {
-    RigidTransform tracker_from_sensor; ///< what the tracker reported
-    glm::dvec2 pixel{0.0};              ///< that lights the cross
-    double block_m = 0.0;               ///< height of the touched place above the table
+    geometry::RigidTransform tracker_from_sensor; ///< what the tracker reported
+    glm::dvec2 pixel{0.0};                        ///< that lights the cross
+    double block_m = 0.0;                         ///< height of the touched place above the table
 };
 
 using Touches = std::vector<Touch>;
@@ -27,4 +27,4 @@ struct TouchNoise {
     double block_m = 1e-4;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -1,9 +1,9 @@
 #include "app/calibration/touch_model.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 std::optional<glm::dvec3> TouchModel::lit(const glm::dvec2& pixel, double height_m) const {
-    const RigidTransform tracker_from_projector = projector_from_tracker.inverse();
+    const geometry::RigidTransform tracker_from_projector = projector_from_tracker.inverse();
     const glm::dvec3 along = tracker_from_projector.direction(pinhole.ray(pixel));
     const double steep = glm::dot(table_up, along);
     const double way = (height_m - height(tracker_from_projector.translation)) / steep;
@@ -11,4 +11,4 @@ std::optional<glm::dvec3> TouchModel::lit(const glm::dvec2& pixel, double height
                                     : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -9,11 +9,11 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct TouchModel {
-    Pinhole pinhole;
-    RigidTransform projector_from_tracker;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform projector_from_tracker;
     glm::dvec3 sensor_offset_m{0.0};    ///< the touched place in the sensor's frame
     glm::dvec3 table_up{0.0, 0.0, 1.0}; ///< unit, in K
     double table_offset_m = 0.0;        ///< height above the table = dot(table_up, x) + table_offset_m
@@ -22,7 +22,7 @@ struct TouchModel {
     /// True height of boards of nominal height `block_m`.
     [[nodiscard]] double raised(double block_m) const { return boards * block_m; }
 
-    [[nodiscard]] glm::dvec3 touched(const RigidTransform& tracker_from_sensor) const {
+    [[nodiscard]] glm::dvec3 touched(const geometry::RigidTransform& tracker_from_sensor) const {
         return tracker_from_sensor.point(sensor_offset_m);
     }
     [[nodiscard]] double height(const glm::dvec3& tracker_point) const {
@@ -35,4 +35,4 @@ struct TouchModel {
     [[nodiscard]] std::optional<glm::dvec3> lit(const glm::dvec2& pixel, double height_m) const;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

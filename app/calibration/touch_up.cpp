@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -182,7 +182,7 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     if (auto reason = refusal_of_few(touches, setup.width, setup.height)) {
         return refused(std::move(*reason));
     }
-    FitSetup noise{setup.noise, {}, std::nullopt, {}};
+    FitSetup noise{.noise = setup.noise, .priors = {}, .sensor_height_m = std::nullopt, .upright = {}};
     noise.noise.position_m = std::hypot(setup.noise.position_m, kept_error_m);
     const TouchModel before = model_of(kept);
     const double unmoved = chi2_of(whitened_touches(touches, noise, before, middle_of(touches)));
@@ -218,4 +218,4 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -12,7 +12,7 @@
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/rigid_move.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct TouchUp {
     Verdict verdict = Verdict::Refused;
@@ -30,4 +30,4 @@ struct TouchUp {
 [[nodiscard]] TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches,
                                const TouchSetup& setup);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

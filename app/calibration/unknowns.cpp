@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 Eigen::Matrix<double, 3, 2> table_axes(const glm::dvec3& up) {
     const Eigen::Vector3d n = eigen(up);
@@ -15,7 +15,12 @@ Eigen::Matrix<double, 3, 2> table_axes(const glm::dvec3& up) {
 TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Changes& change) {
     const ChangedModel<double> now(base, middle, change.data());
     TouchModel model;
-    model.pinhole = {base.pinhole.width, base.pinhole.height, now.fx, now.fy, now.cx, now.cy};
+    model.pinhole = {.width = base.pinhole.width,
+                     .height = base.pinhole.height,
+                     .fx = now.fx,
+                     .fy = now.fy,
+                     .cx = now.cx,
+                     .cy = now.cy};
     model.pinhole.lens = {now.k1, now.k2};
     const Eigen::Quaterniond q(now.turn);
     model.projector_from_tracker.rotation = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()));
@@ -28,4 +33,4 @@ TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Chang
     return model;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum Unknown {
     focal_log,  ///< of sqrt(fx fy)
@@ -99,7 +99,7 @@ template <typename T>
 ChangedModel<T>::ChangedModel(const TouchModel& base, const glm::dvec3& about, const T* change)
     : middle(eigen(about)) {
     using std::exp;
-    const Pinhole& p = base.pinhole;
+    const geometry::Pinhole& p = base.pinhole;
     const T focal = exp(change[focal_log]) * std::sqrt(p.fx * p.fy);
     const T aspect = exp(T(change[aspect_log] * 0.5)) * std::sqrt(p.fx / p.fy);
     fx = focal * aspect;
@@ -133,11 +133,11 @@ template <typename T> auto ChangedModel<T>::pixel_and_height(const Vector& track
     const T depth = in_j.z() > T(1e-3) ? in_j.z() : T(1e-3);
     const T x = in_j.x() / depth;
     const T y = in_j.y() / depth;
-    const T factor = radial_factor(T(x * x + y * y), k1, k2);
+    const T factor = geometry::radial_factor(T(x * x + y * y), k1, k2);
     return Vector(fx * x * factor + cx, fy * y * factor + cy, up.dot(from_middle) + middle_height);
 }
 
 /// The model with the changes applied.
 [[nodiscard]] TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Changes& change);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 std::vector<bool> upright_ones(std::span<const Touch> touches, const glm::dvec3& up) {
     constexpr double within = 0.97; // cosine of 14 degrees
@@ -22,4 +22,4 @@ std::vector<bool> upright_ones(std::span<const Touch> touches, const glm::dvec3&
     return best;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

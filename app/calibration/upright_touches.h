@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// `up`: the table's normal in K. Upright sensors see it in the same direction. One answer per touch.
 [[nodiscard]] std::vector<bool> upright_ones(std::span<const Touch> touches, const glm::dvec3& up);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -1,6 +1,6 @@
 #include "app/calibration/verdict.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 std::string_view name_of(Verdict verdict) {
     switch (verdict) {
@@ -16,4 +16,4 @@ std::string_view name_of(Verdict verdict) {
     return "refused";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

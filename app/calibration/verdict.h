@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class Verdict {
     Good,    ///< as accurate as possible
@@ -24,4 +24,4 @@ struct VerdictReason {
     std::string sentence;          ///< one sentence
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

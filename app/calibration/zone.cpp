@@ -6,7 +6,7 @@
 #include <array>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places, std::s
     return zone;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Derivatives of where a place's light falls on the table's plane, by each unknown, in metres.
 using LightRows = Eigen::Matrix<double, 2, unknown_count>;
@@ -64,4 +64,4 @@ struct PlaceUncertainty {
 [[nodiscard]] std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places,
                                                      std::span<const double> each_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -138,4 +138,4 @@ Result<ReadCounts> read_counts(const fs::path& folder) {
     return read;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

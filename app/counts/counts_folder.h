@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 inline constexpr std::size_t max_days = 400;
 
@@ -42,4 +42,4 @@ struct ReadCounts {
 /// Only reads. Errors: the folder is missing, or cannot be read.
 [[nodiscard]] Result<ReadCounts> read_counts(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -304,4 +304,4 @@ std::string counts_plot(const std::vector<DayCounts>& days) {
     return sheet.take(end + 34.0);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

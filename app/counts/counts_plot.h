@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 /// `days` is ascending; a missing day has no numbers and stays blank.
 [[nodiscard]] std::string counts_plot(const std::vector<DayCounts>& days);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

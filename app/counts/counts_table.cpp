@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -197,4 +197,4 @@ std::string counts_json(const ReadCounts& counts) {
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 struct NamedTally {
     std::string name;
@@ -42,4 +42,4 @@ struct CountsSummary {
 /// "12 345"
 [[nodiscard]] std::string grouped(std::uint64_t number);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

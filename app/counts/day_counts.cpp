@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -156,4 +156,4 @@ Result<DayCounts> parse_day_counts(std::string_view text) {
     return counts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

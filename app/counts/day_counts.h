@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 struct Tally {
     std::uint64_t visits = 0;
@@ -55,4 +55,4 @@ inline constexpr std::string_view other_names = "...";
 [[nodiscard]] std::string write_day_counts(const DayCounts& counts);
 [[nodiscard]] Result<DayCounts> parse_day_counts(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

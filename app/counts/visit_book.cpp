@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -147,4 +147,4 @@ void VisitBook::work(const std::stop_token& stop) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

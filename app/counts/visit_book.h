@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 using LocalOffset = std::function<std::chrono::seconds(std::chrono::sys_seconds)>;
 
@@ -87,4 +87,4 @@ private:
     std::jthread thread_; ///< last: uses the other members
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

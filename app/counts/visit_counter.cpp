@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 namespace {
 
@@ -87,4 +87,4 @@ void VisitCounter::release(std::vector<VisitPiece>& pieces) {
     held_.clear();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

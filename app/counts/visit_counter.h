@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 /// A piece of a visit.
 struct VisitPiece {
@@ -60,4 +60,4 @@ private:
     bool waits_for_rest_ = false;     ///< after the staff's picture
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

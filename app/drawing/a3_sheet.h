@@ -10,13 +10,14 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 inline constexpr glm::dvec2 a3_mm{420.0, 297.0};
 inline constexpr Pen outline{"#000000", 0.5};
 inline constexpr Pen fine{"#444444", 0.13};
-inline constexpr Pen hidden{"#444444", 0.25, "none", "2 1"};
-inline constexpr Lettering heading{4.0, TextAnchor::Start, 0.0, true};
+inline constexpr Pen hidden{.stroke = "#444444", .width_mm = 0.25, .fill = "none", .dashes = "2 1"};
+inline constexpr Lettering heading{
+    .height_mm = 4.0, .anchor = TextAnchor::Start, .turned_deg = 0.0, .bold = true};
 
 /// `title` names the drawing, `name` the settings.
 inline SvgSheet a3_sheet(std::string_view title, std::string_view name) {
@@ -29,10 +30,11 @@ inline SvgSheet a3_sheet(std::string_view title, std::string_view name) {
     sheet.polygon(corners, {"#000000", 0.7});
     sheet.line(field, {high.x, field.y}, {"#000000", 0.35});
     sheet.line(field, {field.x, high.y}, {"#000000", 0.35});
-    sheet.text(field + glm::dvec2(4.0, 7.5), title, {4.5, TextAnchor::Start, 0.0, true});
+    sheet.text(field + glm::dvec2(4.0, 7.5), title,
+               {.height_mm = 4.5, .anchor = TextAnchor::Start, .turned_deg = 0.0, .bold = true});
     sheet.text(field + glm::dvec2(4.0, 13.0), fmt::format("of the settings {}", name));
     sheet.text(field + glm::dvec2(4.0, 18.0), "All lengths in mm.");
     return sheet;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
@@ -21,7 +21,7 @@ void draw_arrow(SvgSheet& sheet, const glm::dvec2& tip, const glm::dvec2& pointi
     const glm::dvec2 back = tip - arrow_mm * pointing;
     const std::array<glm::dvec2, 3> corners{tip, back + 0.17 * arrow_mm * side,
                                             back - 0.17 * arrow_mm * side};
-    sheet.polygon(corners, {"none", 0.0, "#444444"});
+    sheet.polygon(corners, {.stroke = "none", .width_mm = 0.0, .fill = "#444444"});
 }
 
 void draw_extension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& off) {
@@ -56,7 +56,8 @@ void draw_dimension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& t
     const double radians = glm::radians(turned_deg);
     const glm::dvec2 above(std::sin(radians), -std::cos(radians));
     const glm::dvec2 at = fits ? 0.5 * (begin + end) : end + (0.5 * (outside + tail)) * along;
-    sheet.text(at + 0.8 * above, words, {letters_mm, TextAnchor::Middle, turned_deg});
+    sheet.text(at + 0.8 * above, words,
+               {.height_mm = letters_mm, .anchor = TextAnchor::Middle, .turned_deg = turned_deg});
 }
 
 void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& from, const glm::dvec2& to,
@@ -77,4 +78,4 @@ void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& fro
     sheet.text(at(0.5, reach) + glm::dvec2(0.0, 0.35 * letters_mm), words, {letters_mm, TextAnchor::Middle});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 /// Dimensions the distance from `from` to `to`, at the offset `off` from both; `off` is perpendicular to the
 /// line between them. The words are above the line; if they do not fit between the arrows, they follow `to`,
@@ -21,4 +21,4 @@ void draw_dimension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& t
 void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& from, const glm::dvec2& to,
                 double radius_mm);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -9,16 +9,16 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 /// A3: the table, the projector and its light, the tracker and the visitors' eyes, from the side and from
 /// above. `name` names the settings.
-[[nodiscard]] std::string table_sheet(const Settings& settings, std::string_view name);
+[[nodiscard]] std::string table_sheet(const settings::Settings& settings, std::string_view name);
 
 /// A3: the prop from the front and from above, one of its faces, and all of them unfolded.
-[[nodiscard]] std::string prop_sheet(const Settings& settings, std::string_view name);
+[[nodiscard]] std::string prop_sheet(const settings::Settings& settings, std::string_view name);
 
 /// The prop's faces unfolded in true size, with folds and glue tabs, to cut out; as large as necessary.
-[[nodiscard]] std::string net_sheet(const Settings& settings, std::string_view name);
+[[nodiscard]] std::string net_sheet(const settings::Settings& settings, std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
@@ -15,15 +15,15 @@ constexpr double max_tab_m = 0.015;
 constexpr double steepest_tab = std::numbers::pi / 4.0;
 constexpr double rounding_m = 1e-9;
 
-const PropFace& face_named(const PropShape& prop, std::string_view name) {
+const geometry::PropFace& face_named(const geometry::PropShape& prop, std::string_view name) {
     const auto found = std::find_if(prop.faces.begin(), prop.faces.end(),
-                                    [&](const PropFace& face) { return face.name == name; });
+                                    [&](const geometry::PropFace& face) { return face.name == name; });
     assert(found != prop.faces.end());
     return *found;
 }
 
 /// The face's corners in its own plane, seen from outside: the first at the origin, the second along x.
-std::array<glm::dvec2, 4> flat(const PropFace& face) {
+std::array<glm::dvec2, 4> flat(const geometry::PropFace& face) {
     const glm::dvec3 x = glm::normalize(face.corners[1] - face.corners[0]);
     const glm::dvec3 y = glm::cross(face.plane.normal, x);
     std::array<glm::dvec2, 4> corners{};
@@ -36,7 +36,8 @@ std::array<glm::dvec2, 4> flat(const PropFace& face) {
 
 /// The edge of `face` that runs from `to` to `from`: adjacent faces traverse their common edge in opposite
 /// directions.
-std::optional<std::size_t> edge_between(const PropFace& face, const glm::dvec3& to, const glm::dvec3& from) {
+std::optional<std::size_t> edge_between(const geometry::PropFace& face, const glm::dvec3& to,
+                                        const glm::dvec3& from) {
     for (std::size_t k = 0; k < 4; ++k) {
         if (glm::distance(face.corners[k], to) < rounding_m &&
             glm::distance(face.corners[(k + 1) % 4], from) < rounding_m) {
@@ -61,8 +62,9 @@ std::array<glm::dvec2, 4> moved(const std::array<glm::dvec2, 4>& corners, std::s
     return result;
 }
 
-void hang(PropNet& net, const PropShape& prop, const PropFace& face, std::string_view parent_name) {
-    const PropFace& parent = face_named(prop, parent_name);
+void hang(PropNet& net, const geometry::PropShape& prop, const geometry::PropFace& face,
+          std::string_view parent_name) {
+    const geometry::PropFace& parent = face_named(prop, parent_name);
     const auto placed = std::find_if(net.faces.begin(), net.faces.end(),
                                      [&](const NetFace& each) { return each.name == parent_name; });
     for (std::size_t k = 0; k < 4; ++k) {
@@ -119,9 +121,9 @@ bool is_fold(const PropNet& net, const glm::dvec2& begin, const glm::dvec2& end)
 }
 
 /// If two faces meet at a cut edge, the later one in the net gets the tab.
-void add_tabs(PropNet& net, const PropShape& prop) {
+void add_tabs(PropNet& net, const geometry::PropShape& prop) {
     for (std::size_t later = 0; later < net.faces.size(); ++later) {
-        const PropFace& face = face_named(prop, net.faces[later].name);
+        const geometry::PropFace& face = face_named(prop, net.faces[later].name);
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec2 begin = net.faces[later].corners[k];
             const glm::dvec2 end = net.faces[later].corners[(k + 1) % 4];
@@ -141,10 +143,10 @@ void add_tabs(PropNet& net, const PropShape& prop) {
 
 } // namespace
 
-PropNet unfold(const PropShape& prop) {
+PropNet unfold(const geometry::PropShape& prop) {
     PropNet net;
     NetFace top{"+Z", {}};
-    const PropFace& top_face = face_named(prop, top.name);
+    const geometry::PropFace& top_face = face_named(prop, top.name);
     std::transform(top_face.corners.begin(), top_face.corners.end(), top.corners.begin(),
                    [](const glm::dvec3& corner) { return glm::dvec2(corner); });
     net.faces.push_back(top);
@@ -152,7 +154,7 @@ PropNet unfold(const PropShape& prop) {
         hang(net, prop, face_named(prop, side), "+Z");
     }
     const bool has_bottom = std::any_of(prop.faces.begin(), prop.faces.end(),
-                                        [](const PropFace& face) { return face.name == "-Z"; });
+                                        [](const geometry::PropFace& face) { return face.name == "-Z"; });
     if (has_bottom) {
         hang(net, prop, face_named(prop, "-Z"), "-Y");
     }
@@ -160,4 +162,4 @@ PropNet unfold(const PropShape& prop) {
     return net;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

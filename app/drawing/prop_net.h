@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 struct NetFace {
     std::string_view name;               ///< as in PropShape
@@ -36,6 +36,6 @@ struct PropNet {
     std::vector<NetTab> tabs;
 };
 
-[[nodiscard]] PropNet unfold(const PropShape& prop);
+[[nodiscard]] PropNet unfold(const geometry::PropShape& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -10,19 +10,19 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
 constexpr Pen cut{"#000000", 0.35};
-constexpr Pen fold{"#c02020", 0.25, "none", "3 1.5"};
-constexpr Pen glue{"#808080", 0.25, "#f0f0f0"};
+constexpr Pen fold{.stroke = "#c02020", .width_mm = 0.25, .fill = "none", .dashes = "3 1.5"};
+constexpr Pen glue{.stroke = "#808080", .width_mm = 0.25, .fill = "#f0f0f0"};
 
 /// The prop's three sizes, for a cube or a frustum.
 struct Sizes {
-    explicit Sizes(const PropSettings& prop)
-        : bottom_m(prop.base_m), top_m(prop.kind == PropKind::Cube ? prop.base_m : prop.top_m),
-          height_m(prop.kind == PropKind::Cube ? prop.base_m : prop.height_m) {}
+    explicit Sizes(const settings::PropSettings& prop)
+        : bottom_m(prop.base_m), top_m(prop.kind == settings::PropKind::Cube ? prop.base_m : prop.top_m),
+          height_m(prop.kind == settings::PropKind::Cube ? prop.base_m : prop.height_m) {}
     /// From the bottom's edge to the top's, along a side.
     [[nodiscard]] double slant_m() const { return std::hypot(height_m, 0.5 * (bottom_m - top_m)); }
     /// Along the edge between two sides.
@@ -127,7 +127,7 @@ void draw_above(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const Vi
     const double arm_m = std::fmin(0.2 * sizes.bottom_m, 0.5 * sizes.top_m);
     sheet.line(view(glm::dvec2(0.0)), view(glm::dvec2(arm_m, 0.0)), {"#a02020", 0.5});
     sheet.line(view(glm::dvec2(0.0)), view(glm::dvec2(0.0, arm_m)), {"#a02020", 0.5});
-    sheet.circle(view(glm::dvec2(0.0)), 1.0, {"#a02020", 0.5, "#ffe0e0"});
+    sheet.circle(view(glm::dvec2(0.0)), 1.0, {.stroke = "#a02020", .width_mm = 0.5, .fill = "#ffe0e0"});
     draw_dimension(sheet, view(bottom[0]), view(bottom[1]), {0.0, 8.0}, mm_words(sizes.bottom_m));
 }
 
@@ -167,9 +167,9 @@ View draw_views(SvgSheet& sheet, const Sizes& sizes) {
     return at(0.0);
 }
 
-void draw_notes(SvgSheet& sheet, const Settings& settings, const View& views, const View& net_view,
+void draw_notes(SvgSheet& sheet, const settings::Settings& settings, const View& views, const View& net_view,
                 const Extent& net) {
-    const bool cube = settings.prop.kind == PropKind::Cube;
+    const bool cube = settings.prop.kind == settings::PropKind::Cube;
     const std::string lines[] = {
         fmt::format("Scale {}; the net: {}.", scale_words(views), scale_words(net_view)),
         "All sizes are those of the outside, with the paint on.",
@@ -191,11 +191,11 @@ void draw_notes(SvgSheet& sheet, const Settings& settings, const View& views, co
 
 } // namespace
 
-std::string prop_sheet(const Settings& settings, std::string_view name) {
+std::string prop_sheet(const settings::Settings& settings, std::string_view name) {
     const Sizes sizes(settings.prop);
     SvgSheet sheet = a3_sheet("Prop", name);
     const View views = draw_views(sheet, sizes);
-    const PropNet net = unfold(make_prop(settings.prop));
+    const PropNet net = unfold(settings::make_prop(settings.prop));
     const Extent extent = extent_of(net);
     const View net_view = fitted_view(extent, {205.0, 26.0}, {400.0, 206.0});
     sheet.text({205.0, 18.0}, "All faces as one piece, seen from outside", heading);
@@ -204,11 +204,11 @@ std::string prop_sheet(const Settings& settings, std::string_view name) {
     return sheet.take();
 }
 
-std::string net_sheet(const Settings& settings, std::string_view name) {
+std::string net_sheet(const settings::Settings& settings, std::string_view name) {
     constexpr double margin_mm = 12.0;
     constexpr double foot_mm = 18.0; // for the ruler
     constexpr double true_size = 1000.0;
-    const PropNet net = unfold(make_prop(settings.prop));
+    const PropNet net = unfold(settings::make_prop(settings.prop));
     const Extent extent = extent_of(net);
     const glm::dvec2 size_mm = true_size * (extent.high - extent.low);
     const View view{glm::dvec2(margin_mm) + true_size * glm::dvec2(-extent.low.x, extent.high.y), true_size};
@@ -225,4 +225,4 @@ std::string net_sheet(const Settings& settings, std::string_view name) {
     return sheet.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

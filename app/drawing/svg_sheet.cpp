@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::string mm_words(double metres) {
     return fmt::format("{:g}", std::round(1e4 * metres) / 10.0 + 0.0);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 struct Pen {
     std::string_view stroke = "#000000";
@@ -81,4 +81,4 @@ struct Extent {
 /// A length as drawings write it: in millimetres, to a tenth if it is not whole.
 [[nodiscard]] std::string mm_words(double metres);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

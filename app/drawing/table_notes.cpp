@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
@@ -30,20 +30,20 @@ std::string span_words(double middle_m, double half_m) {
     return fmt::format("{} to {}", mm_words(middle_m - half_m), mm_words(middle_m + half_m));
 }
 
-std::vector<std::string> zone_words(const Settings& settings, const LitZone& zone) {
-    const bool in_hand = settings.prop.zone == PropZone::Hand;
+std::vector<std::string> zone_words(const settings::Settings& settings, const settings::LitZone& zone) {
+    const bool in_hand = settings.prop.zone == settings::PropZone::Hand;
     if (zone.any_eye.empty()) {
         return {"Nowhere on this table is the prop lit from all sides:",
                 "frustumscreen config --explain says why."};
     }
-    const Rectangle& inside = zone.any_eye_rectangle;
+    const settings::Rectangle& inside = zone.any_eye_rectangle;
     return {in_hand ? "Where the prop's middle may be held, so that all of it is lit:"
                     : "Where the prop's middle may stand, so that each side is lit at each turn:",
             fmt::format("all of x {}, y {}", span_words(inside.centre_m.x, inside.half_m.x),
                         span_words(inside.centre_m.y, inside.half_m.y))};
 }
 
-std::vector<std::string> lens_words(const ProjectorSettings& projector) {
+std::vector<std::string> lens_words(const settings::ProjectorSettings& projector) {
     const glm::dvec3 axis = projector.table_from_projector.direction({0.0, 0.0, 1.0});
     const double tilt_deg = glm::degrees(std::acos(std::clamp(-axis.z, -1.0, 1.0)));
     constexpr double straight_deg = 0.05;
@@ -56,16 +56,16 @@ std::vector<std::string> lens_words(const ProjectorSettings& projector) {
                     projector.pinhole.height, projector.pinhole.fx / projector.pinhole.width)};
 }
 
-std::vector<std::string> tracker_words(const Settings& settings) {
+std::vector<std::string> tracker_words(const settings::Settings& settings) {
     return has_tracker_place(settings)
                ? std::vector<std::string>{"The tracker's zero:",
                                           place_words(
                                               settings.tracker.registration.table_from_tracker.translation)}
-               : std::vector<std::string>{
-                     fmt::format("No tracker: tracker.kind is \"{}\"", name_of(settings.tracker.kind))};
+               : std::vector<std::string>{fmt::format("No tracker: tracker.kind is \"{}\"",
+                                                      settings::name_of(settings.tracker.kind))};
 }
 
-std::vector<std::string> check_words(const Settings& settings) {
+std::vector<std::string> check_words(const settings::Settings& settings) {
     std::vector<std::string> lines{"To check with a ruler",
                                    "x is to the right of a visitor at the front edge, y away from that",
                                    "visitor, both from the middle of the table's top."};
@@ -83,12 +83,12 @@ std::vector<std::string> check_words(const Settings& settings) {
 
 } // namespace
 
-glm::dvec2 drawn_place(const LitZone& zone) {
+glm::dvec2 drawn_place(const settings::LitZone& zone) {
     return zone.any_eye.empty() ? glm::dvec2(0.0) : zone.any_eye_rectangle.centre_m;
 }
 
-std::optional<std::array<glm::dvec2, 4>> picture_corners(const ProjectorSettings& projector) {
-    const Pinhole& pinhole = projector.pinhole;
+std::optional<std::array<glm::dvec2, 4>> picture_corners(const settings::ProjectorSettings& projector) {
+    const geometry::Pinhole& pinhole = projector.pinhole;
     const std::array<glm::dvec2, 4> pixels{glm::dvec2(0, 0), glm::dvec2(pinhole.width, 0),
                                            glm::dvec2(pinhole.width, pinhole.height),
                                            glm::dvec2(0, pinhole.height)};
@@ -104,22 +104,23 @@ std::optional<std::array<glm::dvec2, 4>> picture_corners(const ProjectorSettings
     return corners;
 }
 
-bool has_tracker_place(const Settings& settings) {
-    return settings.tracker.kind == TrackerKind::Usb;
+bool has_tracker_place(const settings::Settings& settings) {
+    return settings.tracker.kind == settings::TrackerKind::Usb;
 }
 
-TableNotes table_notes(const Settings& settings, const LitZone& zone) {
-    const EyeSettings& eye = settings.eye;
-    return {{"The projector's light: its picture on the table"},
-            zone_words(settings, zone),
-            {fmt::format("Visitors' eyes, all around the table: {} to {} from the prop,",
-                         mm_words(eye.nearest_m), mm_words(eye.farthest_m)),
-             fmt::format("at least {:g}\u00b0 above the table", eye.lowest_elevation_deg)},
-            lens_words(settings.projector),
-            {eye.tracked ? "Eyes while no head is tracked:" : "Eyes of the one place that it is drawn for:",
-             place_words(eye.default_m)},
-            tracker_words(settings),
-            check_words(settings)};
+TableNotes table_notes(const settings::Settings& settings, const settings::LitZone& zone) {
+    const settings::EyeSettings& eye = settings.eye;
+    return {.light = {"The projector's light: its picture on the table"},
+            .zone = zone_words(settings, zone),
+            .eyes = {fmt::format("Visitors' eyes, all around the table: {} to {} from the prop,",
+                                 mm_words(eye.nearest_m), mm_words(eye.farthest_m)),
+                     fmt::format("at least {:g}\u00b0 above the table", eye.lowest_elevation_deg)},
+            .lens = lens_words(settings.projector),
+            .eye = {eye.tracked ? "Eyes while no head is tracked:"
+                                : "Eyes of the one place that it is drawn for:",
+                    place_words(eye.default_m)},
+            .tracker = tracker_words(settings),
+            .checks = check_words(settings)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

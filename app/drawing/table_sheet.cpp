@@ -7,20 +7,20 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
 constexpr double board_m = 0.03; ///< drawn thickness of the table top; not a setting
 constexpr double symbol_mm = 2.0;
 constexpr double max_of_eye_zone_m = 2.5; ///< a larger distance is only in the notes
-constexpr Pen light{"#b08000", 0.25, "#fff3b8"};
+constexpr Pen light{.stroke = "#b08000", .width_mm = 0.25, .fill = "#fff3b8"};
 constexpr Pen light_edge{"#b08000", 0.25};
-constexpr Pen zone_pen{"#107030", 0.35, "#c8ecd0"};
-constexpr Pen eye_zone{"#5080b0", 0.2, "#e4effa", "3 1"};
-constexpr Pen wood{"#000000", 0.35, "#e6e0d8"};
-constexpr Pen white_prop{"#000000", 0.5, "#ffffff"};
-constexpr Pen symbol{"#000000", 0.35, "#ffffff"};
+constexpr Pen zone_pen{.stroke = "#107030", .width_mm = 0.35, .fill = "#c8ecd0"};
+constexpr Pen eye_zone{.stroke = "#5080b0", .width_mm = 0.2, .fill = "#e4effa", .dashes = "3 1"};
+constexpr Pen wood{.stroke = "#000000", .width_mm = 0.35, .fill = "#e6e0d8"};
+constexpr Pen white_prop{.stroke = "#000000", .width_mm = 0.5, .fill = "#ffffff"};
+constexpr Pen symbol{.stroke = "#000000", .width_mm = 0.35, .fill = "#ffffff"};
 
 void draw_lens(SvgSheet& sheet, const glm::dvec2& at) {
     sheet.circle(at, symbol_mm, symbol);
@@ -29,15 +29,15 @@ void draw_lens(SvgSheet& sheet, const glm::dvec2& at) {
 }
 
 void draw_eye(SvgSheet& sheet, const glm::dvec2& at) {
-    sheet.circle(at, symbol_mm, {"#20508a", 0.5, "#ffffff"});
-    sheet.circle(at, 0.4 * symbol_mm, {"none", 0.0, "#20508a"});
+    sheet.circle(at, symbol_mm, {.stroke = "#20508a", .width_mm = 0.5, .fill = "#ffffff"});
+    sheet.circle(at, 0.4 * symbol_mm, {.stroke = "none", .width_mm = 0.0, .fill = "#20508a"});
 }
 
 void draw_tracker(SvgSheet& sheet, const glm::dvec2& at) {
     const glm::dvec2 corners[] = {at + symbol_mm * glm::dvec2(0.0, -1.2),
                                   at + symbol_mm * glm::dvec2(1.1, 0.8),
                                   at + symbol_mm * glm::dvec2(-1.1, 0.8)};
-    sheet.polygon(corners, {"#a02020", 0.5, "#ffe0e0"});
+    sheet.polygon(corners, {.stroke = "#a02020", .width_mm = 0.5, .fill = "#ffe0e0"});
 }
 
 void draw_sample(SvgSheet& sheet, const glm::dvec2& at, const Pen& pen) {
@@ -55,10 +55,11 @@ struct Symbol {
 /// One view from the side (seen from the right: y to the right, z up) and one from above.
 class TableDrawing {
 public:
-    TableDrawing(const Settings& settings, std::string_view name)
-        : settings_(settings), zone_(lit_zone(settings)), place_(drawn_place(zone_)),
+    TableDrawing(const settings::Settings& settings, std::string_view name)
+        : settings_(settings), zone_(settings::lit_zone(settings)), place_(drawn_place(zone_)),
           lens_(settings.projector.table_from_projector.translation),
-          picture_(picture_on_table(settings, 0.0)), sheet_(a3_sheet("Table, projector, prop", name)) {}
+          picture_(settings::picture_on_table(settings, 0.0)),
+          sheet_(a3_sheet("Table, projector, prop", name)) {}
 
     std::string draw() {
         draw_side_view();
@@ -72,9 +73,9 @@ private:
     [[nodiscard]] double half_depth() const { return 0.5 * settings_.table.depth_m; }
     /// The prop's outline in a view along an axis, around `across_m`.
     [[nodiscard]] std::vector<glm::dvec2> prop_outline(double across_m) const {
-        const PropSettings& prop = settings_.prop;
+        const settings::PropSettings& prop = settings_.prop;
         const double bottom = 0.5 * prop.base_m;
-        const double top = prop.kind == PropKind::Cube ? bottom : 0.5 * prop.top_m;
+        const double top = prop.kind == settings::PropKind::Cube ? bottom : 0.5 * prop.top_m;
         return {{across_m - bottom, 0.0},
                 {across_m + bottom, 0.0},
                 {across_m + top, prop.height_m},
@@ -83,7 +84,7 @@ private:
 
     /// The eye zone on the visitor's side of the prop, from the lowest elevation up to the vertical.
     [[nodiscard]] std::vector<glm::dvec2> eye_zone_outline() const {
-        const EyeSettings& eye = settings_.eye;
+        const settings::EyeSettings& eye = settings_.eye;
         const double lowest = glm::radians(eye.lowest_elevation_deg);
         const double farthest = std::fmin(eye.farthest_m, max_of_eye_zone_m);
         constexpr int pieces = 48;
@@ -122,7 +123,7 @@ private:
             const glm::dvec2& a = picture_[k];
             const glm::dvec2& b = picture_[(k + 1) % picture_.size()];
             const glm::dvec2 corners[] = {view({lens_.y, lens_.z}), view({a.y, 0.0}), view({b.y, 0.0})};
-            sheet_.polygon(corners, {"none", 0.0, light.fill});
+            sheet_.polygon(corners, {.stroke = "none", .width_mm = 0.0, .fill = light.fill});
         }
         for (const glm::dvec2& corner : picture_) {
             sheet_.line(view({lens_.y, lens_.z}), view({corner.y, 0.0}), light_edge);
@@ -275,18 +276,18 @@ private:
         note(y_mm, notes.checks, [](const glm::dvec2&) {});
     }
 
-    const Settings& settings_;
-    LitZone zone_;
+    const settings::Settings& settings_;
+    settings::LitZone zone_;
     glm::dvec2 place_;
     glm::dvec3 lens_;
-    Polygon picture_;
+    settings::Polygon picture_;
     SvgSheet sheet_;
 };
 
 } // namespace
 
-std::string table_sheet(const Settings& settings, std::string_view name) {
+std::string table_sheet(const settings::Settings& settings, std::string_view name) {
     return TableDrawing(settings, name).draw();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::optional<Eigen::Matrix3d> table_from_pixels(const DriftReference& reference
             places.push_back(eigen(reference.marks_m[k]));
         }
     }
-    return homography(pixels, places);
+    return calibration::homography(pixels, places);
 }
 
 struct CameraWay {
@@ -60,13 +60,13 @@ CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<Anc
             to.push_back(eigen(same->corners_px.at(k)));
         }
     }
-    const auto found = from.size() >= 4 * min_anchors ? homography(from, to) : std::nullopt;
+    const auto found = from.size() >= 4 * min_anchors ? calibration::homography(from, to) : std::nullopt;
     if (!found) {
         return way;
     }
     double misfit = 0.0;
     for (std::size_t k = 0; k < from.size(); ++k) {
-        misfit += (mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
+        misfit += (calibration::mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
     }
     way.known = misfit <= max_anchor_misfit_px; // otherwise one of the tags was moved
     if (way.known) {
@@ -97,12 +97,13 @@ std::vector<double> misfits_m(const DriftReference& reference, const std::vector
         pixels.push_back(eigen(*reference.marks_px[k]));
         places.push_back(eigen(reference.marks_m[k]));
     }
-    const std::optional<Eigen::Matrix3d> table = homography(pixels, places);
+    const std::optional<Eigen::Matrix3d> table = calibration::homography(pixels, places);
     std::vector<double> misfits;
     for (std::size_t k = 0; table && k < reference.marks_px.size(); ++k) {
         misfits.push_back(
             reference.marks_px[k]
-                ? (mapped(*table, eigen(*reference.marks_px[k])) - eigen(reference.marks_m[k])).norm()
+                ? (calibration::mapped(*table, eigen(*reference.marks_px[k])) - eigen(reference.marks_m[k]))
+                      .norm()
                 : std::numeric_limits<double>::infinity());
     }
     return misfits;
@@ -172,8 +173,10 @@ std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const
     for (std::size_t k = 0; k < reference.marks_px.size() && k < set.marks_px.size(); ++k) {
         known += reference.marks_px[k] ? 1 : 0;
         if (reference.marks_px[k] && set.marks_px[k]) {
-            const Eigen::Vector2d now = mapped(camera.reference_from_now, eigen(*set.marks_px[k]));
-            const Eigen::Vector2d way = mapped(*table, now) - mapped(*table, eigen(*reference.marks_px[k]));
+            const Eigen::Vector2d now =
+                calibration::mapped(camera.reference_from_now, eigen(*set.marks_px[k]));
+            const Eigen::Vector2d way =
+                calibration::mapped(*table, now) - calibration::mapped(*table, eigen(*reference.marks_px[k]));
             ways.emplace_back(way.x(), way.y());
             lengths.push_back(way.norm());
         }
@@ -181,7 +184,8 @@ std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const
     if (ways.size() < DriftCheck::min_marks || 2 * ways.size() < known) {
         return std::nullopt;
     }
-    return DriftMeasure{median(lengths), median(ways), ways.size(), camera.known};
+    return DriftMeasure{
+        .off_m = median(lengths), .shift_m = median(ways), .marks = ways.size(), .anchored = camera.known};
 }
 
 void DriftCheck::know(DriftReference reference) {
@@ -258,4 +262,4 @@ void DriftCheck::judge() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

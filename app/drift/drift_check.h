@@ -18,7 +18,7 @@
 
 #include <deque>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 enum class DriftState : std::uint8_t {
     Learning, ///< there is no reference yet
@@ -84,4 +84,4 @@ private:
     DriftVerdict verdict_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

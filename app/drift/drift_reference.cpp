@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 namespace {
 
@@ -109,4 +109,4 @@ Result<DriftReference> parse_drift_reference(std::string_view text, std::string_
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

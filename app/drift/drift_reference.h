@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 inline constexpr std::size_t max_marks = 10;
 /// In the folder of the kept calibrations.
@@ -52,4 +52,4 @@ struct DriftReference {
 [[nodiscard]] std::string drift_reference_text(const DriftReference& reference);
 [[nodiscard]] Result<DriftReference> parse_drift_reference(std::string_view text, std::string_view file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 namespace {
 
@@ -91,7 +91,7 @@ const DriftVerdict& DriftWatch::verdict() {
     return told_;
 }
 
-void DriftWatch::use(const CameraFrame& frame) {
+void DriftWatch::use(const camera::CameraFrame& frame) {
     const std::int64_t began_ns = began_ns_;
     if (began_ns != follows_ns_) { // another set, or the set was cancelled
         follows_ns_ = began_ns;
@@ -104,7 +104,7 @@ void DriftWatch::use(const CameraFrame& frame) {
     }
 }
 
-void DriftWatch::follow(const CameraFrame& frame, Nanoseconds since_begin) {
+void DriftWatch::follow(const camera::CameraFrame& frame, Nanoseconds since_begin) {
     if (since_begin >= MarkTimes::length(set_up_.marks_m.size())) {
         find_mark();
         end_set(frame.time);
@@ -148,8 +148,8 @@ void DriftWatch::find_anchors(MarkSet& set) {
     set.anchors.clear();
     finder_.dark_picture(dark_);
     tags_.find(dark_, finder_.width(), finder_.height(), found_tags_);
-    for (const FoundTag& tag : found_tags_) {
-        const auto is_same = [&](const FoundTag& other) { return other.id == tag.id; };
+    for (const tags::FoundTag& tag : found_tags_) {
+        const auto is_same = [&](const tags::FoundTag& other) { return other.id == tag.id; };
         const bool moves = std::find(set_up_.moving_tags.begin(), set_up_.moving_tags.end(), tag.id) !=
                            set_up_.moving_tags.end();
         if (!moves && std::count_if(found_tags_.begin(), found_tags_.end(), is_same) == 1) {
@@ -170,7 +170,7 @@ void DriftWatch::keep_reference() {
 }
 
 /// A change of the frame's size means that the camera was set up again, so old pixels are invalid.
-void DriftWatch::follow_size(const CameraFrame& frame) {
+void DriftWatch::follow_size(const camera::CameraFrame& frame) {
     const DriftReference& reference = check_.reference();
     if (check_.knows() && (frame.width != reference.width || frame.height != reference.height)) {
         check_ = DriftCheck(blank_of(set_up_));
@@ -187,4 +187,4 @@ void DriftWatch::end_set(MonotonicTime time) {
     verdict_ = check_.verdict();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

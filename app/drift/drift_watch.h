@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 struct DriftSetUp {
     std::vector<glm::dvec2> marks_m; ///< from the kept calibration
@@ -41,7 +41,7 @@ public:
     /// Reads the reference, if there is one for these marks.
     explicit DriftWatch(DriftSetUp set_up);
 
-    void use(const CameraFrame& frame);
+    void use(const camera::CameraFrame& frame);
 
     /// `quiet`: as in MarkSchedule.
     [[nodiscard]] std::optional<ShownMark> step(MonotonicTime now, bool quiet);
@@ -49,11 +49,11 @@ public:
     [[nodiscard]] const DriftVerdict& verdict();
 
 private:
-    void follow(const CameraFrame& frame, Nanoseconds since_begin);
+    void follow(const camera::CameraFrame& frame, Nanoseconds since_begin);
     void find_mark();
     void end_set(MonotonicTime time);
     void keep_reference();
-    void follow_size(const CameraFrame& frame);
+    void follow_size(const camera::CameraFrame& frame);
     [[nodiscard]] std::optional<PixelWindow> window_of(std::size_t mark) const;
     void find_anchors(MarkSet& set);
 
@@ -65,8 +65,8 @@ private:
     // Used by the camera's thread:
     DriftCheck check_;
     MarkFinder finder_;
-    TagDetector tags_;
-    std::vector<FoundTag> found_tags_;
+    tags::TagDetector tags_;
+    std::vector<tags::FoundTag> found_tags_;
     std::vector<std::uint8_t> dark_;
     std::int64_t follows_ns_ = 0; ///< the set that it follows or has finished
     bool ended_ = true;
@@ -77,4 +77,4 @@ private:
     DriftVerdict verdict_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 namespace {
 
@@ -220,4 +220,4 @@ std::optional<FoundMark> MarkFinder::measure(std::size_t peak, const glm::ivec2&
     return mark;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

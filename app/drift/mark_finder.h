@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 /// A rectangle of pixels: columns and rows [low, high).
 struct PixelWindow {
@@ -66,4 +66,4 @@ private:
     std::vector<std::size_t> part_; ///< the mark's pixels
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

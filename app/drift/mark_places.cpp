@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 namespace {
 
@@ -25,13 +25,13 @@ constexpr std::array<glm::dvec2, 10> shares{{{0.04, 0.06},
 
 } // namespace
 
-std::vector<glm::dvec2> mark_places(const Settings& settings) {
-    const Pinhole& pinhole = settings.projector.pinhole;
+std::vector<glm::dvec2> mark_places(const settings::Settings& settings) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     std::vector<glm::dvec2> places;
     for (const glm::dvec2& share : shares) {
         const std::optional<glm::dvec2> place =
-            lights_table(pinhole, settings.projector.table_from_projector,
-                         share * glm::dvec2(pinhole.width, pinhole.height));
+            geometry::lights_table(pinhole, settings.projector.table_from_projector,
+                                   share * glm::dvec2(pinhole.width, pinhole.height));
         if (place && std::abs(place->x) <= 0.5 * settings.table.width_m - rim_m &&
             std::abs(place->y) <= 0.5 * settings.table.depth_m - rim_m) {
             places.push_back(*place);
@@ -40,4 +40,4 @@ std::vector<glm::dvec2> mark_places(const Settings& settings) {
     return places;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -11,9 +11,9 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 /// At most max_marks; places outside the table are skipped.
-[[nodiscard]] std::vector<glm::dvec2> mark_places(const Settings& settings);
+[[nodiscard]] std::vector<glm::dvec2> mark_places(const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

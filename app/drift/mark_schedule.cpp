@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 std::optional<MarkTimes::Moment> MarkTimes::moment(Nanoseconds since_begin, std::size_t marks) {
     if (since_begin < lead) { // no mark was lit before
@@ -56,4 +56,4 @@ std::optional<MarkSchedule::Mark> MarkSchedule::step(MonotonicTime now, bool qui
                : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 /// Times within a set, from its start.
 struct MarkTimes {
@@ -61,4 +61,4 @@ private:
     std::optional<MonotonicTime> next_; ///< earliest start of the next set
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -2,12 +2,14 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 SentenceEnvironment environment_of(const ExhibitPlace& place, const Stand& stand, const glm::dvec3& eye_m,
                                    int quarter_turns) {
-    return {stand_hides(place.prop, stand, place.lens_m), stand_hides(place.prop, stand, eye_m),
-            glm::dvec2(stand.table_from_prop.translation), quarter_turns};
+    return {.around = stand_hides(place.prop, stand, place.lens_m),
+            .hidden = stand_hides(place.prop, stand, eye_m),
+            .prop_m = glm::dvec2(stand.table_from_prop.translation),
+            .quarter_turns = quarter_turns};
 }
 
 void AdvicePresenter::set_words(std::vector<AdviceLanguage> words, std::span<const glm::dvec2> picture_m) {
@@ -34,7 +36,7 @@ AdvicePresenter::Output AdvicePresenter::step(MonotonicTime now, const Input& in
         sign_ =
             place_sign(*input.guidance, now, *environment.around, input.place.picture_m, input.quarter_turns);
         if (sign_) {
-            environment.around = hull_of(*environment.around, sign_->corners_m);
+            environment.around = typography::hull_of(*environment.around, sign_->corners_m);
         }
     }
     Output output;
@@ -48,9 +50,9 @@ void AdvicePresenter::speak(MonotonicTime now, const Input& input, Output& outpu
         spoken_.reset();
         output.falls_silent = true;
     }
-    const Guidance* const guidance = input.guidance;
-    speech_due_ =
-        guidance != nullptr && (guidance->speak || (speech_due_ && guidance->stage == GuidanceStage::Voice));
+    const guidance::Guidance* const guidance = input.guidance;
+    speech_due_ = guidance != nullptr &&
+                  (guidance->speak || (speech_due_ && guidance->stage == guidance::GuidanceStage::Voice));
     if (speech_due_ && input.word && input.note.voice && sentences_.shows(now, *input.word)) {
         output.says = input.word;
         spoken_ = input.word;
@@ -58,4 +60,4 @@ void AdvicePresenter::speak(MonotonicTime now, const Input& input, Output& outpu
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

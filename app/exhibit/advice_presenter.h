@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// The surroundings of a text that stands beside the artifact's place. `quarter_turns`: the reader's side.
 [[nodiscard]] SentenceEnvironment environment_of(const ExhibitPlace& place, const Stand& stand,
@@ -32,7 +32,9 @@ public:
     /// Replaces the words; nothing is said any more.
     void set_words(std::vector<AdviceLanguage> words, std::span<const glm::dvec2> picture_m);
     /// Sets the other rectangles on the table.
-    void set_obstacles(std::span<const TableRectangle> obstacles) { sentences_.set_obstacles(obstacles); }
+    void set_obstacles(std::span<const typography::TableRectangle> obstacles) {
+        sentences_.set_obstacles(obstacles);
+    }
     /// `speaking`: something is being spoken.
     void hear(bool speaking);
     [[nodiscard]] bool speaking() const { return speaking_; }
@@ -45,8 +47,8 @@ public:
 
     struct Input {
         const StateNote& note;
-        const Guidance* guidance = nullptr; ///< null: no advice
-        std::optional<WordIndex> word;      ///< the sentence to show
+        const guidance::Guidance* guidance = nullptr; ///< null: no advice
+        std::optional<WordIndex> word;                ///< the sentence to show
         const ExhibitPlace& place;
         const Stand& stand;
         glm::dvec3 eye_m{0.0};
@@ -69,4 +71,4 @@ private:
     std::optional<WordIndex> spoken_; ///< the sentence that may still be heard
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -177,19 +177,20 @@ void glide_inside(std::span<const glm::dvec2> room, const glm::dvec2& ahead, dou
     pose.origin_m += ahead * (glide_m * phase);
 }
 
-bool clear_of(const TablePolygon& shadow, const std::array<glm::dvec2, 4>& corners) {
+bool clear_of(const typography::TablePolygon& shadow, const std::array<glm::dvec2, 4>& corners) {
     std::array<glm::dvec2, 4> ordered = corners;
     const glm::dvec2 a = corners[1] - corners[0];
     const glm::dvec2 b = corners[2] - corners[1];
     if (a.x * b.y - a.y * b.x < 0.0) {
         std::reverse(ordered.begin(), ordered.end());
     }
-    return clearance(ordered, shadow.corners()) > 0.0;
+    return typography::clearance(ordered, shadow.corners()) > 0.0;
 }
 
 /// The place of an arrow: in front of the prop, or farther along the way if there is room; otherwise beside the prop.
 std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ahead, double phase,
-                                    const TablePolygon& shadow, std::span<const glm::dvec2> room) {
+                                    const typography::TablePolygon& shadow,
+                                    std::span<const glm::dvec2> room) {
     const glm::dvec2 aside(-ahead.y, ahead.x);
     const double angle = std::atan2(ahead.y, ahead.x);
     const double half = 0.5 * arrow_size_m.x;
@@ -220,7 +221,7 @@ bool inside(std::span<const glm::dvec2> room, const std::array<glm::dvec2, 4>& c
 
 /// The place of an arc around the shadow, on the reader's side if there is room.
 std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise, double phase,
-                                  const TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                  const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
                                   double readers_angle) {
     double radius = 0.0;
     for (const glm::dvec2& corner : shadow.corners()) {
@@ -228,7 +229,8 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
     }
     const double scale = (radius + gap_m) / (arc_radius_m * std::cos(arc_half_angle) - 1.6 * arc_head_m);
     for (const double side : {0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, pi}) {
-        SignPose pose{prop, readers_angle + side, scale, !counter_clockwise};
+        SignPose pose{
+            .origin_m = prop, .angle = readers_angle + side, .scale = scale, .mirrored = !counter_clockwise};
         pose.angle += (counter_clockwise ? swing_rad : -swing_rad) * (phase - 0.5);
         const auto corners = corners_of(Sign::Turn, pose);
         if (inside(room, corners) && clear_of(shadow, corners)) {
@@ -240,7 +242,7 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
 
 /// The place of an icon: beside the prop; with a way, where the prop should stand.
 std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm::dvec2& way,
-                                   const TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                   const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
                                    double readers_angle) {
     if (way != glm::dvec2(0.0)) {
         SignPose pose{prop + way, readers_angle};
@@ -261,16 +263,16 @@ std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm:
     return std::nullopt;
 }
 
-Sign sign_of(Action action) {
+Sign sign_of(guidance::Action action) {
     switch (action) {
-    case Action::Turn:
+    case guidance::Action::Turn:
         return Sign::Turn;
-    case Action::Upright:
+    case guidance::Action::Upright:
         return Sign::Stand;
-    case Action::SetDown:
-    case Action::Lower:
+    case guidance::Action::SetDown:
+    case guidance::Action::Lower:
         return Sign::Lower;
-    case Action::Raise:
+    case guidance::Action::Raise:
         return Sign::Raise;
     default:
         return Sign::Arrow;
@@ -278,7 +280,7 @@ Sign sign_of(Action action) {
 }
 
 /// The direction in which a visitor walks along the table's edge to the requested side, the shorter way.
-glm::dvec2 way_round(const Guidance& guidance) {
+glm::dvec2 way_round(const guidance::Guidance& guidance) {
     const glm::dvec2 eye(guidance.tracked_state.eye_m);
     const double there = 0.5 * pi * (static_cast<double>(guidance.move.side) - 1.0);
     const glm::dvec2 counter_clockwise = glm::normalize(glm::dvec2(-eye.y, eye.x));
@@ -288,11 +290,11 @@ glm::dvec2 way_round(const Guidance& guidance) {
 
 } // namespace
 
-Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m) {
+image::Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m) {
     const SignBox box = box_of(sign);
     const glm::dvec2 size = (box.high - box.low) * texels_per_m;
-    Image<std::uint8_t> picture(std::max(1, static_cast<int>(std::lround(size.x))),
-                                std::max(1, static_cast<int>(std::lround(size.y))));
+    image::Image<std::uint8_t> picture(std::max(1, static_cast<int>(std::lround(size.x))),
+                                       std::max(1, static_cast<int>(std::lround(size.y))));
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const glm::dvec2 share((x + 0.5) / picture.width, 1.0 - (y + 0.5) / picture.height);
@@ -305,10 +307,12 @@ Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m) {
     return picture;
 }
 
-std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now, const TablePolygon& shadow,
-                                     std::span<const glm::dvec2> room, int quarter_turns) {
-    const Move& move = guidance.move;
-    if (guidance.stage == GuidanceStage::Quiet || move.action == Action::Wait || room.empty()) {
+std::optional<PlacedSign> place_sign(const guidance::Guidance& guidance, MonotonicTime now,
+                                     const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                     int quarter_turns) {
+    const guidance::Move& move = guidance.move;
+    if (guidance.stage == guidance::GuidanceStage::Quiet || move.action == guidance::Action::Wait ||
+        room.empty()) {
         return std::nullopt;
     }
     const double since_s = to_seconds(now - guidance.since);
@@ -317,7 +321,7 @@ std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now
     const glm::dvec2 prop(guidance.tracked_state.table_from_prop.translation);
     const double readers_angle = 0.5 * pi * quarter_turns;
     std::optional<SignPose> pose;
-    if (move.action == Action::ComeRound) {
+    if (move.action == guidance::Action::ComeRound) {
         const glm::dvec2 ahead = way_round(guidance);
         pose = SignPose{glm::dvec2(guidance.tracked_state.eye_m), std::atan2(ahead.y, ahead.x)};
         glide_inside(room, ahead, phase, *pose);
@@ -334,7 +338,7 @@ std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now
     if (!pose) {
         return std::nullopt;
     }
-    return PlacedSign{sign, corners_of(sign, *pose), ease(ramp(since_s, fade_s))};
+    return PlacedSign{sign, corners_of(sign, *pose), geometry::ease(geometry::ramp(since_s, fade_s))};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

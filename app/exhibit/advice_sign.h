@@ -17,14 +17,14 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 enum class Sign : std::uint8_t { Arrow, Turn, Stand, Raise, Lower };
 inline constexpr std::size_t sign_count = 5;
 
 /// Draws a sign. Arrow: points to the right. Turn: an arc below its centre, whose head is at its right end:
 /// counter-clockwise.
-[[nodiscard]] Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m);
+[[nodiscard]] image::Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m);
 
 struct PlacedSign {
     Sign sign = Sign::Arrow;
@@ -36,8 +36,8 @@ struct PlacedSign {
 
 /// `shadow`: hidden_by_prop from the lens. `room`: the part of the table that the projector's picture covers, convex,
 /// counter-clockwise. `quarter_turns`: the reader's side.
-[[nodiscard]] std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now,
-                                                   const TablePolygon& shadow,
+[[nodiscard]] std::optional<PlacedSign> place_sign(const guidance::Guidance& guidance, MonotonicTime now,
+                                                   const typography::TablePolygon& shadow,
                                                    std::span<const glm::dvec2> room, int quarter_turns);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

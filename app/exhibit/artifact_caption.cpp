@@ -1,6 +1,6 @@
 #include "app/exhibit/artifact_caption.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 std::optional<PresentedCaption> ArtifactCaption::step(MonotonicTime now, const Input& input) {
     const CatalogueEntry& entry = input.entry;
@@ -14,12 +14,16 @@ std::optional<PresentedCaption> ArtifactCaption::step(MonotonicTime now, const I
     const SentenceEnvironment& environment = input.environment;
     placer_.update(now, environment.around, environment.hidden, environment.prop_m,
                    environment.quarter_turns);
-    const CaptionPlace place = placer_.at(now);
+    const typography::CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * input.light * text.brightness;
     if (brightness <= 0.0) {
         return std::nullopt;
     }
-    PresentedCaption caption{input.language, place.shape, place.rectangle, brightness, text.portion};
+    PresentedCaption caption{.language = input.language,
+                             .shape = place.shape,
+                             .rectangle = place.rectangle,
+                             .brightness = brightness,
+                             .portion = text.portion};
     if (text.portion) {
         const DescriptionShape& description = entry.descriptions[input.language];
         caption.rectangle = portion_place(place.rectangle, description.sizes_m[*text.portion][place.shape],
@@ -28,4 +32,4 @@ std::optional<PresentedCaption> ArtifactCaption::step(MonotonicTime now, const I
     return caption;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

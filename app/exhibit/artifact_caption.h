@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class ArtifactCaption {
 public:
@@ -31,13 +31,15 @@ public:
     };
     [[nodiscard]] std::optional<PresentedCaption> step(MonotonicTime now, const Input& input);
     /// Sets the other rectangles on the table.
-    void set_obstacles(std::span<const TableRectangle> obstacles) { placer_.set_obstacles(obstacles); }
+    void set_obstacles(std::span<const typography::TableRectangle> obstacles) {
+        placer_.set_obstacles(obstacles);
+    }
     /// 0: the caption has no place. 0..1
     [[nodiscard]] double opacity(MonotonicTime now) const { return placer_.at(now).opacity; }
 
 private:
-    CaptionPlacer placer_;
+    typography::CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has been given
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

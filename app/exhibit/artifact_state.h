@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 enum class ArtifactState : std::uint8_t {
     Ready,
@@ -13,4 +13,4 @@ enum class ArtifactState : std::uint8_t {
     LeftOut, ///< cannot be shown, is not offered
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -18,7 +18,8 @@ bool Attract::lost() const {
     return fade_.goal() == Turning;
 }
 
-Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTransform& table_from_prop) {
+Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age,
+                  const geometry::RigidTransform& table_from_prop) {
     const bool never = !known && age == Nanoseconds::zero();
     if (known && fade_.goal() == Turning) {
         fade_.turn_to(Prop, now);
@@ -30,29 +31,38 @@ Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age, const RigidTra
     }
     const Faded faded = fade_.at(now);
     if (faded.which == Prop) {
-        return {table_from_prop, faded.brightness, faded.changing, false};
+        return {.table_from_prop = table_from_prop,
+                .brightness = faded.brightness,
+                .changing = faded.changing,
+                .attracts = false};
     }
     const double turns = to_seconds(now - turns_since_) / to_seconds(turn);
     const glm::dquat rotation =
         glm::angleAxis(2.0 * std::numbers::pi * (turns - std::floor(turns)), glm::dvec3(0.0, 0.0, 1.0));
-    return {{rotation, glm::dvec3(place_m_, 0.0)}, faded.brightness, faded.changing, true};
+    return {.table_from_prop = {rotation, glm::dvec3(place_m_, 0.0)},
+            .brightness = faded.brightness,
+            .changing = faded.changing,
+            .attracts = true};
 }
 
-std::optional<TablePolygon> stand_hides(const PropShape& prop, const Stand& stand, const glm::dvec3& from_m) {
-    std::optional<TablePolygon> hidden = hidden_by_prop(prop, stand.table_from_prop, from_m);
+std::optional<typography::TablePolygon> stand_hides(const geometry::PropShape& prop, const Stand& stand,
+                                                    const glm::dvec3& from_m) {
+    std::optional<typography::TablePolygon> hidden =
+        typography::hidden_by_prop(prop, stand.table_from_prop, from_m);
     if (!hidden || !stand.attracts) {
         return hidden;
     }
     constexpr double eighth = 0.25 * std::numbers::pi;
-    TablePolygon all;
+    typography::TablePolygon all;
     for (const double yaw : {0.0, eighth}) {
-        const RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
-                                  stand.table_from_prop.translation};
-        if (const std::optional<TablePolygon> one = hidden_by_prop(prop, pose, from_m)) {
-            all = hull_of(all, one->corners());
+        const geometry::RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
+                                            stand.table_from_prop.translation};
+        if (const std::optional<typography::TablePolygon> one =
+                typography::hidden_by_prop(prop, pose, from_m)) {
+            all = typography::hull_of(all, one->corners());
         }
     }
     return all;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -14,13 +14,13 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct Stand {
-    RigidTransform table_from_prop; ///< the pose to draw for
-    double brightness = 1.0;        ///< 0..1, a factor on linear light
-    bool changing = false;          ///< brightness changes
-    bool attracts = false;          ///< the pose drawn for is not the prop's own
+    geometry::RigidTransform table_from_prop; ///< the pose to draw for
+    double brightness = 1.0;                  ///< 0..1, a factor on linear light
+    bool changing = false;                    ///< brightness changes
+    bool attracts = false;                    ///< the pose drawn for is not the prop's own
 };
 
 class Attract {
@@ -34,7 +34,7 @@ public:
 
     /// `known`: the prop's pose is good. Otherwise `age` is that of the last good pose; 0 = there was none yet.
     [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
-                           const RigidTransform& table_from_prop);
+                           const geometry::RigidTransform& table_from_prop);
     /// True if, as of the latest `at`, the pose has been unknown for a while and the picture leaves it or has left
     /// it.
     [[nodiscard]] bool lost() const;
@@ -47,7 +47,7 @@ private:
 
 /// The area that the artifact's place hides from a point. An artifact that turns at the idle place hides the same
 /// area at any angle, so that nothing beside it moves.
-[[nodiscard]] std::optional<TablePolygon> stand_hides(const PropShape& prop, const Stand& stand,
-                                                      const glm::dvec3& from_m);
+[[nodiscard]] std::optional<typography::TablePolygon>
+stand_hides(const geometry::PropShape& prop, const Stand& stand, const glm::dvec3& from_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -2,7 +2,7 @@
 
 #include "app/exhibit/languages.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 std::vector<std::string> languages_of(const Catalogue& catalogue) {
     std::vector<std::string> languages;
@@ -56,4 +56,4 @@ std::optional<TableBrowser> lay_out_catalogue(const Catalogue& catalogue, const 
                          .captions_m = sizes_of_all_captions(catalogue)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

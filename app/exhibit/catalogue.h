@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// An artifact that can be shown.
 struct CatalogueEntry {
@@ -41,17 +41,18 @@ using Catalogue = std::vector<CatalogueEntry>;
 
 /// The exhibit's place: prop, projector and table.
 struct ExhibitPlace {
-    PropShape prop;
+    geometry::PropShape prop;
     glm::dvec3 lens_m{0.0};            ///< the projector's
     std::vector<glm::dvec2> picture_m; ///< the part of the table that the projector's picture covers, convex
     ZoneFrame zone;                    ///< none by default
     glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while the prop's pose is unknown
-    std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
-    std::optional<GuidanceSetup> guidance;        ///< none: no guidance
-    std::vector<AdviceLanguage> words;            ///< empty: guidance has no words
-    bool staff_stays = false;                     ///< there is no calibration: as StaffTool
-    bool table_pictures = false;                  ///< the set's artifacts lie on the table to choose from
-    Nanoseconds rest = std::chrono::seconds(60);  ///< time without a visitor before State::Attract
+    std::size_t buttons =
+        settings::button_commands.size();            ///< of the panel; the chord is the first and the last
+    std::optional<guidance::GuidanceSetup> guidance; ///< none: no guidance
+    std::vector<AdviceLanguage> words;               ///< empty: guidance has no words
+    bool staff_stays = false;                        ///< there is no calibration: as StaffTool
+    bool table_pictures = false;                     ///< the set's artifacts lie on the table to choose from
+    Nanoseconds rest = std::chrono::seconds(60);     ///< time without a visitor before State::Attract
 };
 
 /// The pictures on the table to choose from; nothing if the place has none. Takes some tens of milliseconds.
@@ -61,4 +62,4 @@ struct ExhibitPlace {
 /// The languages in the order of their first appearance; the button goes through them in this order.
 [[nodiscard]] std::vector<std::string> languages_of(const Catalogue& catalogue);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

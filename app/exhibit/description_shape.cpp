@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 std::vector<glm::dvec2> largest_sizes(const std::vector<std::vector<glm::dvec2>>& sizes_m) {
     std::vector<glm::dvec2> largest;
@@ -17,10 +17,11 @@ std::vector<glm::dvec2> largest_sizes(const std::vector<std::vector<glm::dvec2>>
     return largest;
 }
 
-TableRectangle portion_place(const TableRectangle& whole, const glm::dvec2& size_m, bool flush_right) {
+typography::TableRectangle portion_place(const typography::TableRectangle& whole, const glm::dvec2& size_m,
+                                         bool flush_right) {
     const glm::dvec2 slack = 0.5 * (whole.size_m - size_m);
     const glm::dvec2 off(flush_right ? slack.x : -slack.x, slack.y);
-    return {whole.centre_m + turned(off, whole.quarter_turns), size_m, whole.quarter_turns};
+    return {whole.centre_m + typography::turned(off, whole.quarter_turns), size_m, whole.quarter_turns};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

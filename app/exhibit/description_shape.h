@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// The sizes of a description's portions.
 struct DescriptionShape {
@@ -24,7 +24,7 @@ struct DescriptionShape {
 [[nodiscard]] std::vector<glm::dvec2> largest_sizes(const std::vector<std::vector<glm::dvec2>>& sizes_m);
 
 /// The portion's place at the top of `whole`, where the reader begins.
-[[nodiscard]] TableRectangle portion_place(const TableRectangle& whole, const glm::dvec2& size_m,
-                                           bool flush_right);
+[[nodiscard]] typography::TableRectangle portion_place(const typography::TableRectangle& whole,
+                                                       const glm::dvec2& size_m, bool flush_right);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -6,18 +6,19 @@
 #include <algorithm>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
 constexpr double lifted_m = 0.02;
 
-bool holds(const TableRectangle& rectangle, const glm::dvec2& at_m, double margin_m) {
-    const glm::dvec2 off = glm::abs(turned(at_m - rectangle.centre_m, -rectangle.quarter_turns));
+bool holds(const typography::TableRectangle& rectangle, const glm::dvec2& at_m, double margin_m) {
+    const glm::dvec2 off = glm::abs(typography::turned(at_m - rectangle.centre_m, -rectangle.quarter_turns));
     return glm::all(glm::lessThanEqual(off, 0.5 * rectangle.size_m + margin_m));
 }
 
-std::optional<std::size_t> find(std::span<const TableRectangle> pictures, const glm::dvec2& at_m) {
+std::optional<std::size_t> find(std::span<const typography::TableRectangle> pictures,
+                                const glm::dvec2& at_m) {
     for (std::size_t k = 0; k < pictures.size(); ++k) {
         if (holds(pictures[k], at_m, 0.0)) {
             return k;
@@ -28,7 +29,8 @@ std::optional<std::size_t> find(std::span<const TableRectangle> pictures, const 
 
 } // namespace
 
-std::optional<glm::dvec2> standing_place(const PropShape& prop, const RigidTransform& table_from_prop) {
+std::optional<glm::dvec2> standing_place(const geometry::PropShape& prop,
+                                         const geometry::RigidTransform& table_from_prop) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : prop.corners) {
         lowest = std::min(lowest, table_from_prop.point(corner).z);
@@ -37,7 +39,7 @@ std::optional<glm::dvec2> standing_place(const PropShape& prop, const RigidTrans
 }
 
 DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
-                         std::span<const TableRectangle> pictures, bool at_once) {
+                         std::span<const typography::TableRectangle> pictures, bool at_once) {
     const bool followed = at_m && last_ && now - *last_ < longest_gap;
     // On a picture's edge a trembling hand alternates between on and off the picture.
     const bool rests = followed && rest_ && rest_->place < pictures.size() &&
@@ -56,7 +58,7 @@ DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_
     }
     if (!rest_ && !chosen_) {
         if (const std::optional<std::size_t> place = find(pictures, *at_m)) {
-            rest_ = Rest{*place, now, *at_m};
+            rest_ = Rest{.place = *place, .since = now, .anchor_m = *at_m};
         }
     }
     if (rest_ && !rest_->settled && now - rest_->since >= settles) {
@@ -73,7 +75,7 @@ DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_
     return state;
 }
 
-void Dwell::pictures_changed(std::span<const TableRectangle> pictures) {
+void Dwell::pictures_changed(std::span<const typography::TableRectangle> pictures) {
     rest_.reset();
     left_.reset();
     chosen_.reset();
@@ -83,7 +85,7 @@ void Dwell::pictures_changed(std::span<const TableRectangle> pictures) {
 }
 
 double Dwell::Rest::full(MonotonicTime now) const {
-    return settled ? ramp(to_seconds(now - since - settles), to_seconds(fills)) : 0.0;
+    return settled ? geometry::ramp(to_seconds(now - since - settles), to_seconds(fills)) : 0.0;
 }
 
 /// Empties a filling ring from its current share.
@@ -102,4 +104,4 @@ DwellState Dwell::ring(MonotonicTime now) const {
     return full > 0.0 ? DwellState{left_->place, full, std::nullopt} : DwellState{};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

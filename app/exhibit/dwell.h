@@ -23,11 +23,11 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// The place of the prop's middle while the prop stands or lies on the table; nothing while it is lifted.
-[[nodiscard]] std::optional<glm::dvec2> standing_place(const PropShape& prop,
-                                                       const RigidTransform& table_from_prop);
+[[nodiscard]] std::optional<glm::dvec2> standing_place(const geometry::PropShape& prop,
+                                                       const geometry::RigidTransform& table_from_prop);
 
 struct DwellState {
     std::optional<std::size_t> place;  ///< the picture with the ring
@@ -50,12 +50,13 @@ public:
     /// `at_m`: standing_place; nothing while the prop's pose is unknown. `pictures` do not overlap. `at_once`: a ring
     /// that has begun counts as full.
     [[nodiscard]] DwellState update(MonotonicTime now, const std::optional<glm::dvec2>& at_m,
-                                    std::span<const TableRectangle> pictures, bool at_once = false);
+                                    std::span<const typography::TableRectangle> pictures,
+                                    bool at_once = false);
     /// True if the prop is still on the picture chosen last.
     [[nodiscard]] bool is_on_chosen() const { return chosen_.has_value(); }
     /// Call when the pictures on the table have changed: the one under the prop is not chosen until the prop has left
     /// it.
-    void pictures_changed(std::span<const TableRectangle> pictures);
+    void pictures_changed(std::span<const typography::TableRectangle> pictures);
 
 private:
     void stop(MonotonicTime now);
@@ -77,8 +78,8 @@ private:
     std::optional<MonotonicTime> last_; ///< when the prop was last seen on the table
     glm::dvec2 last_m_{0.0};            ///< and where
     std::optional<Rest> rest_;
-    std::optional<Left> left_;             ///< the ring that empties
-    std::optional<TableRectangle> chosen_; ///< until the prop has left it
+    std::optional<Left> left_;                         ///< the ring that empties
+    std::optional<typography::TableRectangle> chosen_; ///< until the prop has left it
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

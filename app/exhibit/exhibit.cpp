@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
@@ -13,10 +13,10 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       caption_(place.picture_m), labels_(place.picture_m), guide_(place.guidance),
       advice_(place.words, place.picture_m) {}
 
-Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
-                           const TrackedState& tracked_state) {
-    const bool pressed =
-        std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
+Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
+                           const tracking::TrackedState& tracked_state) {
+    const bool pressed = std::any_of(commands.begin(), commands.end(),
+                                     [](settings::Command command) { return !settings::is_hold(command); });
     // A visitor who is being told something is present, even without moving.
     presence_.update(now, tracked_state, pressed || tells());
     const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
@@ -25,7 +25,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     }
     go_to(next(state_, rests ? Event::Rest : Event::VisitorComes));
     offer_what_can_be_shown(now);
-    for (const Command command : commands) {
+    for (const settings::Command command : commands) {
         take(command, now);
     }
     staff_.step(now);
@@ -53,14 +53,14 @@ void Exhibit::offer_what_can_be_shown(MonotonicTime now) {
     }
 }
 
-void Exhibit::take(Command command, MonotonicTime now) {
-    if (command == Command::StaffMode) {
+void Exhibit::take(settings::Command command, MonotonicTime now) {
+    if (command == settings::Command::StaffMode) {
         take_chord(now);
         return;
     }
-    if (is_hold(command)) {
+    if (settings::is_hold(command)) {
         if (state_ == State::Staff) {
-            staff_.hold(command == Command::HoldFirst, now);
+            staff_.hold(command == settings::Command::HoldFirst, now);
         }
         return;
     }
@@ -69,7 +69,7 @@ void Exhibit::take(Command command, MonotonicTime now) {
     if (counts) {
         selection_.take(command, now);
     } else {
-        staff_.press(static_cast<std::size_t>(button_of(command)), now);
+        staff_.press(static_cast<std::size_t>(settings::button_of(command)), now);
     }
     go_to(next(state_, Event::Press));
 }
@@ -79,7 +79,7 @@ void Exhibit::take(Command command, MonotonicTime now) {
 void Exhibit::take_chord(MonotonicTime now) {
     for (const std::size_t button : {std::size_t{0}, place_.buttons - 1}) {
         if (presses_.undo(button)) {
-            selection_.undo(button_commands[button], now);
+            selection_.undo(settings::button_commands[button], now);
         }
     }
     if (state_ == State::Staff) {
@@ -102,7 +102,8 @@ void Exhibit::rest(MonotonicTime now) {
     next_turn_ = now + turn_time;
 }
 
-Observed Exhibit::observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand) {
+Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                          const Stand& stand) {
     Observed seen;
     seen.nothing_to_show = !catalogue_.offers_something();
     seen.tracker_lost = attract_->lost();
@@ -114,16 +115,19 @@ Observed Exhibit::observe(MonotonicTime now, const TrackedState& tracked_state, 
 }
 
 /// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
-void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
+void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
                          Observed& seen) {
     if (!table_) {
         return;
     }
-    TableBrowser::Input input{
-        selection_.artifact(), side_.quarter_turns(), stand_hides(place_.prop, stand, place_.lens_m),
-        std::nullopt,          presses_.choose(),     std::nullopt};
+    TableBrowser::Input input{.artifact = selection_.artifact(),
+                              .quarter_turns = side_.quarter_turns(),
+                              .shadow = stand_hides(place_.prop, stand, place_.lens_m),
+                              .prop_m = std::nullopt,
+                              .choose = presses_.choose(),
+                              .sign = std::nullopt};
     if (advice_.sign()) {
-        input.sign = hull_of({}, advice_.sign()->corners_m);
+        input.sign = typography::hull_of({}, advice_.sign()->corners_m);
     }
     if (tracked_state.prop_known && state_ != State::Staff) {
         input.prop_m = standing_place(place_.prop, tracked_state.table_from_prop);
@@ -142,7 +146,7 @@ void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, c
 }
 
 /// A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
-void Exhibit::step_guide(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand) {
+void Exhibit::step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand) {
     const bool help = presses_.help();
     const bool narrates = state_ == State::Browse || state_ == State::Describe;
     guide_.step(now, {.tracked_state = tracked_state,
@@ -165,4 +169,4 @@ void Exhibit::hear(bool speaking, const SpeechProgress& narration) {
     narrator_.hear(narration);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

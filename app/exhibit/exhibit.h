@@ -49,7 +49,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class Exhibit {
 public:
@@ -62,12 +62,12 @@ public:
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
 
     /// `commands`: those since the previous step, in order.
-    [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
-                                    const TrackedState& tracked_state);
+    [[nodiscard]] Presentation step(MonotonicTime now, std::span<const settings::Command> commands,
+                                    const tracking::TrackedState& tracked_state);
     /// Sets the state of each artifact; before the first call all are ready. An empty list changes nothing.
     void note(std::span<const ArtifactState> states) { catalogue_.note(states); }
     /// The press did something else that the exhibit does not know of: no chord undoes it.
-    void forget_press(Command command) { presses_.forget(command); }
+    void forget_press(settings::Command command) { presses_.forget(command); }
     /// Sets the triangles that hide the hotspots of the artifact on show, which need not be loaded; those of other
     /// artifacts are dropped.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
@@ -104,15 +104,17 @@ public:
 
 private:
     // From commands and situation to the state: exhibit.cpp.
-    void take(Command command, MonotonicTime now);
+    void take(settings::Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
     void offer_what_can_be_shown(MonotonicTime now);
     void go_to(State state);
     /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
-    [[nodiscard]] Observed observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand);
-    void step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand, Observed& seen);
-    void step_guide(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand);
+    [[nodiscard]] Observed observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                                   const Stand& stand);
+    void step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
+                    Observed& seen);
+    void step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand);
     /// True while something of the artifact is being told.
     [[nodiscard]] bool tells() const;
 
@@ -125,20 +127,21 @@ private:
     // From the state to the presentation: exhibit_shows.cpp.
     /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.all().empty() && state_ != State::Fault; }
-    [[nodiscard]] Presentation present(MonotonicTime now, const TrackedState& tracked_state,
+    [[nodiscard]] Presentation present(MonotonicTime now, const tracking::TrackedState& tracked_state,
                                        const Stand& stand, bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;
     [[nodiscard]] Placeholder::Output placeholder(MonotonicTime now, const Shown& shown, const Stand& stand);
-    [[nodiscard]] std::optional<PresentedCaption>
-    caption(MonotonicTime now, const Shown& shown, const TrackedState& tracked_state, const Stand& stand);
+    [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
+                                                          const tracking::TrackedState& tracked_state,
+                                                          const Stand& stand);
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
-                                                        const TrackedState& tracked_state, const Stand& stand,
-                                                        const Presentation& presentation);
+                                                        const tracking::TrackedState& tracked_state,
+                                                        const Stand& stand, const Presentation& presentation);
     [[nodiscard]] std::optional<WordIndex> word() const;
-    void advise(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
+    void advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
                 Presentation& presentation);
-    void tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown, const Stand& stand,
-              bool pressed, Presentation& presentation);
+    void tell(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+              const Stand& stand, bool pressed, Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
     // What there is to show.
@@ -152,7 +155,7 @@ private:
     Presses presses_;
     Selection selection_;
     Presence presence_;
-    VisitorSide side_;               ///< the texts on the table are turned to this side
+    typography::VisitorSide side_;   ///< the texts on the table are turned to this side
     std::optional<Attract> attract_; ///< from the first step on
     StaffTool staff_;
 
@@ -170,4 +173,4 @@ private:
     AdvicePresenter advice_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

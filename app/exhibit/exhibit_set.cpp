@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 Selection Exhibit::make_selection(const Catalogue& catalogue, const std::string& language,
                                   MonotonicTime now) {
@@ -72,4 +72,4 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     return before;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
-Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
-                              bool pressed) {
+Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                              const Stand& stand, bool pressed) {
     const Shown shown = selection_.at(now);
     Presentation presentation;
     presentation.state = state_;
@@ -74,7 +74,8 @@ WantedArtifacts Exhibit::wanted() const {
 namespace {
 
 /// The area of a standing artifact in the prop: as large as the prop is high, on the reader's half.
-TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_prop, int quarter_turns) {
+typography::TableRectangle place_in(const geometry::PropShape& prop,
+                                    const geometry::RigidTransform& table_from_prop, int quarter_turns) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-low);
     for (const glm::dvec3& corner : prop.corners) {
@@ -82,7 +83,7 @@ TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_
         high = glm::max(high, corner);
     }
     const glm::dvec2 to_reader(0.0, -0.2 * (high.x - low.x));
-    return {glm::dvec2(table_from_prop.translation) + turned(to_reader, quarter_turns),
+    return {glm::dvec2(table_from_prop.translation) + typography::turned(to_reader, quarter_turns),
             glm::dvec2(high.z - low.z), quarter_turns};
 }
 
@@ -93,12 +94,12 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
         return {0.0, std::nullopt, false};
     }
     const std::size_t chosen = selection_.artifact();
-    Placeholder::Input input{shown,
-                             chosen,
-                             catalogue_.ready(shown.artifact),
-                             catalogue_.ready(chosen),
-                             std::nullopt,
-                             place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
+    Placeholder::Input input{.shown = shown,
+                             .chosen = chosen,
+                             .shown_ready = catalogue_.ready(shown.artifact),
+                             .chosen_ready = catalogue_.ready(chosen),
+                             .from = std::nullopt,
+                             .to = place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
     if (table_) {
         for (const PlacedPicture& picture : table_->presented().pictures()) {
             if (picture.artifact == chosen) {
@@ -117,7 +118,8 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
-                                                 const TrackedState& tracked_state, const Stand& stand) {
+                                                 const tracking::TrackedState& tracked_state,
+                                                 const Stand& stand) {
     const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
@@ -133,15 +135,16 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
 /// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
 /// priority.
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
-                                               const TrackedState& tracked_state, const Stand& stand,
-                                               const Presentation& presentation) {
+                                               const tracking::TrackedState& tracked_state,
+                                               const Stand& stand, const Presentation& presentation) {
     const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
     }
-    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
+    std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = 0;
-    for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
+    for (const typography::TableRectangle& place :
+         table_ ? table_->obstacles() : std::span<const typography::TableRectangle>()) {
         obstacles.at(count++) = place;
     }
     if (presentation.caption) {
@@ -149,15 +152,21 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     }
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     return labels_.step(
-        now, {&entry->hotspots, shown.artifact, stand.attracts ? std::nullopt : presentation.tells_of,
-              caption_for(shown.language, entry->languages),
-              shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
-              stand.table_from_prop, tracked_state.eye_m, place_.lens_m, std::span(obstacles).first(count),
-              presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
-              side_.quarter_turns()});
+        now, {.set = &entry->hotspots,
+              .artifact = shown.artifact,
+              .hotspot = stand.attracts ? std::nullopt : presentation.tells_of,
+              .language = caption_for(shown.language, entry->languages),
+              .brightness = shown.caption_brightness * stand.brightness * (1.0 - advised),
+              .prop = &place_.prop,
+              .table_from_prop = stand.table_from_prop,
+              .eye_m = tracked_state.eye_m,
+              .lens_m = place_.lens_m,
+              .obstacles = std::span(obstacles).first(count),
+              .caption = presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
+              .quarter_turns = side_.quarter_turns()});
 }
 
-void Exhibit::tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown,
+void Exhibit::tell(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                    const Stand& stand, bool pressed, Presentation& presentation) {
     NarratorInput input;
     input.subject = catalogue_.description(selection_.artifact(), selection_.language());
@@ -170,7 +179,7 @@ void Exhibit::tell(MonotonicTime now, const TrackedState& tracked_state, const S
     input.next = presses_.choose();
     input.help = presses_.help() && !guide_.answers();
     input.text_has_place = caption_.opacity(now) > 0.0;
-    input.stage = guide_.guidance() != nullptr ? guide_.guidance()->stage : GuidanceStage::Quiet;
+    input.stage = guide_.guidance() != nullptr ? guide_.guidance()->stage : guidance::GuidanceStage::Quiet;
     const Told& told = narrator_.step(now, tracked_state, input);
     presses_.end_choose();
     if (!guide_.answers()) {
@@ -192,15 +201,15 @@ std::optional<WordIndex> Exhibit::word() const {
         return std::nullopt; // another set has other texts
     }
     const std::string& language = selection_.language();
-    const Guidance* const guidance = guide_.guidance();
+    const guidance::Guidance* const guidance = guide_.guidance();
     switch (note_of(state_).words) {
     case Words::Invitation:
         return advice_.find("attract_line", language);
     case Words::Fault:
         return advice_.find("fault.no_artifact", language);
     case Words::Advice: // from the stage at which advice has words
-        return guidance != nullptr && guidance->stage >= GuidanceStage::Text
-                   ? advice_.find(words_key(*guidance), language)
+        return guidance != nullptr && guidance->stage >= guidance::GuidanceStage::Text
+                   ? advice_.find(guidance::words_key(*guidance), language)
                    : std::nullopt;
     case Words::NarrationSequencer:
     case Words::None:
@@ -209,9 +218,9 @@ std::optional<WordIndex> Exhibit::word() const {
     return std::nullopt;
 }
 
-void Exhibit::advise(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
+void Exhibit::advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
                      Presentation& presentation) {
-    const Guidance* const guidance = guide_.guidance();
+    const guidance::Guidance* const guidance = guide_.guidance();
     const AdvicePresenter::Output advice = advice_.step(now, {.note = note_of(state_),
                                                               .guidance = guidance,
                                                               .word = word(),
@@ -224,7 +233,7 @@ void Exhibit::advise(MonotonicTime now, const TrackedState& tracked_state, const
     presentation.says = advice.says;
     presentation.falls_silent = advice.falls_silent;
     if (guidance != nullptr && !leaves_set()) {
-        presentation.prepares_word = advice_.find(words_key(*guidance), selection_.language());
+        presentation.prepares_word = advice_.find(guidance::words_key(*guidance), selection_.language());
     }
 }
 
@@ -233,17 +242,17 @@ std::uint32_t Exhibit::lamps() const {
         return (1U << place_.buttons) - 1U; // each button and its lamp is tested
     }
     std::uint32_t lamps = 0;
-    for (std::size_t button = 0; button < button_commands.size(); ++button) {
-        lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;
+    for (std::size_t button = 0; button < settings::button_commands.size(); ++button) {
+        lamps |= selection_.accepts(settings::button_commands[button]) ? 1U << button : 0U;
     }
     const Tellable* const told =
         catalogue_.tellable(catalogue_.description(selection_.artifact(), selection_.language()));
     const bool rests_on_picture = table_ && table_->presented().ring;
     const bool helps = guide_.guidance() != nullptr || (told != nullptr && !told->portions.empty());
     const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
-    lamps |= tells || rests_on_picture ? 1U << button_of(Command::Choose) : 0U;
-    lamps |= helps ? 1U << button_of(Command::Help) : 0U;
+    lamps |= tells || rests_on_picture ? 1U << settings::button_of(settings::Command::Choose) : 0U;
+    lamps |= helps ? 1U << settings::button_of(settings::Command::Help) : 0U;
     return lamps;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 void Fade::change_to(std::size_t which, MonotonicTime now, MonotonicTime begin) {
     if (now < out_ && which == from_) {
@@ -36,7 +36,7 @@ void Fade::turn_to(std::size_t which, MonotonicTime now) {
 
 Faded Fade::at(MonotonicTime now) const {
     const auto share = [&](MonotonicTime since) {
-        return ease(to_seconds(now - since) / to_seconds(each_way_));
+        return geometry::ease(to_seconds(now - since) / to_seconds(each_way_));
     };
     if (now < out_) {
         return {from_, share(in_), true};
@@ -47,4 +47,4 @@ Faded Fade::at(MonotonicTime now) const {
     return {to_, share(dark()), now < ends()};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

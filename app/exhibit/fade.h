@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct Faded {
     std::size_t which = 0;
@@ -48,4 +48,4 @@ private:
     MonotonicTime out_; ///< `from_` begins to fade out
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

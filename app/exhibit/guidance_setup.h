@@ -6,8 +6,8 @@
 #include "app/guidance/face_reader.h"
 #include "app/settings/settings.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
-[[nodiscard]] GuidanceSetup guidance_setup(const Settings& settings);
+[[nodiscard]] guidance::GuidanceSetup guidance_setup(const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -28,7 +28,7 @@ Occluder occluder_of(const HotspotSet& set) {
 double brightness_facing(const Hotspot& hotspot, const glm::dvec3& eye_m) {
     const glm::dvec3 to_eye = eye_m - hotspot.point_m;
     const double distance = glm::length(to_eye);
-    return distance > 0.0 ? ease(glm::dot(to_eye, hotspot.normal) / distance / facing) : 0.0;
+    return distance > 0.0 ? geometry::ease(glm::dot(to_eye, hotspot.normal) / distance / facing) : 0.0;
 }
 
 /// The point of the table's plane that the eye sees behind the hotspot; the hotspot's own place if the eye is too low.
@@ -42,12 +42,12 @@ glm::dvec2 seen_on_table(const glm::dvec3& point_m, const glm::dvec3& eye_m) {
 
 } // namespace
 
-std::uint32_t faces_lit_from(const PropShape& prop, const glm::dvec3& lens_in_prop_m) {
+std::uint32_t faces_lit_from(const geometry::PropShape& prop, const glm::dvec3& lens_in_prop_m) {
     std::uint32_t lit = 0;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
-        const PropFace& face = prop.faces[k];
+        const geometry::PropFace& face = prop.faces[k];
         const double distance = glm::distance(lens_in_prop_m, 0.5 * (face.corners[0] + face.corners[2]));
-        lit |= face.plane.distance(lens_in_prop_m) >= min_sine_of_light * distance ? 1U << k : 0U;
+        lit |= face.plane.distance(lens_in_prop_m) >= settings::min_sine_of_light * distance ? 1U << k : 0U;
     }
     return lit;
 }
@@ -72,18 +72,18 @@ void HotspotLabels::turn_to(const std::optional<Key>& key, const Input& input) {
 /// Excludes the area behind the caption, seen from the prop: no line leads past a caption, so a label has no place
 /// there.
 void HotspotLabels::keep_clear(const Input& input) {
-    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
+    std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = std::min(input.obstacles.size(), obstacles.size() - 1);
     std::copy_n(input.obstacles.begin(), count, obstacles.begin());
     if (input.caption) {
-        TableRectangle& behind = obstacles.at(count++);
+        typography::TableRectangle& behind = obstacles.at(count++);
         behind = *input.caption;
         const glm::dvec2 away = behind.centre_m - glm::dvec2(input.table_from_prop.translation);
-        const glm::dvec2 seen = turned(away, -behind.quarter_turns); // as the reader sees it
+        const glm::dvec2 seen = typography::turned(away, -behind.quarter_turns); // as the reader sees it
         const int axis = std::abs(seen.x) > std::abs(seen.y) ? 0 : 1;
         glm::dvec2 by(0.0);
         by[axis] = seen[axis] < 0.0 ? -0.5 * behind_caption_m : 0.5 * behind_caption_m;
-        behind.centre_m += turned(by, behind.quarter_turns);
+        behind.centre_m += typography::turned(by, behind.quarter_turns);
         behind.size_m[axis] += behind_caption_m;
     }
     placer_.set_obstacles(std::span(obstacles).first(count));
@@ -104,19 +104,29 @@ std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Inp
         return std::nullopt;
     }
     const LabelledHotspot& labelled = input.set->hotspots[key_->hotspot];
-    const RigidTransform prop_from_table = input.table_from_prop.inverse();
+    const geometry::RigidTransform prop_from_table = input.table_from_prop.inverse();
     const glm::dvec3 eye_in_prop = prop_from_table.point(input.eye_m);
     const glm::dvec3 point_m = input.table_from_prop.point(labelled.at.point_m);
-    const std::optional<TablePolygon> shadow =
-        hidden_by_prop(*input.prop, input.table_from_prop, input.lens_m);
-    const std::optional<TablePolygon> hidden =
-        hidden_by_prop(*input.prop, input.table_from_prop, input.eye_m);
+    const std::optional<typography::TablePolygon> shadow =
+        typography::hidden_by_prop(*input.prop, input.table_from_prop, input.lens_m);
+    const std::optional<typography::TablePolygon> hidden =
+        typography::hidden_by_prop(*input.prop, input.table_from_prop, input.eye_m);
     keep_clear(input);
     placer_.update(now, shadow, hidden, seen_on_table(point_m, input.eye_m), input.quarter_turns);
-    const CaptionPlace place = placer_.at(now);
+    const typography::CaptionPlace place = placer_.at(now);
 
-    PresentedHotspot shown{key_->artifact, key_->hotspot, key_->language, place.rectangle, {}, 0.0};
-    shown.line = leader_line({point_m, input.eye_m, shadow, hidden, place.rectangle, input.obstacles});
+    PresentedHotspot shown{.artifact = key_->artifact,
+                           .hotspot = key_->hotspot,
+                           .language = key_->language,
+                           .label = place.rectangle,
+                           .line = {},
+                           .brightness = 0.0};
+    shown.line = leader_line({.point_m = point_m,
+                              .eye_m = input.eye_m,
+                              .shadow = shadow,
+                              .hidden = hidden,
+                              .label = place.rectangle,
+                              .pictures = input.obstacles});
     const bool seen =
         is_seen(labelled.at, eye_in_prop, *input.prop,
                 faces_lit_from(*input.prop, prop_from_table.point(input.lens_m)), occluder_of(*input.set));
@@ -125,8 +135,8 @@ std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Inp
     const double facing_eye = brightness_facing(labelled.at, eye_in_prop);
     changing_ = (presence_ != presence_goal && facing_eye > 0.0) ||
                 (presence_ > 0.0 && place.opacity > 0.0 && place.opacity < 1.0);
-    shown.brightness = ease(presence_) * facing_eye * place.opacity * input.brightness;
+    shown.brightness = geometry::ease(presence_) * facing_eye * place.opacity * input.brightness;
     return shown.brightness > 0.0 ? std::optional(shown) : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct LabelledHotspot {
     Hotspot at; ///< prop frame
@@ -34,8 +34,9 @@ struct LabelledHotspot {
 
 /// The surface that hides an artifact's points.
 struct ArtifactTriangles {
-    std::shared_ptr<const TriangleTree> tree; ///< in the box frame (pack.h); none: nothing is hidden
-    double tolerance_m = 0.0;                 ///< at least the triangles' error
+    std::shared_ptr<const geometry::TriangleTree>
+        tree;                 ///< in the box frame (pack.h); none: nothing is hidden
+    double tolerance_m = 0.0; ///< at least the triangles' error
 };
 
 /// The hotspots of one artifact.
@@ -49,7 +50,7 @@ struct PresentedHotspot {
     std::size_t artifact = 0; ///< index into the catalogue
     std::size_t hotspot = 0;  ///< index into HotspotSet::hotspots
     std::size_t language = 0; ///< index into CatalogueEntry::languages
-    TableRectangle label;
+    typography::TableRectangle label;
     std::optional<LeaderLine> line;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
@@ -66,13 +67,13 @@ public:
         std::optional<std::size_t> hotspot; ///< nothing: none is to be shown
         std::size_t language = 0;
         double brightness = 1.0; ///< of the artifact and of its texts
-        const PropShape* prop = nullptr;
-        RigidTransform table_from_prop;
-        glm::dvec3 eye_m{0.0};                     ///< table frame
-        glm::dvec3 lens_m{0.0};                    ///< table frame
-        std::span<const TableRectangle> obstacles; ///< everything else on the table
-        std::optional<TableRectangle> caption;     ///< also in `obstacles`
-        int quarter_turns = 0;                     ///< the reader's side
+        const geometry::PropShape* prop = nullptr;
+        geometry::RigidTransform table_from_prop;
+        glm::dvec3 eye_m{0.0};                                 ///< table frame
+        glm::dvec3 lens_m{0.0};                                ///< table frame
+        std::span<const typography::TableRectangle> obstacles; ///< everything else on the table
+        std::optional<typography::TableRectangle> caption;     ///< also in `obstacles`
+        int quarter_turns = 0;                                 ///< the reader's side
     };
     [[nodiscard]] std::optional<PresentedHotspot> step(MonotonicTime now, const Input& input);
     /// True while a brightness changes by itself.
@@ -89,7 +90,7 @@ private:
     void keep_clear(const Input& input);
     void turn_to(const std::optional<Key>& key, const Input& input);
 
-    CaptionPlacer placer_;
+    typography::CaptionPlacer placer_;
     std::optional<Key> key_; ///< the one that the placer holds
     double presence_ = 0.0;  ///< 0..1
     std::optional<MonotonicTime> last_;
@@ -97,6 +98,6 @@ private:
 };
 
 /// The prop's faces that the lens lights, as a set.
-[[nodiscard]] std::uint32_t faces_lit_from(const PropShape& prop, const glm::dvec3& lens_in_prop_m);
+[[nodiscard]] std::uint32_t faces_lit_from(const geometry::PropShape& prop, const glm::dvec3& lens_in_prop_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -28,9 +28,9 @@ sys_seconds change_of_offset(sys_seconds low, sys_seconds high, const OffsetAt& 
     return high;
 }
 
-bool is_whole_day(const HoursSettings::Day& day) {
-    return std::any_of(day.begin(), day.end(), [](const OpenSpan& span) {
-        return span.from_min == 0 && span.to_min >= minutes_a_day;
+bool is_whole_day(const settings::HoursSettings::Day& day) {
+    return std::any_of(day.begin(), day.end(), [](const settings::OpenSpan& span) {
+        return span.from_min == 0 && span.to_min >= settings::minutes_a_day;
     });
 }
 
@@ -51,13 +51,13 @@ sys_seconds utc_of_local(sys_seconds local, Edge edge, const OffsetAt& offset_at
                                : (by_after > change ? by_after : std::min(change, by_before));
 }
 
-Timetable::Timetable(HoursSettings hours, OffsetAt offset_at)
+Timetable::Timetable(settings::HoursSettings hours, OffsetAt offset_at)
     : hours_(std::move(hours)), offset_at_(std::move(offset_at)),
       always_open_(hours_.exceptions.empty() &&
                    std::all_of(hours_.weekdays.begin(), hours_.weekdays.end(), is_whole_day)) {}
 
 void Timetable::each_interval(sys_days day, const auto& use) const {
-    const auto use_span = [&](const OpenSpan& span) {
+    const auto use_span = [&](const settings::OpenSpan& span) {
         const Interval interval{utc_of_local(day + minutes(span.from_min), Edge::Opens, offset_at_),
                                 utc_of_local(day + minutes(span.to_min), Edge::Closes, offset_at_)};
         if (interval.from < interval.to) {
@@ -65,7 +65,7 @@ void Timetable::each_interval(sys_days day, const auto& use) const {
         }
     };
     bool excepted = false;
-    for (const HoursException& exception : hours_.exceptions) {
+    for (const settings::HoursException& exception : hours_.exceptions) {
         if (exception.day == day) {
             excepted = true;
             if (exception.open) {
@@ -151,7 +151,7 @@ void Sleep::move_light(MonotonicTime now) {
 }
 
 double Sleep::light() const {
-    return ease(share_);
+    return geometry::ease(share_);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

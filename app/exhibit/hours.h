@@ -19,7 +19,7 @@
 #include <functional>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// The lead of local time over UTC.
 using OffsetAt = std::function<std::chrono::seconds(std::chrono::sys_seconds)>;
@@ -39,7 +39,7 @@ class Timetable {
 public:
     static constexpr std::chrono::days farthest{400};
 
-    Timetable(HoursSettings hours, OffsetAt offset_at);
+    Timetable(settings::HoursSettings hours, OffsetAt offset_at);
     [[nodiscard]] Opening at(std::chrono::sys_seconds time) const;
     /// True if the exhibit never closes.
     [[nodiscard]] bool always_open() const { return always_open_; }
@@ -52,7 +52,7 @@ private:
     /// Calls `use(Interval)` for each span that begins on this local day and is not empty.
     void each_interval(std::chrono::sys_days day, const auto& use) const;
 
-    HoursSettings hours_;
+    settings::HoursSettings hours_;
     OffsetAt offset_at_;
     bool always_open_;
 };
@@ -114,4 +114,4 @@ private:
     std::optional<MonotonicTime> closed_since_; ///< from then on only use keeps it awake
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

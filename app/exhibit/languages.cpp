@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -38,4 +38,4 @@ bool has_language(std::span<const std::string> languages, std::string_view langu
                        [&](const std::string& tag) { return primary(tag) == primary(language); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

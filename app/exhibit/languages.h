@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// Index of the caption for `language` among captions in `languages`: the same tag, else the same language
 /// with another region or script, else English, else the first. `languages` is not empty.
@@ -19,4 +19,4 @@ void add_language(std::vector<std::string>& languages, const std::string& langua
 /// True if one of them is this language, with any region and script.
 [[nodiscard]] bool has_language(std::span<const std::string> languages, std::string_view language);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -20,7 +20,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 
 /// The share of the way from `a` to `b` at which it leaves the convex polygon, grown by `margin_m`, for the last
 /// time; 0 if it never meets it, more than 1 if it ends inside.
-double leaves_at(const TablePolygon& polygon, const glm::dvec2& a, const glm::dvec2& b, double margin_m) {
+double leaves_at(const typography::TablePolygon& polygon, const glm::dvec2& a, const glm::dvec2& b,
+                 double margin_m) {
     double first = 0.0;
     double last = std::numeric_limits<double>::infinity();
     const std::span<const glm::dvec2> corners = polygon.corners();
@@ -45,18 +46,18 @@ double leaves_at(const TablePolygon& polygon, const glm::dvec2& a, const glm::dv
 }
 
 /// A point in the rectangle's frame: origin at its middle, axes along its sides.
-glm::dvec2 seen_from(const TableRectangle& rectangle, const glm::dvec2& point) {
-    return turned(point - rectangle.centre_m, -rectangle.quarter_turns);
+glm::dvec2 seen_from(const typography::TableRectangle& rectangle, const glm::dvec2& point) {
+    return typography::turned(point - rectangle.centre_m, -rectangle.quarter_turns);
 }
 
-glm::dvec2 nearest_of(const TableRectangle& rectangle, const glm::dvec2& point) {
+glm::dvec2 nearest_of(const typography::TableRectangle& rectangle, const glm::dvec2& point) {
     const glm::dvec2 half = 0.5 * rectangle.size_m;
     const glm::dvec2 nearest = glm::clamp(seen_from(rectangle, point), -half, half);
-    return rectangle.centre_m + turned(nearest, rectangle.quarter_turns);
+    return rectangle.centre_m + typography::turned(nearest, rectangle.quarter_turns);
 }
 
 /// True if a segment comes closer than `from_picture_m` to a picture.
-bool crosses(const TableRectangle& picture, const glm::dvec2& a, const glm::dvec2& b) {
+bool crosses(const typography::TableRectangle& picture, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 half = 0.5 * picture.size_m + from_picture_m;
     const glm::dvec2 from = seen_from(picture, a);
     const glm::dvec2 way = seen_from(picture, b) - from;
@@ -82,8 +83,9 @@ public:
     explicit Way(const LeaderLineNeeds& needs) : needs_(needs) {}
 
     [[nodiscard]] bool is_free(const glm::dvec2& a, const glm::dvec2& b) const {
-        return std::none_of(needs_.pictures.begin(), needs_.pictures.end(),
-                            [&](const TableRectangle& picture) { return crosses(picture, a, b); });
+        return std::none_of(
+            needs_.pictures.begin(), needs_.pictures.end(),
+            [&](const typography::TableRectangle& picture) { return crosses(picture, a, b); });
     }
     [[nodiscard]] bool is_beside_prop(const glm::dvec2& a, const glm::dvec2& b) const {
         return last_exit(a, b) <= 0.0;
@@ -102,8 +104,8 @@ private:
 std::optional<LeaderLine> with_bend(const LeaderLineNeeds& needs, const Way& way, const glm::dvec2& seen) {
     std::optional<LeaderLine> best;
     double best_length = std::numeric_limits<double>::infinity();
-    for (const TableRectangle& picture : needs.pictures) {
-        TableRectangle around = picture;
+    for (const typography::TableRectangle& picture : needs.pictures) {
+        typography::TableRectangle around = picture;
         around.size_m += 2.0 * (from_picture_m + 1e-6);
         for (const glm::dvec2& bend : around.corners()) {
             const glm::dvec2 end = nearest_of(needs.label, bend);
@@ -122,14 +124,15 @@ std::optional<LeaderLine> with_bend(const LeaderLineNeeds& needs, const Way& way
 
 } // namespace
 
-bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const PropShape& prop, std::uint32_t lit_faces,
-             const Occluder& artifact) {
+bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const geometry::PropShape& prop,
+             std::uint32_t lit_faces, const Occluder& artifact) {
     const glm::dvec3 to_point = hotspot.point_m - eye_m;
     if (!(glm::dot(to_point, hotspot.normal) < 0.0)) {
         return false; // faces away
     }
-    PropHit entry;
-    if (!intersect(prop, eye_m, to_point, entry) || entry.t > 1.0 || (lit_faces >> entry.face & 1U) == 0) {
+    geometry::PropHit entry;
+    if (!geometry::intersect(prop, eye_m, to_point, entry) || entry.t > 1.0 ||
+        (lit_faces >> entry.face & 1U) == 0) {
         return false;
     }
     const glm::dvec3 end = hotspot.point_m + artifact.tolerance_m * hotspot.normal;
@@ -159,4 +162,4 @@ std::optional<LeaderLine> leader_line(const LeaderLineNeeds& needs) {
     return with_bend(needs, way, seen);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -28,7 +28,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// Prop frame.
 struct Hotspot {
@@ -38,13 +38,13 @@ struct Hotspot {
 
 /// The artifact's surface for ray casts.
 struct Occluder {
-    const TriangleTree* triangles = nullptr; ///< in a frame of its own
-    glm::dmat4 triangles_from_prop{1.0};     ///< to that frame; affine
-    double tolerance_m = 0.0;                ///< in the prop frame; at least the triangles' error
+    const geometry::TriangleTree* triangles = nullptr; ///< in a frame of its own
+    glm::dmat4 triangles_from_prop{1.0};               ///< to that frame; affine
+    double tolerance_m = 0.0;                          ///< in the prop frame; at least the triangles' error
 };
 
 /// `eye_m`: prop frame. `lit_faces`: bit k is face k of the prop (FaceReader).
-[[nodiscard]] bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const PropShape& prop,
+[[nodiscard]] bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const geometry::PropShape& prop,
                            std::uint32_t lit_faces, const Occluder& artifact);
 
 struct LeaderLine {
@@ -54,15 +54,15 @@ struct LeaderLine {
 };
 
 struct LeaderLineNeeds {
-    glm::dvec3 point_m{0.0};            ///< the hotspot, table frame
-    glm::dvec3 eye_m{0.0};              ///< table frame
-    std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
-    std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
-    TableRectangle label;
-    std::span<const TableRectangle> pictures; ///< not to be crossed
+    glm::dvec3 point_m{0.0};                        ///< the hotspot, table frame
+    glm::dvec3 eye_m{0.0};                          ///< table frame
+    std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
+    std::optional<typography::TablePolygon> hidden; ///< hidden_by_prop from the eye
+    typography::TableRectangle label;
+    std::span<const typography::TableRectangle> pictures; ///< not to be crossed
 };
 
 /// Nothing if the eye is not above the prop, the label touches shadow or prop, or pictures leave no way.
 [[nodiscard]] std::optional<LeaderLine> leader_line(const LeaderLineNeeds& needs);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -216,4 +216,4 @@ void NarrationSequencer::follow_rest(MonotonicTime now, const NarrationInput& in
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

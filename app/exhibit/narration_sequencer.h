@@ -23,7 +23,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// The narration that an artifact has in one language.
 struct Tellable {
@@ -131,4 +131,4 @@ private:
     std::optional<MonotonicTime> over_since_; ///< when the description had been heard or read
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

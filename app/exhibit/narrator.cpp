@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
-const Told& Narrator::step(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input) {
-    const bool has_advice = input.stage != GuidanceStage::Quiet;
+const Told& Narrator::step(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                           const NarratorInput& input) {
+    const bool has_advice = input.stage != guidance::GuidanceStage::Quiet;
     NarrationInput narration_sequencer;
     narration_sequencer.subject = input.subject;
     narration_sequencer.tellable = input.tellable;
@@ -28,9 +29,10 @@ const Told& Narrator::step(MonotonicTime now, const TrackedState& tracked_state,
 }
 
 /// A request is served even while something is wrong; a problem that begins later takes priority.
-bool Narrator::gives_way(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input) {
-    const bool comes_to_words =
-        input.stage >= GuidanceStage::Text && std::exchange(stage_, input.stage) < GuidanceStage::Text;
+bool Narrator::gives_way(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                         const NarratorInput& input) {
+    const bool comes_to_words = input.stage >= guidance::GuidanceStage::Text &&
+                                std::exchange(stage_, input.stage) < guidance::GuidanceStage::Text;
     stage_ = input.stage;
     const bool moved_away = std::exchange(attracts_, input.attracts) != input.attracts;
     const bool head_lost = head_known_ && !tracked_state.head_known;
@@ -78,8 +80,8 @@ void Narrator::follow_text(MonotonicTime now, const NarratorInput& input) {
 }
 
 CaptionText Narrator::text() const {
-    return {shows_description_ ? std::optional(portion_) : std::nullopt, ease(text_brightness_),
+    return {shows_description_ ? std::optional(portion_) : std::nullopt, geometry::ease(text_brightness_),
             text_leaves_ || text_brightness_ < 1.0};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

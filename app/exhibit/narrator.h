@@ -21,7 +21,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct NarratorInput {
     DescriptionIndex subject;           ///< chosen; it may not be visible yet
@@ -34,7 +34,7 @@ struct NarratorInput {
     bool next = false;                  ///< the next thing is requested
     bool help = false;                  ///< help is requested
     bool text_has_place = true;         ///< the caption is visible, or fades
-    GuidanceStage stage = GuidanceStage::Quiet;
+    guidance::GuidanceStage stage = guidance::GuidanceStage::Quiet;
 };
 
 /// The text of the caption.
@@ -51,12 +51,13 @@ public:
 
     /// Playback of the description being told; Silent before the first call.
     void hear(const SpeechProgress& narration) { narration_ = narration; }
-    const Told& step(MonotonicTime now, const TrackedState& tracked_state, const NarratorInput& input);
+    const Told& step(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                     const NarratorInput& input);
     [[nodiscard]] const Told& told() const { return told_; }
     [[nodiscard]] CaptionText text() const;
 
 private:
-    [[nodiscard]] bool gives_way(MonotonicTime now, const TrackedState& tracked_state,
+    [[nodiscard]] bool gives_way(MonotonicTime now, const tracking::TrackedState& tracked_state,
                                  const NarratorInput& input);
     [[nodiscard]] bool is_unread(MonotonicTime now, const NarratorInput& input);
     void follow_text(MonotonicTime now, const NarratorInput& input);
@@ -65,9 +66,9 @@ private:
     SpeechProgress narration_;
     Told told_;
     Stillness stillness_;
-    GuidanceStage stage_ = GuidanceStage::Quiet; ///< in the previous step
-    bool attracts_ = false;                      ///< in the previous step
-    bool head_known_ = false;                    ///< a head was known before the current loss
+    guidance::GuidanceStage stage_ = guidance::GuidanceStage::Quiet; ///< in the previous step
+    bool attracts_ = false;                                          ///< in the previous step
+    bool head_known_ = false; ///< a head was known before the current loss
     std::optional<MonotonicTime> lost_since_;
     std::optional<MonotonicTime> hidden_since_; ///< since when the description has had no place
     DescriptionIndex visible_;
@@ -79,4 +80,4 @@ private:
     std::size_t portion_ = 0;        ///< told last
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -10,11 +10,11 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
-using Coverage = Image<std::uint8_t>;
+using Coverage = image::Image<std::uint8_t>;
 
 /// Lengths in type sizes.
 constexpr double wide_em = 36.0;   ///< the width for which texts are broken at the bake
@@ -30,7 +30,7 @@ constexpr double below_sentences_em = 0.7;
 constexpr double beside_ring_em = 1.0;
 constexpr double fades_over_em = 1.5;
 
-constexpr double ring_reach_m = notice_ring_radius_m + ring_gap_m + ring_width_m;
+constexpr double ring_reach_m = notice_ring_radius_m + typography::ring_gap_m + typography::ring_width_m;
 
 /// Set text, and the row of its first baseline.
 struct SetText {
@@ -49,7 +49,7 @@ struct Piece {
 class Page {
 public:
     Page(const NoticeType& type, double width_em)
-        : type_(type), em_px_(min_caption_em_m * type.texels_per_m), width_em_(width_em) {}
+        : type_(type), em_px_(typography::min_caption_em_m * type.texels_per_m), width_em_(width_em) {}
 
     void sentences(const std::vector<std::string_view>& keys, bool ring) {
         const int ring_px = ring ? px_of(2.0 * ring_reach_m * type_.texels_per_m / em_px_) : 0;
@@ -58,7 +58,7 @@ public:
         top_ = ring && !beside ? ring_px + px_of(between_lines_em) : 0;
         const std::size_t first = pieces_.size();
         for (const std::string_view key : keys) {
-            add(word(key, width_em_, width_em_ > narrowest_em ? caption_title_em : 1.0), indent,
+            add(word(key, width_em_, width_em_ > narrowest_em ? typography::caption_title_em : 1.0), indent,
                 top_ + (pieces_.size() > first ? px_of(between_lines_em) : 0), 1.0);
         }
         if (beside) { // centre text and ring on each other
@@ -103,12 +103,14 @@ public:
             const int least = line.file.empty() ? px_of(number_em) : 0; // numbers share one column
             const int column = std::max(name.image.width, least) + px_of(between_columns_em);
             const double left_em = width_em_ - column / em_px_;
-            const GlyphSetting* const setting = fitting_setting(type_.runs.find(line.key), left_em);
-            if (setting != nullptr && setting->lines.size() == 1 && setting->width <= left_em * em_units) {
+            const pack::GlyphSetting* const setting =
+                typography::fitting_setting(type_.runs.find(line.key), left_em);
+            if (setting != nullptr && setting->lines.size() == 1 &&
+                setting->width <= left_em * pack::em_units) {
                 row(std::move(name), word(line.key, left_em), column);
             } else {
                 add(std::move(name), 0, top_, 1.0);
-                add(word(line.key, width_em_), 0, top_, caption_text_brightness);
+                add(word(line.key, width_em_), 0, top_, typography::caption_text_brightness);
             }
         }
     }
@@ -118,10 +120,11 @@ public:
         if (text.empty() || !type_.typesetter.can_set(text)) {
             return;
         }
-        const Paragraph paragraph{text, em_px_, false, 1.0, 0.0};
+        const typography::Paragraph paragraph{
+            .text = text, .em_px = em_px_, .bold = false, .brightness = 1.0, .space_before_px = 0.0};
         top_ += px_of(between_packs_em);
         add({type_.typesetter.set(std::span(&paragraph, 1), width_em_ * em_px_), 0}, 0, top_,
-            caption_text_brightness);
+            typography::caption_text_brightness);
     }
 
     [[nodiscard]] NoticeShape drawn() const {
@@ -131,7 +134,7 @@ public:
         for (const Piece& piece : pieces_) {
             const int left =
                 to_the_left() ? page.width - piece.from_begin - piece.text.image.width : piece.from_begin;
-            draw_lighter(piece.text.image, piece.brightness, left, piece.top, page);
+            typography::draw_lighter(piece.text.image, piece.brightness, left, piece.top, page);
         }
         const glm::dvec2 size_px(page.width, page.height);
         shape.image.size_m = size_px / type_.texels_per_m;
@@ -146,31 +149,34 @@ public:
 private:
     [[nodiscard]] int px_of(double em) const { return static_cast<int>(std::lround(em * em_px_)); }
     [[nodiscard]] bool to_the_left() const {
-        return !type_.runs.texts.empty() && type_.runs.texts.front().direction == TextDirection::RightToLeft;
+        return !type_.runs.texts.empty() &&
+               type_.runs.texts.front().direction == pack::TextDirection::RightToLeft;
     }
 
     /// Sets a word. `em`: its type size.
     [[nodiscard]] SetText word(std::string_view key, double width_em, double em = 1.0) const {
-        const GlyphSetting* const setting = fitting_setting(type_.runs.find(key), width_em / em);
+        const pack::GlyphSetting* const setting =
+            typography::fitting_setting(type_.runs.find(key), width_em / em);
         if (setting == nullptr || setting->lines.empty()) {
             return {};
         }
-        GlyphImage image = glyph_image(type_.runs, type_.atlas, *setting, em * em_px_);
-        const double baseline_px = setting->lines.front().baseline * em * em_px_ / em_units;
+        typography::GlyphImage image =
+            typography::glyph_image(type_.runs, type_.atlas, *setting, em * em_px_);
+        const double baseline_px = setting->lines.front().baseline * em * em_px_ / pack::em_units;
         return {std::move(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
     }
 
     [[nodiscard]] SetText label(const NoticeLine& line, double max_em) const {
-        const Typesetter& typesetter = type_.typesetter;
+        const typography::Typesetter& typesetter = type_.typesetter;
         const bool has_file = !line.file.empty() && typesetter.can_set(line.file);
         const std::string& text = typesetter.can_set(line.label) ? line.label
                                   : has_file                     ? line.file
                                                                  : "\u2013";
         Coverage image = typesetter.line(text, em_px_);
         if (image.width > px_of(max_em)) {
-            image = cut_off(image, px_of(max_em), px_of(fades_over_em), false);
+            image = typography::cut_off(image, px_of(max_em), px_of(fades_over_em), false);
         }
-        return {std::move(image), px_of(Typesetter::ascent_em)};
+        return {std::move(image), px_of(typography::Typesetter::ascent_em)};
     }
 
     /// Puts a name and an outcome on one baseline.
@@ -179,13 +185,14 @@ private:
         const int name_top = baseline - name.baseline;
         const int outcome_top = baseline - outcome.baseline;
         add(std::move(name), 0, name_top, 1.0);
-        add(std::move(outcome), column, outcome_top, caption_text_brightness);
+        add(std::move(outcome), column, outcome_top, typography::caption_text_brightness);
     }
 
     void add(SetText text, int from_begin, int top, double brightness) {
         if (text.image.width > 0) {
             reach(from_begin, text.image.width, top + text.image.height);
-            pieces_.push_back({std::move(text), from_begin, top, brightness});
+            pieces_.push_back(
+                {.text = std::move(text), .from_begin = from_begin, .top = top, .brightness = brightness});
         }
     }
     void reach(int from_begin, int width, int bottom) {
@@ -229,4 +236,4 @@ NoticePicture draw_notice(const NoticeText& text, const NoticeText& counts, cons
     return picture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

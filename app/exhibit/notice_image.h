@@ -21,12 +21,12 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline constexpr double notice_ring_radius_m = 0.007; ///< of what the ring surrounds (ring.h)
 
 struct NoticeShape {
-    CaptionImage image;
+    typography::CaptionImage image;
     std::optional<glm::dvec2> ring_m; ///< middle, relative to the picture's; the reader's right, up
 };
 struct NoticePicture {
@@ -36,13 +36,13 @@ struct NoticePicture {
 };
 
 struct NoticeType {
-    const GlyphRuns& runs; ///< of the exhibit's own texts
-    const DistanceAtlas& atlas;
-    const Typesetter& typesetter;
+    const pack::GlyphRuns& runs; ///< of the exhibit's own texts
+    const pack::DistanceAtlas& atlas;
+    const typography::Typesetter& typesetter;
     double texels_per_m = 2400.0;
 };
 /// `counts`: the same notice with fewer lines, for shapes in which all lines may not fit.
 [[nodiscard]] NoticePicture draw_notice(const NoticeText& text, const NoticeText& counts,
                                         const NoticeType& type);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

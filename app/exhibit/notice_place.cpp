@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -17,14 +17,14 @@ constexpr double beside_caption_m =
 
 } // namespace
 
-std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
+std::optional<typography::TablePolygon> notice_ring(const PresentedNotice& notice) {
     const NoticeShape& shape = notice.picture->shapes[notice.shape];
     if (!shape.ring_m) {
         return std::nullopt;
     }
     const int quarter_turns = notice.rectangle.quarter_turns;
-    const glm::dvec2 middle = notice.rectangle.centre_m + turned(*shape.ring_m, quarter_turns);
-    TablePolygon round;
+    const glm::dvec2 middle = notice.rectangle.centre_m + typography::turned(*shape.ring_m, quarter_turns);
+    typography::TablePolygon round;
     round.count = round.points.size();
     for (std::size_t k = 0; k < round.count; ++k) {
         const double angle =
@@ -35,15 +35,15 @@ std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
 }
 
 void NoticePlace::look(MonotonicTime now, const NoticeEnvironment& environment) {
-    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
+    std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = 0;
-    const auto add = [&](std::span<const TableRectangle> more) {
+    const auto add = [&](std::span<const typography::TableRectangle> more) {
         const std::size_t fit = std::min(more.size(), obstacles.size() - count);
         std::copy_n(more.begin(), fit, obstacles.begin() + static_cast<std::ptrdiff_t>(count));
         count += fit;
     };
     if (environment.caption && beside_ != Beside::AllButCaption) {
-        TableRectangle caption = *environment.caption;
+        typography::TableRectangle caption = *environment.caption;
         caption.size_m += 2.0 * beside_caption_m;
         add(std::span(&caption, 1));
     }
@@ -73,21 +73,24 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
         return std::nullopt;
     }
     look(now, environment);
-    const CaptionPlace place = placer_.at(now);
+    const typography::CaptionPlace place = placer_.at(now);
     if (placer_.searched_in_vain()) { // the next search uses other obstacles
         beside_ = beside_ == Beside::All                 ? Beside::AllButEmptyPlaces
                   : beside_ == Beside::AllButEmptyPlaces ? Beside::AllButCaption
                                                          : Beside::All;
     }
-    const double brightness = place.opacity * ease(share_);
-    return brightness > 0.0
-               ? std::optional(PresentedNotice{lies_, place.shape, place.rectangle, brightness, 0.0})
-               : std::nullopt;
+    const double brightness = place.opacity * geometry::ease(share_);
+    return brightness > 0.0 ? std::optional(PresentedNotice{.picture = lies_,
+                                                            .shape = place.shape,
+                                                            .rectangle = place.rectangle,
+                                                            .brightness = brightness,
+                                                            .ring_full = 0.0})
+                            : std::nullopt;
 }
 
-double left_to_caption(const TableRectangle& caption, const PresentedNotice& notice) {
-    const double apart = clearance(caption.corners(), notice.rectangle.corners());
+double left_to_caption(const typography::TableRectangle& caption, const PresentedNotice& notice) {
+    const double apart = typography::clearance(caption.corners(), notice.rectangle.corners());
     return apart > 0.0 ? 1.0 : std::max(0.0, 1.0 - 2.0 * notice.brightness);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -22,30 +22,30 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 using SharedNotice = std::shared_ptr<const NoticePicture>;
 
 struct PresentedNotice {
     SharedNotice picture;
     std::size_t shape = 0; ///< index into its shapes
-    TableRectangle rectangle;
+    typography::TableRectangle rectangle;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
     double ring_full = 0.0;  ///< 0..1, where the shape has a ring
 };
 
 /// The notice's ring, as ring_around takes it; nothing if the shape has none.
-[[nodiscard]] std::optional<TablePolygon> notice_ring(const PresentedNotice& notice);
+[[nodiscard]] std::optional<typography::TablePolygon> notice_ring(const PresentedNotice& notice);
 
 struct NoticeEnvironment {
-    std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
-    std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
+    std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
+    std::optional<typography::TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
     int quarter_turns = 0; ///< the reader's side
     /// Together with `kept` and `caption` at most CaptionPlacer::max_obstacles.
-    std::span<const TableRectangle> obstacles;
-    std::span<const TableRectangle> kept; ///< empty places where a picture may come
-    std::optional<TableRectangle> caption;
+    std::span<const typography::TableRectangle> obstacles;
+    std::span<const typography::TableRectangle> kept; ///< empty places where a picture may come
+    std::optional<typography::TableRectangle> caption;
 };
 
 class NoticePlace {
@@ -64,7 +64,7 @@ public:
 private:
     void look(MonotonicTime now, const NoticeEnvironment& environment);
 
-    CaptionPlacer placer_;
+    typography::CaptionPlacer placer_;
     SharedNotice lies_; ///< the one that the placer holds
     /// Things that the notice must not overlap. If there is no room, the next value is tried.
     enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
@@ -74,6 +74,7 @@ private:
 };
 
 /// Factor on the light of a caption that a notice covers, 0..1.
-[[nodiscard]] double left_to_caption(const TableRectangle& caption, const PresentedNotice& notice);
+[[nodiscard]] double left_to_caption(const typography::TableRectangle& caption,
+                                     const PresentedNotice& notice);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -4,17 +4,18 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 void Placeholder::begin(std::size_t artifact, MonotonicTime now, const Input& input) {
     picture_ = artifact;
     since_ = now;
-    from_ = input.from.value_or(TableRectangle{input.to.centre_m, glm::dvec2(0.0), input.to.quarter_turns});
+    from_ = input.from.value_or(
+        typography::TableRectangle{input.to.centre_m, glm::dvec2(0.0), input.to.quarter_turns});
 }
 
 /// Brightness of the picture while the shown artifact has the brightness `artifact`.
 double Placeholder::light(const Input& input, double artifact) const {
-    return replaces_ ? 1.0 - artifact : input.shown.brightness * (1.0 - ease(arrival_));
+    return replaces_ ? 1.0 - artifact : input.shown.brightness * (1.0 - geometry::ease(arrival_));
 }
 
 Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
@@ -45,14 +46,14 @@ Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
     leaving_ = input.shown.leaving;
     last_ = now;
 
-    Output output{input.shown.brightness * ease(arrival_), std::nullopt, false};
+    Output output{input.shown.brightness * geometry::ease(arrival_), std::nullopt, false};
     const double brightness = picture_ ? light(input, output.brightness) : 0.0;
     if (picture_ && brightness <= 0.0 && arrival_ >= 1.0 && !input.shown.leaving) {
         picture_.reset();
         replaces_ = false;
     }
     if (picture_ && brightness > 0.0) {
-        const double grown = ease(to_seconds(now - since_) / to_seconds(growing));
+        const double grown = geometry::ease(to_seconds(now - since_) / to_seconds(growing));
         output.picture = {*picture_,
                           {glm::mix(from_.centre_m, input.to.centre_m, grown),
                            glm::mix(from_.size_m, input.to.size_m, grown), input.to.quarter_turns},
@@ -62,4 +63,4 @@ Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
     return output;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

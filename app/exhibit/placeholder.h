@@ -17,12 +17,12 @@
 #include <cstddef>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct PresentedPlaceholder {
-    std::size_t artifact = 0; ///< whose PackCard::table_picture it is
-    TableRectangle rectangle; ///< square
-    double brightness = 0.0;  ///< above 0, up to 1; a factor on linear light
+    std::size_t artifact = 0;             ///< whose PackCard::table_picture it is
+    typography::TableRectangle rectangle; ///< square
+    double brightness = 0.0;              ///< above 0, up to 1; a factor on linear light
 };
 
 class Placeholder {
@@ -33,8 +33,8 @@ public:
         Shown shown;
         std::size_t chosen = 0; ///< shown, or to be shown
         bool shown_ready = true, chosen_ready = true;
-        std::optional<TableRectangle> from; ///< place of the chosen one's picture on the table
-        TableRectangle to;                  ///< the prop's place
+        std::optional<typography::TableRectangle> from; ///< place of the chosen one's picture on the table
+        typography::TableRectangle to;                  ///< the prop's place
     };
     struct Output {
         double brightness = 1.0; ///< of the artifact that is shown, 0..1
@@ -53,8 +53,8 @@ private:
     MonotonicTime last_;
     std::optional<std::size_t> picture_; ///< the artifact whose picture stands in; none: no picture does
     bool replaces_ = false; ///< the picture came as the artifact before faded out, and replaces that
-    TableRectangle from_;
+    typography::TableRectangle from_;
     MonotonicTime since_; ///< when it began to grow
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -2,26 +2,26 @@
 
 #include "app/geometry/rotation_angle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
-bool prop_has_moved(const TrackedState& now, const TrackedState& then) {
-    const RigidTransform& a = now.table_from_prop;
-    const RigidTransform& b = then.table_from_prop;
+bool prop_has_moved(const tracking::TrackedState& now, const tracking::TrackedState& then) {
+    const geometry::RigidTransform& a = now.table_from_prop;
+    const geometry::RigidTransform& b = then.table_from_prop;
     return now.prop_known &&
            (!then.prop_known || glm::distance(a.translation, b.translation) > Presence::moved_m ||
-            rotation_angle(a.rotation, b.rotation) > Presence::turned_rad);
+            geometry::rotation_angle(a.rotation, b.rotation) > Presence::turned_rad);
 }
 
-bool head_has_moved(const TrackedState& now, const TrackedState& then) {
+bool head_has_moved(const tracking::TrackedState& now, const tracking::TrackedState& then) {
     constexpr double nodded_m = 0.05; // a head is never quite still
     return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
 } // namespace
 
-bool Presence::update(MonotonicTime now, const TrackedState& tracked_state, bool active) {
+bool Presence::update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool active) {
     const bool prop = rested_ && prop_has_moved(tracked_state, *rested_);
     const bool moved = prop || (rested_ && head_has_moved(tracked_state, *rested_));
     rested_ = moved || !rested_ ? tracked_state : rested_;
@@ -32,4 +32,4 @@ bool Presence::update(MonotonicTime now, const TrackedState& tracked_state, bool
     return there_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

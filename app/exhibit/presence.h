@@ -12,7 +12,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class Presence {
 public:
@@ -22,7 +22,7 @@ public:
     static constexpr double turned_rad = 0.05;
 
     /// `active`: a button was pressed, or narration is heard. Returns true if a visitor is present.
-    bool update(MonotonicTime now, const TrackedState& tracked_state, bool active);
+    bool update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool active);
     /// True if a visitor was present at the latest update.
     [[nodiscard]] bool is_there() const { return there_; }
     /// True if no visitor has been present for `rest`, or ever.
@@ -37,11 +37,11 @@ public:
     }
 
 private:
-    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
+    std::optional<tracking::TrackedState> rested_; ///< poses of prop and head at the latest movement
     std::optional<MonotonicTime> moved_;
     std::optional<MonotonicTime> touched_;
     std::optional<MonotonicTime> prop_moved_;
     bool there_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

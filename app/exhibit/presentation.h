@@ -23,12 +23,12 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct PresentedCaption {
     std::size_t language = 0; ///< index into CatalogueEntry::languages
     std::size_t shape = 0;    ///< index into its sizes
-    TableRectangle rectangle;
+    typography::TableRectangle rectangle;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
     /// The portion of the description that is shown in place of the short text.
     std::optional<std::size_t> portion = std::nullopt;
@@ -73,17 +73,17 @@ struct Presentation {
     double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light
     double title_brightness = 1.0;            ///< of the table's titles: 0..1, a factor on linear light
     std::optional<PresentedNotice> notice;    ///< notice about a stick; not set by the exhibit
-    std::array<TableRectangle, 4> zone_sides{}; ///< of the frame around the zone
-    double zone_share = 0.0;        ///< of the frame around the zone: 0..1, a factor on linear light
-    RigidTransform table_from_prop; ///< the pose to draw for
-    bool attracts = false;          ///< the pose drawn for is not the prop's own
-    bool settled = true;            ///< nothing fades: a good moment for a picture
-    bool staff = false;             ///< State::Staff: the staff picture is shown instead
-    StaffView staff_view;           ///< what the staff picture shows
-    std::uint32_t staff_tones = 0;  ///< number of test tones asked for by the staff
-    int louder_db = 0;              ///< relative to the settings' volume
-    bool calibrate = false;         ///< the staff asked for calibration in this step
-    std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
+    std::array<typography::TableRectangle, 4> zone_sides{}; ///< of the frame around the zone
+    double zone_share = 0.0; ///< of the frame around the zone: 0..1, a factor on linear light
+    geometry::RigidTransform table_from_prop; ///< the pose to draw for
+    bool attracts = false;                    ///< the pose drawn for is not the prop's own
+    bool settled = true;                      ///< nothing fades: a good moment for a picture
+    bool staff = false;                       ///< State::Staff: the staff picture is shown instead
+    StaffView staff_view;                     ///< what the staff picture shows
+    std::uint32_t staff_tones = 0;            ///< number of test tones asked for by the staff
+    int louder_db = 0;                        ///< relative to the settings' volume
+    bool calibrate = false;                   ///< the staff asked for calibration in this step
+    std::uint32_t lamps = 0;                  ///< buttons that do something; bit k = button k
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -9,18 +9,18 @@
 #include <cstddef>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class Presses {
 public:
     /// `counts`: the press is the visitor's. `command` is one of `button_commands`.
-    void take(Command command, bool counts) {
+    void take(settings::Command command, bool counts) {
         at(command) = counts;
-        choose_ = choose_ || (counts && command == Command::Choose);
-        help_ = help_ || (counts && command == Command::Help);
+        choose_ = choose_ || (counts && command == settings::Command::Choose);
+        help_ = help_ || (counts && command == settings::Command::Help);
     }
     /// No chord undoes this press.
-    void forget(Command command) { at(command) = false; }
+    void forget(settings::Command command) { at(command) = false; }
     /// True if the button's latest press is to be undone; the next call returns false.
     [[nodiscard]] bool undo(std::size_t button) {
         return button < undoable_.size() && std::exchange(undoable_[button], false);
@@ -33,14 +33,14 @@ public:
     void end_help() { help_ = false; }
 
 private:
-    [[nodiscard]] bool& at(Command command) {
-        return undoable_.at(static_cast<std::size_t>(button_of(command)));
+    [[nodiscard]] bool& at(settings::Command command) {
+        return undoable_.at(static_cast<std::size_t>(settings::button_of(command)));
     }
 
-    std::array<bool, button_commands.size()>
+    std::array<bool, settings::button_commands.size()>
         undoable_{}; ///< by button: its latest press reached the selection
     bool choose_ = false;
     bool help_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

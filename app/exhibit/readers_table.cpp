@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -15,15 +15,16 @@ constexpr double border_m = 0.008; ///< to the picture's edge
 } // namespace
 
 ReadersTable::ReadersTable(const TableSetUp& set_up, int quarter_turns)
-    : home(turned(set_up.home_m, -quarter_turns)) {
-    Polygon picture;
+    : home(typography::turned(set_up.home_m, -quarter_turns)) {
+    settings::Polygon picture;
     for (const glm::dvec2& corner : set_up.picture_m) {
-        picture.push_back(turned(corner, -quarter_turns));
+        picture.push_back(typography::turned(corner, -quarter_turns));
     }
-    const Rectangle inside = picture.size() >= 3 ? rectangle_inside(picture) : Rectangle{};
+    const settings::Rectangle inside =
+        picture.size() >= 3 ? settings::rectangle_inside(picture) : settings::Rectangle{};
     room = {inside.centre_m, inside.half_m - border_m};
     usable = room.half.x > 0.0 && room.half.y > 0.0 && !set_up.prop.corners.empty();
-    const glm::dvec2 lens = turned(glm::dvec2(set_up.lens_m), -quarter_turns);
+    const glm::dvec2 lens = typography::turned(glm::dvec2(set_up.lens_m), -quarter_turns);
     reach.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < direction_count; ++k) {
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / direction_count;
@@ -63,4 +64,4 @@ bool ReadersTable::is_clear_of_home(const TableArea& area, double margin) const 
     return false;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

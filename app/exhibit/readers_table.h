@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// A rectangle on the table, along its axes.
 struct TableArea {
@@ -46,4 +46,4 @@ struct ReadersTable {
     std::array<double, direction_count> reach{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -35,16 +35,16 @@ void Selection::begin_with(std::size_t artifact, std::string_view language, Mono
     }
 }
 
-void Selection::take(Command command, MonotonicTime now) {
+void Selection::take(settings::Command command, MonotonicTime now) {
     if (!accepts(command)) {
         return;
     }
-    if (command == Command::NextLanguage) {
+    if (command == settings::Command::NextLanguage) {
         language_before_ = language_.goal();
         change_language(language_before_ + 1 < language_count_ ? language_before_ + 1 : 0, now);
         return;
     }
-    choose(command == Command::NextArtifact ? next() : previous(), now);
+    choose(command == settings::Command::NextArtifact ? next() : previous(), now);
 }
 
 /// Begins together with a language change that has not begun yet, and after one that has.
@@ -88,38 +88,38 @@ void Selection::reset_language(MonotonicTime now) {
     change_language(first_language_, now);
 }
 
-void Selection::undo(Command command, MonotonicTime now) {
+void Selection::undo(settings::Command command, MonotonicTime now) {
     switch (command) {
-    case Command::PreviousArtifact:
-        take(Command::NextArtifact, now);
+    case settings::Command::PreviousArtifact:
+        take(settings::Command::NextArtifact, now);
         break;
-    case Command::NextArtifact:
-        take(Command::PreviousArtifact, now);
+    case settings::Command::NextArtifact:
+        take(settings::Command::PreviousArtifact, now);
         break;
-    case Command::NextLanguage:
+    case settings::Command::NextLanguage:
         change_language(language_before_, now);
         break;
-    case Command::Choose:
-    case Command::Help:
-    case Command::StaffMode:
-    case Command::HoldFirst:
-    case Command::HoldOther:
+    case settings::Command::Choose:
+    case settings::Command::Help:
+    case settings::Command::StaffMode:
+    case settings::Command::HoldFirst:
+    case settings::Command::HoldOther:
         break;
     }
 }
 
-bool Selection::accepts(Command command) const {
+bool Selection::accepts(settings::Command command) const {
     switch (command) {
-    case Command::PreviousArtifact:
-    case Command::NextArtifact:
+    case settings::Command::PreviousArtifact:
+    case settings::Command::NextArtifact:
         return count_ > 1 && next() != artifact_.goal();
-    case Command::NextLanguage:
+    case settings::Command::NextLanguage:
         return language_count_ > 1;
-    case Command::Choose:
-    case Command::Help:
-    case Command::StaffMode:
-    case Command::HoldFirst:
-    case Command::HoldOther:
+    case settings::Command::Choose:
+    case settings::Command::Help:
+    case settings::Command::StaffMode:
+    case settings::Command::HoldFirst:
+    case settings::Command::HoldOther:
         break;
     }
     return false;
@@ -131,13 +131,13 @@ Shown Selection::at(MonotonicTime now) const {
     }
     const Faded artifact = artifact_.at(now);
     const Faded language = language_.at(now);
-    return {artifact.which,
-            artifact.brightness,
-            languages_[language.which],
-            std::min(artifact.brightness, language.brightness),
-            artifact.changing || language.changing,
-            now >= artifact_.begins() && now < artifact_.dark(),
-            language.brightness};
+    return {.artifact = artifact.which,
+            .brightness = artifact.brightness,
+            .language = languages_[language.which],
+            .caption_brightness = std::min(artifact.brightness, language.brightness),
+            .changing = artifact.changing || language.changing,
+            .leaving = now >= artifact_.begins() && now < artifact_.dark(),
+            .language_brightness = language.brightness};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline constexpr Nanoseconds fade_time = std::chrono::milliseconds(250); ///< fade out, or fade in
 
@@ -46,7 +46,7 @@ public:
     /// to. An unknown artifact or language changes nothing.
     void begin_with(std::size_t artifact, std::string_view language, MonotonicTime now);
     /// A command that is not accepted changes nothing.
-    void take(Command command, MonotonicTime now);
+    void take(settings::Command command, MonotonicTime now);
     /// Chooses an artifact; an index out of range changes nothing.
     void choose(std::size_t artifact, MonotonicTime now);
     /// Sets whether the artifact can be chosen. If the chosen one cannot, the next one that can is chosen.
@@ -58,9 +58,9 @@ public:
     /// Returns to the first language.
     void reset_language(MonotonicTime now);
     /// Undoes the latest command of this kind.
-    void undo(Command command, MonotonicTime now);
+    void undo(settings::Command command, MonotonicTime now);
     /// True if the command has something to change to.
-    [[nodiscard]] bool accepts(Command command) const;
+    [[nodiscard]] bool accepts(settings::Command command) const;
     [[nodiscard]] Shown at(MonotonicTime now) const;
     /// The chosen artifact; it may not be visible yet.
     [[nodiscard]] std::size_t artifact() const { return artifact_.goal(); }
@@ -84,4 +84,4 @@ private:
     Fade language_; ///< indices into `languages_`
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

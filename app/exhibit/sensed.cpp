@@ -1,9 +1,9 @@
 #include "app/exhibit/sensed.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
-Sensing Sensed::update(MonotonicTime now, const TrackedState& tracked_state, bool lost,
-                       const std::optional<MonotonicTime>& touched) {
+guidance::Sensing Sensed::update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool lost,
+                                 const std::optional<MonotonicTime>& touched) {
     if (tracked_state.head_known) {
         head_seen_ = true;
         head_lost_.reset();
@@ -11,12 +11,13 @@ Sensing Sensed::update(MonotonicTime now, const TrackedState& tracked_state, boo
         head_lost_ = now;
     }
     if (lost) {
-        return tracked_state.tracker == TrackerHealth::Away ? Sensing::TrackerAway : Sensing::PropLost;
+        return tracked_state.tracker == tracker::TrackerHealth::Away ? guidance::Sensing::TrackerAway
+                                                                     : guidance::Sensing::PropLost;
     }
-    if (tracked_state.tracker == TrackerHealth::MetalNear) {
-        return Sensing::MetalNear;
+    if (tracked_state.tracker == tracker::TrackerHealth::MetalNear) {
+        return guidance::Sensing::MetalNear;
     }
-    return head_lost_ && touched > head_lost_ ? Sensing::HeadLost : Sensing::Good;
+    return head_lost_ && touched > head_lost_ ? guidance::Sensing::HeadLost : guidance::Sensing::Good;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

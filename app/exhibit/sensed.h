@@ -12,14 +12,14 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class Sensed {
 public:
     /// `lost`: the prop's pose has been unknown for a while. `touched`: when the prop last moved or a button was
     /// pressed.
-    [[nodiscard]] Sensing update(MonotonicTime now, const TrackedState& tracked_state, bool lost,
-                                 const std::optional<MonotonicTime>& touched);
+    [[nodiscard]] guidance::Sensing update(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                                           bool lost, const std::optional<MonotonicTime>& touched);
     /// Forgets the visitor, who has gone.
     void forget() { *this = {}; }
 
@@ -28,4 +28,4 @@ private:
     std::optional<MonotonicTime> head_lost_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 Sentences::Sentences(std::vector<AdviceLanguage> words, std::span<const glm::dvec2> picture_m)
     : words_(std::move(words)), placer_(picture_m) {
@@ -28,7 +28,7 @@ std::optional<WordIndex> Sentences::find(std::string_view key, std::string_view 
 }
 
 bool Sentences::shows(MonotonicTime now, const WordIndex& word) const {
-    const CaptionPlace place = placer_.at(now);
+    const typography::CaptionPlace place = placer_.at(now);
     const bool has_room = place.rectangle.size_m.x > 0.0;
     return lies_ == word && has_room && (place.opacity > 0.0 || now - appears_ < leaves);
 }
@@ -52,10 +52,13 @@ std::optional<PresentedAdvice> Sentences::place(MonotonicTime now, const std::op
     }
     placer_.update(now, environment.around, environment.hidden, environment.prop_m,
                    environment.quarter_turns);
-    const CaptionPlace place = placer_.at(now);
-    const double brightness = place.opacity * ease(share_);
-    return brightness > 0.0 ? std::optional(PresentedAdvice{*lies_, place.shape, place.rectangle, brightness})
+    const typography::CaptionPlace place = placer_.at(now);
+    const double brightness = place.opacity * geometry::ease(share_);
+    return brightness > 0.0 ? std::optional(PresentedAdvice{.word = *lies_,
+                                                            .shape = place.shape,
+                                                            .rectangle = place.rectangle,
+                                                            .brightness = brightness})
                             : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// A sentence of the exhibit's own texts.
 struct AdviceText {
@@ -38,14 +38,14 @@ struct WordIndex {
 struct PresentedAdvice {
     WordIndex word;
     std::size_t shape = 0; ///< index into its sizes
-    TableRectangle rectangle;
+    typography::TableRectangle rectangle;
     double brightness = 0.0; ///< above 0, up to 1; a factor on linear light
 };
 
 /// The surroundings that a sentence must not overlap.
 struct SentenceEnvironment {
-    std::optional<TablePolygon> around; ///< the prop's shadow, and the sign beside it
-    std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
+    std::optional<typography::TablePolygon> around; ///< the prop's shadow, and the sign beside it
+    std::optional<typography::TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
     int quarter_turns = 0; ///< the reader's side
 };
@@ -59,7 +59,9 @@ public:
     /// The sentence with this key, in the language nearest to `language`.
     [[nodiscard]] std::optional<WordIndex> find(std::string_view key, std::string_view language) const;
     /// Sets the other rectangles on the table.
-    void set_obstacles(std::span<const TableRectangle> obstacles) { placer_.set_obstacles(obstacles); }
+    void set_obstacles(std::span<const typography::TableRectangle> obstacles) {
+        placer_.set_obstacles(obstacles);
+    }
     /// Shows `wanted`, or nothing. Returns what is shown in this step.
     [[nodiscard]] std::optional<PresentedAdvice>
     place(MonotonicTime now, const std::optional<WordIndex>& wanted, const SentenceEnvironment& environment);
@@ -71,11 +73,11 @@ public:
 private:
     std::vector<AdviceLanguage> words_;
     std::vector<std::string> languages_;
-    CaptionPlacer placer_;
+    typography::CaptionPlacer placer_;
     std::optional<WordIndex> lies_; ///< the one that the placer holds
     double share_ = 0.0;            ///< of its light; falls while another is wanted
     MonotonicTime last_;
     MonotonicTime appears_; ///< when the placer received it
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -3,7 +3,7 @@
 #include "app/exhibit/selection.h"
 #include "app/geometry/time_curves.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 void SetChange::step(MonotonicTime now, Moment moment) {
     if (ready_ && !waits_since_) {
@@ -19,7 +19,8 @@ void SetChange::step(MonotonicTime now, Moment moment) {
 }
 
 double SetChange::share(MonotonicTime now) const {
-    return leaves_since_ ? 1.0 - ease(to_seconds(now - *leaves_since_) / to_seconds(fade_time)) : 1.0;
+    return leaves_since_ ? 1.0 - geometry::ease(to_seconds(now - *leaves_since_) / to_seconds(fade_time))
+                         : 1.0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class SetChange {
 public:
@@ -45,4 +45,4 @@ private:
     std::optional<MonotonicTime> leaves_since_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

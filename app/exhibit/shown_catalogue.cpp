@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 ShownCatalogue::ShownCatalogue(Catalogue catalogue)
     : entries_(std::move(catalogue)), states_(entries_.size(), ArtifactState::Ready),
@@ -89,4 +89,4 @@ const Tellable* ShownCatalogue::tellable(const DescriptionIndex& description) co
                : nullptr;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class ShownCatalogue {
 public:
@@ -57,4 +57,4 @@ private:
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

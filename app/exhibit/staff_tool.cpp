@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -32,7 +32,8 @@ void StaffTool::press(std::size_t button, MonotonicTime now) {
     if (button >= before_.size()) {
         return;
     }
-    before_[button] = Step{view_.page, view_.light, view_.louder_db, ++press_number_};
+    before_[button] = Step{
+        .page = view_.page, .light = view_.light, .louder_db = view_.louder_db, .number = ++press_number_};
     latest_other_ = button != first_button ? button : latest_other_;
     std::uint16_t& presses = view_.presses[button];
     presses = presses < std::numeric_limits<std::uint16_t>::max() ? static_cast<std::uint16_t>(presses + 1)
@@ -134,4 +135,4 @@ void StaffTool::set_louder_db(int louder_db) {
     view_.louder_db = quietest_db + steps * volume_step_db;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

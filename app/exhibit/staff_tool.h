@@ -25,7 +25,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 enum class StaffPage : std::uint8_t { Status, Place, Focus, Light, Sound, Tracker, Buttons };
 inline constexpr std::array<std::string_view, 7> staff_page_names{"Status", "Place",   "Focus",  "Light",
@@ -39,7 +39,7 @@ struct StaffView {
     StaffLight light = StaffLight::White;
     bool has_words = true; ///< a white or black picture loses its words after `words_stay`, to be measured
     int louder_db = 0;     ///< relative to the settings' volume
-    std::array<std::uint16_t, button_commands.size()>
+    std::array<std::uint16_t, settings::button_commands.size()>
         presses{};                       ///< of each button since the picture appeared
     std::optional<std::uint8_t> pressed; ///< the latest button, for `lit_for`
     bool held = false;                   ///< `pressed` was held long enough to count as held
@@ -95,9 +95,10 @@ private:
     void change_volume(int steps);
     void undo(std::optional<Step>& before);
 
-    StaffView view_;                                                   ///< as pressed
-    StaffView shown_;                                                  ///< follows it
-    std::array<std::optional<Step>, button_commands.size()> before_{}; ///< each button's latest press
+    StaffView view_;  ///< as pressed
+    StaffView shown_; ///< follows it
+    std::array<std::optional<Step>, settings::button_commands.size()>
+        before_{}; ///< each button's latest press
     std::uint64_t press_number_ = 0;
     std::uint32_t tones_ = 0;
     bool measure_ = false;
@@ -105,4 +106,4 @@ private:
     MonotonicTime begun_, pressed_, lit_, shown_since_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 enum class State : std::uint8_t { Attract, View, Browse, Guide, Describe, Degraded, Fault, Staff };
 inline constexpr std::size_t state_count = 8;
@@ -256,4 +256,4 @@ static_assert(each_is_reached_and_rests());
 
 } // namespace states_check
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

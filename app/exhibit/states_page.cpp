@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::string states_graph() {
     return graph + "}\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,11 +5,11 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// Markdown, for `frustumscreen states`.
 [[nodiscard]] std::string states_page();
 /// Graphviz's language, for `frustumscreen states --dot`.
 [[nodiscard]] std::string states_graph();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -9,28 +9,28 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
 constexpr double ring_follows_s = 0.3;
 
 /// Entries are in the order of ImportRefusal.
-constexpr std::array<std::string_view, import_refusal_names.size()> refusal_words{
+constexpr std::array<std::string_view, library::import_refusal_names.size()> refusal_words{
     "stick.refused.unreadable", // a refusal without a reason
     "stick.refused.unsigned",   "stick.refused.wrong_key",  "stick.refused.altered",
     "stick.refused.older",      "stick.refused.not_a_pack", "stick.refused.no_room",
     "stick.refused.unreadable", "stick.refused.unwritable", "stick.refused.too_much"};
 
-bool is_over(ImportStage stage) {
-    return stage == ImportStage::Done || stage == ImportStage::Failed;
+bool is_over(library::ImportStage stage) {
+    return stage == library::ImportStage::Done || stage == library::ImportStage::Failed;
 }
 
-double share_done(const ImportReport& report) {
-    if (report.stage == ImportStage::Found) {
+double share_done(const library::ImportReport& report) {
+    if (report.stage == library::ImportStage::Found) {
         return 0.0;
     }
-    if (report.stage != ImportStage::Copying) {
+    if (report.stage != library::ImportStage::Copying) {
         return 1.0;
     }
     const auto all = static_cast<double>(std::max<std::uint64_t>(report.total_bytes, 1));
@@ -38,23 +38,23 @@ double share_done(const ImportReport& report) {
 }
 
 /// Order of the lines: refusals first, then by interest to the reader.
-int rank_of(const ImportedPack& pack) {
+int rank_of(const library::ImportedPack& pack) {
     switch (pack.outcome) {
-    case ImportOutcome::Refused:
-    case ImportOutcome::NotWritten:
+    case library::ImportOutcome::Refused:
+    case library::ImportOutcome::NotWritten:
         return 0;
-    case ImportOutcome::Taken:
-    case ImportOutcome::Written:
+    case library::ImportOutcome::Taken:
+    case library::ImportOutcome::Written:
         return 1;
-    case ImportOutcome::AlreadyThere:
+    case library::ImportOutcome::AlreadyThere:
         return 2;
     default:
         return 3;
     }
 }
 
-NoticeLine line_of(const ImportedPack& pack) {
-    const bool believed = pack.outcome != ImportOutcome::Refused && !pack.title.empty();
+NoticeLine line_of(const library::ImportedPack& pack) {
+    const bool believed = pack.outcome != library::ImportOutcome::Refused && !pack.title.empty();
     return {believed ? pack.title : pack.file, pack.file, outcome_word(pack.outcome, pack.refusal)};
 }
 
@@ -62,9 +62,10 @@ NoticeLine line_of(const ImportedPack& pack) {
 struct WordCount {
     std::string_view key;
     std::size_t count = 0;
-    const ImportedPack* first = nullptr;
+    const library::ImportedPack* first = nullptr;
 };
-std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs, std::size_t first) {
+std::vector<WordCount> count_words(const std::vector<const library::ImportedPack*>& packs,
+                                   std::size_t first) {
     std::vector<WordCount> counts;
     for (std::size_t k = first; k < packs.size(); ++k) {
         const std::string_view key = outcome_word(packs[k]->outcome, packs[k]->refusal);
@@ -80,15 +81,17 @@ std::vector<WordCount> count_words(const std::vector<const ImportedPack*>& packs
 }
 
 /// As many single packs as leave room for the combined lines.
-std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
-    std::vector<const ImportedPack*> packs;
-    for (const ImportedPack& pack : report.packs) {
-        if (pack.outcome != ImportOutcome::Pending) {
+std::vector<NoticeLine> lines_of(const library::ImportReport& report, std::size_t most) {
+    std::vector<const library::ImportedPack*> packs;
+    for (const library::ImportedPack& pack : report.packs) {
+        if (pack.outcome != library::ImportOutcome::Pending) {
             packs.push_back(&pack);
         }
     }
     std::stable_sort(packs.begin(), packs.end(),
-                     [](const ImportedPack* a, const ImportedPack* b) { return rank_of(*a) < rank_of(*b); });
+                     [](const library::ImportedPack* a, const library::ImportedPack* b) {
+                         return rank_of(*a) < rank_of(*b);
+                     });
     std::size_t single = packs.size() <= most ? packs.size() : most;
     while (single > 0 && single < packs.size() && single + count_words(packs, single).size() > most) {
         --single;
@@ -108,47 +111,50 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
 }
 
 /// A kiosk has no shell, so only the notice tells the technician which line is wrong, and why no report was written.
-std::string remark_of(const ImportReport& report) {
-    const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
-        return pack.outcome == ImportOutcome::NotWritten ||
-               (pack.outcome == ImportOutcome::Refused &&
-                (pack.file == settings_file_name || pack.file == report_request_name));
-    });
+std::string remark_of(const library::ImportReport& report) {
+    const auto wrong =
+        std::find_if(report.packs.begin(), report.packs.end(), [](const library::ImportedPack& pack) {
+            return pack.outcome == library::ImportOutcome::NotWritten ||
+                   (pack.outcome == library::ImportOutcome::Refused &&
+                    (pack.file == library::settings_file_name || pack.file == library::report_request_name));
+        });
     return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
 }
 
 } // namespace
 
-std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal) {
+std::string_view outcome_word(library::ImportOutcome outcome, library::ImportRefusal refusal) {
     switch (outcome) {
-    case ImportOutcome::Taken:
+    case library::ImportOutcome::Taken:
         return "stick.taken";
-    case ImportOutcome::AlreadyThere:
+    case library::ImportOutcome::AlreadyThere:
         return "stick.already_there";
-    case ImportOutcome::Removed:
+    case library::ImportOutcome::Removed:
         return "stick.removed";
-    case ImportOutcome::Written:
+    case library::ImportOutcome::Written:
         return "stick.written";
-    case ImportOutcome::NotWritten:
+    case library::ImportOutcome::NotWritten:
         return "stick.not_written";
     default:
         return refusal_words.at(static_cast<std::size_t>(refusal));
     }
 }
 
-NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
+NoticeText notice_text(const library::ImportReport& report, std::size_t max_lines) {
     switch (report.stage) {
-    case ImportStage::Found:
-        return {{"stick.found"}, {}, true};
-    case ImportStage::Copying:
-        return {{"stick.copying"}, {}, true};
-    case ImportStage::MayTakeOut:
-        return {{"stick.take_out"}, {}, true};
-    case ImportStage::Done:
+    case library::ImportStage::Found:
+        return {.sentences = {"stick.found"}, .lines = {}, .ring = true};
+    case library::ImportStage::Copying:
+        return {.sentences = {"stick.copying"}, .lines = {}, .ring = true};
+    case library::ImportStage::MayTakeOut:
+        return {.sentences = {"stick.take_out"}, .lines = {}, .ring = true};
+    case library::ImportStage::Done:
         break;
-    case ImportStage::Failed: {
-        NoticeText text{{outcome_word(ImportOutcome::Refused, report.refusal)}, {}, false};
-        if (report.refusal != ImportRefusal::Unreadable) { // an unreadable stick may be out already
+    case library::ImportStage::Failed: {
+        NoticeText text{.sentences = {outcome_word(library::ImportOutcome::Refused, report.refusal)},
+                        .lines = {},
+                        .ring = false};
+        if (report.refusal != library::ImportRefusal::Unreadable) { // an unreadable stick may be out already
             text.sentences.emplace_back("stick.take_out");
         }
         text.lines = lines_of(report, max_lines);
@@ -156,7 +162,10 @@ NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
         return text;
     }
     }
-    NoticeText text{{"stick.take_out"}, lines_of(report, max_lines), false, remark_of(report)};
+    NoticeText text{.sentences = {"stick.take_out"},
+                    .lines = lines_of(report, max_lines),
+                    .ring = false,
+                    .remark = remark_of(report)};
     if (text.lines.empty()) {
         text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
     }
@@ -164,10 +173,10 @@ NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
 }
 
 NoticeText stopped_text() {
-    return {{"stick.stopped"}, {}, false};
+    return {.sentences = {"stick.stopped"}, .lines = {}, .ring = false};
 }
 
-void StickNotice::take(MonotonicTime now, const ImportReport& report, bool is_old) {
+void StickNotice::take(MonotonicTime now, const library::ImportReport& report, bool is_old) {
     const bool another = import_ == 0 || report.import_id != id_;
     if (!another && report.stage == stage_ && report.done_bytes == done_bytes_) {
         return;
@@ -193,12 +202,12 @@ void StickNotice::take(MonotonicTime now, const ImportReport& report, bool is_ol
 }
 
 bool StickNotice::stopped(MonotonicTime now) const {
-    return (stage_ == ImportStage::Copying && now - changed_ >= copy_patience) ||
-           (stage_ == ImportStage::Found && now - changed_ >= look_patience);
+    return (stage_ == library::ImportStage::Copying && now - changed_ >= copy_patience) ||
+           (stage_ == library::ImportStage::Found && now - changed_ >= look_patience);
 }
 
 double StickNotice::ring_at(MonotonicTime now) const {
-    return ring_from_ + (ring_to_ - ring_from_) * ease(to_seconds(now - changed_) / ring_follows_s);
+    return ring_from_ + (ring_to_ - ring_from_) * geometry::ease(to_seconds(now - changed_) / ring_follows_s);
 }
 
 std::optional<ShownNotice> StickNotice::at(MonotonicTime now) const {
@@ -207,8 +216,10 @@ std::optional<ShownNotice> StickNotice::at(MonotonicTime now) const {
     }
     const bool has_stopped = stopped(now);
     const MonotonicTime since =
-        has_stopped ? changed_ + (stage_ == ImportStage::Found ? look_patience : copy_patience) : changed_;
-    const bool lasts = !has_stopped && (stage_ == ImportStage::Found || stage_ == ImportStage::Copying);
+        has_stopped ? changed_ + (stage_ == library::ImportStage::Found ? look_patience : copy_patience)
+                    : changed_;
+    const bool lasts =
+        !has_stopped && (stage_ == library::ImportStage::Found || stage_ == library::ImportStage::Copying);
     if (!lasts && now - since >= told_for) {
         return std::nullopt;
     }
@@ -222,10 +233,10 @@ std::optional<ShownNotice> StickNotice::at(MonotonicTime now) const {
     if (!is_over(stage_)) {
         shown.ring = ring_at(now);
     }
-    if (stage_ == ImportStage::Found) {
+    if (stage_ == library::ImportStage::Found) {
         shown.speech = "stick.found";
-    } else if (stage_ != ImportStage::Copying &&
-               !(stage_ == ImportStage::Failed && refusal_ == ImportRefusal::Unreadable)) {
+    } else if (stage_ != library::ImportStage::Copying &&
+               !(stage_ == library::ImportStage::Failed && refusal_ == library::ImportRefusal::Unreadable)) {
         shown.speech = "stick.take_out";
     }
     return shown;
@@ -237,4 +248,4 @@ bool StickNotice::press(MonotonicTime now) {
     return shown && shown->ends_at_press;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

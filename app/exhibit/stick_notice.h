@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 /// Key of the word for a pack's outcome; `refusal` counts only for a refused pack.
-[[nodiscard]] std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal);
+[[nodiscard]] std::string_view outcome_word(library::ImportOutcome outcome, library::ImportRefusal refusal);
 
 struct NoticeLine {
     std::string
@@ -42,7 +42,8 @@ struct NoticeText {
 inline constexpr std::size_t max_notice_lines = 8;
 /// `max_lines`: with more packs than this, the rest are combined, one line for each word; these lines may exceed the
 /// limit.
-[[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t max_lines = max_notice_lines);
+[[nodiscard]] NoticeText notice_text(const library::ImportReport& report,
+                                     std::size_t max_lines = max_notice_lines);
 /// The text for a copy that has stopped.
 [[nodiscard]] NoticeText stopped_text();
 
@@ -64,7 +65,7 @@ public:
     static constexpr Nanoseconds look_patience = std::chrono::seconds(90);
 
     /// `is_old`: it ended long before the exhibit began. The same report again changes nothing.
-    void take(MonotonicTime now, const ImportReport& report, bool is_old);
+    void take(MonotonicTime now, const library::ImportReport& report, bool is_old);
     /// The notice to show; nothing: none.
     [[nodiscard]] std::optional<ShownNotice> at(MonotonicTime now) const;
     /// Ends a notice that ends at a press. True if it did.
@@ -76,12 +77,12 @@ private:
 
     std::string id_;
     std::uint64_t import_ = 0; ///< its number; 0: there was none
-    ImportStage stage_ = ImportStage::Found;
-    ImportRefusal refusal_ = ImportRefusal::None;
+    library::ImportStage stage_ = library::ImportStage::Found;
+    library::ImportRefusal refusal_ = library::ImportRefusal::None;
     std::uint64_t done_bytes_ = 0;
     MonotonicTime changed_; ///< when the report last changed
     double ring_from_ = 0.0, ring_to_ = 0.0;
     bool hidden_ = false; ///< by a press, or from the beginning
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

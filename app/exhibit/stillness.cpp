@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
-bool has_moved(const TrackedState& now, const TrackedState& then) {
-    const RigidTransform& a = now.table_from_prop;
-    const RigidTransform& b = then.table_from_prop;
+bool has_moved(const tracking::TrackedState& now, const tracking::TrackedState& then) {
+    const geometry::RigidTransform& a = now.table_from_prop;
+    const geometry::RigidTransform& b = then.table_from_prop;
     const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
     return now.prop_known != then.prop_known ||
            glm::distance(a.translation, b.translation) > Stillness::moved_m ||
@@ -19,7 +19,7 @@ bool has_moved(const TrackedState& now, const TrackedState& then) {
 
 } // namespace
 
-Nanoseconds Stillness::update(MonotonicTime now, const TrackedState& tracked_state, bool pressed) {
+Nanoseconds Stillness::update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool pressed) {
     if (!rested_ || pressed || has_moved(tracked_state, *rested_)) {
         rested_ = tracked_state;
         moved_ = now;
@@ -27,4 +27,4 @@ Nanoseconds Stillness::update(MonotonicTime now, const TrackedState& tracked_sta
     return now - moved_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

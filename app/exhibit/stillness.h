@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 class Stillness {
 public:
@@ -21,11 +21,11 @@ public:
     static constexpr double stepped_m = 0.12;
 
     /// Returns the time since the latest movement or press.
-    Nanoseconds update(MonotonicTime now, const TrackedState& tracked_state, bool pressed);
+    Nanoseconds update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool pressed);
 
 private:
-    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
+    std::optional<tracking::TrackedState> rested_; ///< poses of prop and head at the latest movement
     MonotonicTime moved_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 TableBrowser::TableBrowser(const TableSetUp& set_up) : left_out_(set_up.artifacts) {
     for (int side = 0; side < 4; ++side) {
@@ -87,9 +87,9 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
         const double signed_goal = is_under_sign(now, input, k) ? 1.0 : 0.0;
         under_sign_[k] += std::clamp(signed_goal - under_sign_[k], -step, step);
         presented_.changing = presented_.changing || presence_[k] != goal || under_sign_[k] != signed_goal;
-        picture.brightness = ease(presence_[k]) * faded.brightness *
+        picture.brightness = geometry::ease(presence_[k]) * faded.brightness *
                              place_brightness(picture.place, input.shadow) *
-                             (1.0 - (1.0 - dimmed) * ease(under_sign_[k]));
+                             (1.0 - (1.0 - dimmed) * geometry::ease(under_sign_[k]));
     }
 }
 
@@ -98,18 +98,19 @@ void TableBrowser::lighten(MonotonicTime now, const Input& input, const Faded& f
 bool TableBrowser::is_under_sign(MonotonicTime now, const Input& input, std::size_t picture) {
     constexpr Nanoseconds comes_back = std::chrono::seconds(2);
     std::optional<MonotonicTime>& signed_at = signed_at_[picture];
-    const TableRectangle whole = presented_.places[picture].place.whole();
-    if (input.sign && clearance(whole.corners(), input.sign->corners()) <= 0.0) {
+    const typography::TableRectangle whole = presented_.places[picture].place.whole();
+    if (input.sign && typography::clearance(whole.corners(), input.sign->corners()) <= 0.0) {
         signed_at = now;
     }
     return input.sign && signed_at && now - *signed_at < comes_back;
 }
 
 bool TableBrowser::is_on_picture(const std::optional<glm::dvec2>& prop_m) const {
-    const std::span<const TableRectangle> pictures = std::span(choosable_).first(choosable_count_);
+    const std::span<const typography::TableRectangle> pictures =
+        std::span(choosable_).first(choosable_count_);
     return prop_m && !dwell_.is_on_chosen() &&
-           std::any_of(pictures.begin(), pictures.end(), [&](const TableRectangle& picture) {
-               return clearance(picture.corners(), std::span(&*prop_m, 1)) <= 0.0;
+           std::any_of(pictures.begin(), pictures.end(), [&](const typography::TableRectangle& picture) {
+               return typography::clearance(picture.corners(), std::span(&*prop_m, 1)) <= 0.0;
            });
 }
 
@@ -126,4 +127,4 @@ void TableBrowser::note_choosable(std::size_t artifact) {
     choosable_holds_ = true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct PlacedPicture {
     std::optional<std::size_t> artifact; ///< index into the catalogue; nothing: leads to the next page
@@ -46,12 +46,12 @@ public:
     explicit TableBrowser(const TableSetUp& set_up);
 
     struct Input {
-        std::size_t artifact = 0;           ///< in the prop, or about to be
-        int quarter_turns = 0;              ///< the reader's side
-        std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
-        std::optional<glm::dvec2> prop_m;   ///< standing_place, while the prop is known
-        bool choose = false;                ///< pressed: chooses the picture whose ring has begun
-        std::optional<TablePolygon> sign;   ///< advice as a picture; table pictures under it dim
+        std::size_t artifact = 0;                       ///< in the prop, or about to be
+        int quarter_turns = 0;                          ///< the reader's side
+        std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
+        std::optional<glm::dvec2> prop_m;               ///< standing_place, while the prop is known
+        bool choose = false;                            ///< pressed: chooses the picture whose ring has begun
+        std::optional<typography::TablePolygon> sign;   ///< advice as a picture; table pictures under it dim
     };
     /// Returns the artifact that was chosen by resting on its picture, in that step only.
     [[nodiscard]] std::optional<std::size_t> step(MonotonicTime now, const Input& input);
@@ -66,7 +66,7 @@ public:
     /// True if the latest step chose an artifact or turned the page.
     [[nodiscard]] bool chose() const { return chose_; }
     /// The places that captions must not overlap: those of this side, empty ones too.
-    [[nodiscard]] std::span<const TableRectangle> obstacles() const {
+    [[nodiscard]] std::span<const typography::TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
     }
 
@@ -102,15 +102,15 @@ private:
     std::array<double, max_table_places> under_sign_{};                      ///< 1: dimmed
     std::array<std::optional<MonotonicTime>, max_table_places> signed_at_{}; ///< when a sign last lay on it
     Dwell dwell_;
-    std::array<TableRectangle, max_table_places> choosable_{};
+    std::array<typography::TableRectangle, max_table_places> choosable_{};
     std::array<std::size_t, max_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
     bool choosable_holds_ = false; ///< the choosable pictures match the table
     bool on_picture_ = false;
-    std::array<TableRectangle, max_table_places> obstacles_{};
+    std::array<typography::TableRectangle, max_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;
     bool chose_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

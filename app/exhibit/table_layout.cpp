@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -63,11 +63,14 @@ Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, doubl
         --most;
     }
     if (most < 2) {
-        return {0, 0.0, {}, room.caption};
+        return {.shown = 0, .score = 0.0, .found = {}, .caption = room.caption};
     }
     const std::size_t places = places_of_page(set_up.artifacts, most);
     const std::size_t shown = places - (places < set_up.artifacts ? 1 : 0);
-    Candidate candidate{shown, found[places].value - penalty, std::move(found[places]), room.caption};
+    Candidate candidate{.shown = shown,
+                        .score = found[places].value - penalty,
+                        .found = std::move(found[places]),
+                        .caption = room.caption};
     if (room.symmetric) {
         come_nearer_to_prop(room, size_of_place(candidate.found.size, set_up.title_m),
                             candidate.found.middles);
@@ -109,7 +112,7 @@ Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up) {
 
 } // namespace
 
-TableRectangle TablePlace::whole() const {
+typography::TableRectangle TablePlace::whole() const {
     const std::array<glm::dvec2, 4> below = title.corners();
     const std::array<glm::dvec2, 4> above = picture.corners();
     const double height = glm::distance(0.5 * (below[0] + below[1]), 0.5 * (above[2] + above[3]));
@@ -149,19 +152,22 @@ TableLayout lay_out_table(const TableSetUp& set_up, int quarter_turns) {
         const glm::dvec2 picture = middle + glm::dvec2(0.0, above_middle - 0.5 * size);
         const glm::dvec2 title = middle - glm::dvec2(0.0, above_middle - 0.5 * set_up.title_m.y);
         const glm::dvec2 title_size(size_of_place(size, set_up.title_m).x, set_up.title_m.y);
-        layout.places.push_back({{turned(picture, quarter_turns), glm::dvec2(size), quarter_turns},
-                                 {turned(title, quarter_turns), title_size, quarter_turns}});
+        layout.places.push_back(
+            {{typography::turned(picture, quarter_turns), glm::dvec2(size), quarter_turns},
+             {typography::turned(title, quarter_turns), title_size, quarter_turns}});
     }
     layout.has_more = layout.places.size() > 0 && best.shown < set_up.artifacts;
     if (best.caption) {
-        layout.caption = TableRectangle{turned(best.caption->centre, quarter_turns), 2.0 * best.caption->half,
-                                        quarter_turns};
+        layout.caption = typography::TableRectangle{typography::turned(best.caption->centre, quarter_turns),
+                                                    2.0 * best.caption->half, quarter_turns};
     }
     return layout;
 }
 
-double place_brightness(const TablePlace& place, const std::optional<TablePolygon>& shadow) {
-    return shadow ? ease(clearance(place.whole().corners(), shadow->corners()) / dimming_m) : 0.0;
+double place_brightness(const TablePlace& place, const std::optional<typography::TablePolygon>& shadow) {
+    return shadow
+               ? geometry::ease(typography::clearance(place.whole().corners(), shadow->corners()) / dimming_m)
+               : 0.0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

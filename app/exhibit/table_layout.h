@@ -23,23 +23,23 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline constexpr double min_table_picture_m = 0.045; ///< smaller ones are hard to recognise
 inline constexpr double max_table_picture_m = 0.10;
 inline constexpr std::size_t max_table_places = 12; ///< a page
 
 struct TablePlace {
-    TableRectangle picture; ///< square
-    TableRectangle title;   ///< below it, as the reader sees it
+    typography::TableRectangle picture; ///< square
+    typography::TableRectangle title;   ///< below it, as the reader sees it
     /// The rectangle of picture, title and the gap between.
-    [[nodiscard]] TableRectangle whole() const;
+    [[nodiscard]] typography::TableRectangle whole() const;
 };
 
 struct TableSetUp {
     std::size_t artifacts = 0;         ///< of the whole set
     std::vector<glm::dvec2> picture_m; ///< the part of the table that the projector's picture covers, convex
-    PropShape prop;
+    geometry::PropShape prop;
     glm::dvec3 lens_m{0.0};
     glm::dvec2 home_m{0.0};           ///< the prop's resting place, upright
     glm::dvec2 title_m{0.070, 0.022}; ///< two lines of the smallest type
@@ -51,7 +51,7 @@ struct TableLayout {
     std::vector<TablePlace> places; ///< of a page; empty for a single artifact, or if no two fit
     bool has_more = false;          ///< the last place leads to the next page
     std::size_t artifacts = 0;
-    std::optional<TableRectangle> caption; ///< the area left for it
+    std::optional<typography::TableRectangle> caption; ///< the area left for it
 
     [[nodiscard]] std::size_t artifacts_on_page() const { return places.size() - (has_more ? 1 : 0); }
     [[nodiscard]] std::size_t pages() const;
@@ -66,6 +66,7 @@ struct TableLayout {
 
 /// Brightness of a place beside the prop's shadow, 0..1, a factor on linear light: 1 beyond 12 mm, 0 at contact, so
 /// that no picture lies on the prop. Without a shadow the prop may be anywhere, and the place is dark.
-[[nodiscard]] double place_brightness(const TablePlace& place, const std::optional<TablePolygon>& shadow);
+[[nodiscard]] double place_brightness(const TablePlace& place,
+                                      const std::optional<typography::TablePolygon>& shadow);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -127,7 +127,7 @@ void keep_if_better(FoundPlaces& best, const Lattice& lattice, std::size_t n, st
         return;
     }
     middles.resize(n);
-    best = {lattice.size, value, cost, std::move(middles)};
+    best = {.size = lattice.size, .value = value, .cost = cost, .middles = std::move(middles)};
 }
 
 /// For every n, keeps the best of the lattice if it beats `found`: pairs and, for the rest, singles.
@@ -247,4 +247,4 @@ void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline constexpr double table_gap_m = 0.012;       ///< between neighbours
 inline constexpr double table_title_gap_m = 0.004; ///< between a picture and its title
@@ -47,4 +47,4 @@ using FoundByCount = std::array<FoundPlaces, max_table_places + 1>;
 /// Moves pictures on both sides of the prop to the middle between the prop and the edge.
 void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::vector<glm::dvec2>& middles);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

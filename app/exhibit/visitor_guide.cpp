@@ -1,19 +1,20 @@
 #include "app/exhibit/visitor_guide.h"
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
-VisitorGuide::VisitorGuide(const std::optional<GuidanceSetup>& setup)
-    : guide_(setup ? std::optional<Guide>(*setup) : std::nullopt) {}
+VisitorGuide::VisitorGuide(const std::optional<guidance::GuidanceSetup>& setup)
+    : guide_(setup ? std::optional<guidance::Guide>(*setup) : std::nullopt) {}
 
 void VisitorGuide::step(MonotonicTime now, const VisitorGuideInput& input) {
     guidance_ = guide(now, input);
 }
 
-const Guidance* VisitorGuide::guide(MonotonicTime now, const VisitorGuideInput& input) {
+const guidance::Guidance* VisitorGuide::guide(MonotonicTime now, const VisitorGuideInput& input) {
     answers_ = false;
-    const TrackedState& tracked_state = input.tracked_state;
-    const Sensing sensing = sensed_.update(now, tracked_state, input.lost, input.presence.touched());
-    const bool on_way = sensing == Sensing::Good && is_on_way_to_picture(now, input);
+    const tracking::TrackedState& tracked_state = input.tracked_state;
+    const guidance::Sensing sensing =
+        sensed_.update(now, tracked_state, input.lost, input.presence.touched());
+    const bool on_way = sensing == guidance::Sensing::Good && is_on_way_to_picture(now, input);
     const bool can_be_guided = input.lost || (tracked_state.prop_known && !input.stand.attracts);
     if (!guide_ || !input.presence.is_there() || !can_be_guided || !input.permitted) {
         return nullptr;
@@ -29,10 +30,10 @@ const Guidance* VisitorGuide::guide(MonotonicTime now, const VisitorGuideInput& 
         guide_->rest(now);
         return nullptr;
     }
-    const Guidance& guidance =
+    const guidance::Guidance& guidance =
         guide_->step(now, {tracked_state.table_from_prop, tracked_state.eye_m}, sensing, input.may_speak);
     answers_ = input.help && guide_->answers();
-    return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
+    return guidance.stage != guidance::GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
 /// True while the prop slides between pictures, on the way to one and back: new advice waits until the prop stands,
@@ -62,4 +63,4 @@ void VisitorGuide::drop_artifact() {
     answers_ = false;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

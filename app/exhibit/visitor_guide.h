@@ -14,10 +14,10 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct VisitorGuideInput {
-    const TrackedState& tracked_state;
+    const tracking::TrackedState& tracked_state;
     const Stand& stand;
     const Presence& presence;
     bool lost = false;                   ///< the prop's pose has been unknown for a while
@@ -31,11 +31,11 @@ struct VisitorGuideInput {
 class VisitorGuide {
 public:
     /// `setup`: none: no guidance.
-    explicit VisitorGuide(const std::optional<GuidanceSetup>& setup);
+    explicit VisitorGuide(const std::optional<guidance::GuidanceSetup>& setup);
 
     void step(MonotonicTime now, const VisitorGuideInput& input);
     /// Of the latest step; null: there is no visitor to guide, or nothing to correct.
-    [[nodiscard]] const Guidance* guidance() const { return guidance_; }
+    [[nodiscard]] const guidance::Guidance* guidance() const { return guidance_; }
     /// True while advice for the visitor who asked for help is being searched.
     [[nodiscard]] bool answers() const { return answers_; }
     /// Forgets the visitor, who has gone.
@@ -44,14 +44,14 @@ public:
     void drop_artifact();
 
 private:
-    [[nodiscard]] const Guidance* guide(MonotonicTime now, const VisitorGuideInput& input);
+    [[nodiscard]] const guidance::Guidance* guide(MonotonicTime now, const VisitorGuideInput& input);
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now, const VisitorGuideInput& input);
 
     Sensed sensed_;
-    std::optional<Guide> guide_;
-    const Guidance* guidance_ = nullptr;
+    std::optional<guidance::Guide> guide_;
+    const guidance::Guidance* guidance_ = nullptr;
     std::optional<MonotonicTime> way_since_; ///< since when the prop has been moving
     bool answers_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

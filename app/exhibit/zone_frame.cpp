@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 namespace {
 
@@ -17,7 +17,7 @@ constexpr double arm_m = 0.1;      ///< metres past the border for each radian o
 
 } // namespace
 
-ZoneFrame::ZoneFrame(const Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m)
+ZoneFrame::ZoneFrame(const settings::Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m)
     : axis_(axis), shown_(axis.half_m.x > 0.0 || axis.half_m.y > 0.0) {
     const glm::dvec2 edge = 0.5 * table_m;
     const glm::dvec2 low = glm::max(axis.centre_m - axis.half_m - half_bottom_m, -edge);
@@ -25,13 +25,14 @@ ZoneFrame::ZoneFrame(const Rectangle& axis, double half_bottom_m, const glm::dve
     const glm::dvec2 middle = 0.5 * (low + high);
     const glm::dvec2 size = high - low;
     const double inset = 0.5 * zone_line_m;
-    sides_ = {TableRectangle{{middle.x, low.y + inset}, {size.x, zone_line_m}},
-              TableRectangle{{middle.x, high.y - inset}, {size.x, zone_line_m}},
-              TableRectangle{{low.x + inset, middle.y}, {zone_line_m, size.y - 2.0 * zone_line_m}},
-              TableRectangle{{high.x - inset, middle.y}, {zone_line_m, size.y - 2.0 * zone_line_m}}};
+    sides_ = {
+        typography::TableRectangle{{middle.x, low.y + inset}, {size.x, zone_line_m}},
+        typography::TableRectangle{{middle.x, high.y - inset}, {size.x, zone_line_m}},
+        typography::TableRectangle{{low.x + inset, middle.y}, {zone_line_m, size.y - 2.0 * zone_line_m}},
+        typography::TableRectangle{{high.x - inset, middle.y}, {zone_line_m, size.y - 2.0 * zone_line_m}}};
 }
 
-double ZoneFrame::share(const RigidTransform& table_from_prop) const {
+double ZoneFrame::share(const geometry::RigidTransform& table_from_prop) const {
     if (!shown_) {
         return 0.0;
     }
@@ -39,7 +40,7 @@ double ZoneFrame::share(const RigidTransform& table_from_prop) const {
     const glm::dvec2 past = glm::abs(glm::dvec2(at) - axis_.centre_m) - axis_.half_m;
     const double upright = std::clamp(table_from_prop.direction({0.0, 0.0, 1.0}).z, -1.0, 1.0);
     const double past_m = std::max({past.x, past.y, at.z - lifted_m, arm_m * (std::acos(upright) - tilted)});
-    return ease((past_m + begins_m) / (begins_m + whole_m));
+    return geometry::ease((past_m + begins_m) / (begins_m + whole_m));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -13,7 +13,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline constexpr double zone_line_m = 0.003;
 /// Brightness of the frame relative to a caption's.
@@ -23,18 +23,18 @@ class ZoneFrame {
 public:
     /// `axis`: the zone of the prop's axis; `half_bottom_m`: half the side of the prop's bottom. `table`: width,
     /// depth; the frame never extends past its edges. An empty zone has no frame.
-    ZoneFrame(const Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m);
+    ZoneFrame(const settings::Rectangle& axis, double half_bottom_m, const glm::dvec2& table_m);
     ZoneFrame() = default;
 
     /// The frame's brightness, 0..1.
-    [[nodiscard]] double share(const RigidTransform& table_from_prop) const;
+    [[nodiscard]] double share(const geometry::RigidTransform& table_from_prop) const;
     /// The frame's four sides.
-    [[nodiscard]] const std::array<TableRectangle, 4>& sides() const { return sides_; }
+    [[nodiscard]] const std::array<typography::TableRectangle, 4>& sides() const { return sides_; }
 
 private:
-    Rectangle axis_;
+    settings::Rectangle axis_;
     bool shown_ = false;
-    std::array<TableRectangle, 4> sides_{};
+    std::array<typography::TableRectangle, 4> sides_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 glm::dmat4 eye_onto_plane(const Plane& plane, const glm::dvec3& eye) {
     const glm::dvec3& n = plane.normal;
@@ -55,4 +55,4 @@ std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye
     return clip * (1.0 / greatest);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -21,7 +21,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// Homogeneous 4x4 of S(X) above.
 [[nodiscard]] glm::dmat4 eye_onto_plane(const Plane& plane, const glm::dvec3& eye);
@@ -48,4 +48,4 @@ inline constexpr double min_sine = 1e-3;
                                                      const glm::dmat4& projector_clip_from_frame,
                                                      const Box& box);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

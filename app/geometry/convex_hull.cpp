@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 namespace {
 
@@ -298,4 +298,4 @@ std::vector<glm::dvec3> enclosing_corners(std::span<const glm::dvec3> points, st
     return solid_around(thick, most, flat).value_or(corners_of(box));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// `most`: number of corners, at least 8. Points on a plane or a line give a nearly flat solid.
 [[nodiscard]] std::vector<glm::dvec3> enclosing_corners(std::span<const glm::dvec3> points, std::size_t most);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -1,6 +1,6 @@
 #include "app/geometry/face_rays.h"
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 FaceRays face_rays(const PropFace& face, const Pinhole& projector, const RigidTransform& prop_from_projector,
                    const glm::dvec3& eye_m) {
@@ -19,4 +19,4 @@ FaceRays face_rays(const PropFace& face, const Pinhole& projector, const RigidTr
     return rays;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -17,7 +17,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 struct FaceRays {
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): not positive inside the face
@@ -27,4 +27,4 @@ struct FaceRays {
 [[nodiscard]] FaceRays face_rays(const PropFace& face, const Pinhole& projector,
                                  const RigidTransform& prop_from_projector, const glm::dvec3& eye_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 double Lens::fold_r2() const {
     // 1 + 3 k1 q + 5 k2 q^2 = 0, solved for 1/q, so that k2 = 0 is no special case.
@@ -73,4 +73,4 @@ double Lens::area_factor(double r2) const {
     return radial_factor(r2, k1, k2) * (1.0 + r2 * (3.0 * k1 + 5.0 * k2 * r2));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

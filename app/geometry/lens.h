@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 struct Lens {
     double k1 = 0.0;
@@ -37,4 +37,4 @@ template <typename T> [[nodiscard]] T radial_factor(const T& r2, const T& k1, co
     return T(1.0) + r2 * (k1 + k2 * r2);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

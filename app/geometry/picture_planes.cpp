@@ -1,6 +1,6 @@
 #include "app/geometry/picture_planes.h"
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 std::array<Plane, 4> picture_planes(const Pinhole& pinhole, const RigidTransform& to_from_pinhole) {
     const std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(pinhole.width, 0),
@@ -19,4 +19,4 @@ std::array<Plane, 4> picture_planes(const Pinhole& pinhole, const RigidTransform
     return planes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -12,10 +12,10 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// Normals point into the picture: top, right, bottom, left.
 [[nodiscard]] std::array<Plane, 4> picture_planes(const Pinhole& pinhole,
                                                   const RigidTransform& to_from_pinhole);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 std::optional<glm::dvec2> Pinhole::pixel(const glm::dvec3& point) const {
     if (!(point.z > 0.0)) {
@@ -54,7 +54,13 @@ void Pinhole::bend_around(glm::dvec2& low, glm::dvec2& high) const {
 Pinhole Pinhole::scaled_to(int new_width, int new_height) const {
     const double sx = static_cast<double>(new_width) / width;
     const double sy = static_cast<double>(new_height) / height;
-    return {new_width, new_height, fx * sx, fy * sy, cx * sx, cy * sy, lens};
+    return {.width = new_width,
+            .height = new_height,
+            .fx = fx * sx,
+            .fy = fy * sy,
+            .cx = cx * sx,
+            .cy = cy * sy,
+            .lens = lens};
 }
 
 glm::dmat4 Pinhole::clip_from_point() const {
@@ -68,4 +74,4 @@ glm::dmat4 Pinhole::clip_from_point() const {
     return clip;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -12,7 +12,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 struct Pinhole {
     int width = 0;
@@ -47,4 +47,4 @@ struct Pinhole {
     [[nodiscard]] glm::dmat4 clip_from_point() const;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

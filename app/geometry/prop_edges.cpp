@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 namespace {
 
@@ -23,4 +23,4 @@ const PropFace* neighbour_of(const PropShape& prop, const PropFace& face, std::s
     return nullptr;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

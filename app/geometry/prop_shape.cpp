@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 namespace {
 
@@ -99,4 +99,4 @@ double largest_scale_inside(const PropShape& prop, std::span<const glm::dvec3> p
     return scale;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

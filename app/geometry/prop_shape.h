@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// A plane n.x = offset with a unit normal.
 struct Plane {
@@ -68,4 +68,4 @@ struct PropHit {
 /// be at z = 0, and they must be centred on the prop's axis. Infinite without points.
 [[nodiscard]] double largest_scale_inside(const PropShape& prop, std::span<const glm::dvec3> points);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -8,7 +8,7 @@
 
 #include "app/geometry/transform.h"
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 struct Registration {
     RigidTransform table_from_tracker{};
@@ -16,4 +16,4 @@ struct Registration {
     glm::dvec3 eye_in_sensor_m{0.0};   ///< the point between the eyes, in the head's sensor
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 [[nodiscard]] inline double rotation_angle(const glm::dquat& a, const glm::dquat& b) {
     return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// `direction`: of any length.
 [[nodiscard]] inline std::optional<glm::dvec2> meets_table(const glm::dvec3& origin,
@@ -29,4 +29,4 @@ lights_table(const Pinhole& projector, const RigidTransform& table_from_projecto
                        table_from_projector.direction(projector.ray(pixel)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 double follow_share(double dt_s, double time_constant_s) {
     if (!(dt_s > 0.0)) {
@@ -24,4 +24,4 @@ double ease(double x) {
     return x * x * (3.0 - 2.0 * x);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

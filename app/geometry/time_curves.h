@@ -6,7 +6,7 @@
 /// Errors   none: time that stands still, goes back or is not a number changes nothing.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 /// Share of the way to its goal that a first-order follower covers in `dt_s`: 1 - exp(-dt / time constant),
 /// the exact solution of x' = (goal - x) / time constant for a constant goal. Two steps end where one step of
@@ -20,4 +20,4 @@ namespace frustumscreen {
 /// ease(x), so that a fade can reverse without a jump. Its slope is at most 1.5.
 [[nodiscard]] double ease(double x);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 RigidTransform RigidTransform::inverse() const {
     const glm::dquat inverse_rotation = glm::conjugate(rotation);
@@ -56,4 +56,4 @@ std::optional<glm::dquat> normalised(const glm::dquat& q) {
     return glm::normalize(q / largest);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 struct RigidTransform {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -32,4 +32,4 @@ struct RigidTransform {
 /// A unit quaternion from any finite, non-zero one; otherwise nullopt.
 [[nodiscard]] std::optional<glm::dquat> normalised(const glm::dquat& q);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

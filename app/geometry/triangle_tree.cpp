@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 namespace {
 
@@ -94,9 +94,10 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> positions, std::span<const
 
 void TriangleTree::build(std::size_t begin, std::size_t end) {
     const std::size_t own = nodes_.size();
-    Node node{glm::vec3(std::numeric_limits<float>::infinity()),
-              glm::vec3(-std::numeric_limits<float>::infinity()), static_cast<std::uint32_t>(begin),
-              static_cast<std::uint32_t>(end - begin)};
+    Node node{.low = glm::vec3(std::numeric_limits<float>::infinity()),
+              .high = glm::vec3(-std::numeric_limits<float>::infinity()),
+              .first = static_cast<std::uint32_t>(begin),
+              .count = static_cast<std::uint32_t>(end - begin)};
     for (std::size_t k = begin; k < end; ++k) {
         for (const glm::vec3& corner : triangles_[k].corners) {
             node.low = glm::min(node.low, corner);
@@ -153,4 +154,4 @@ bool TriangleTree::meets(const glm::dvec3& from, const glm::dvec3& to) const {
     return false;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 class TriangleTree {
 public:
@@ -54,4 +54,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -27,9 +27,10 @@ template <typename Visit> bool for_each_angle(const Move& move, double margin, V
             const double share = margin * k / to_each_side;
             for (const bool about_origin : {false, true}) {
                 if ((k % coarse == 0) == coarsely &&
-                    !visit(Execution{turns ? 1.0 + sloppy_amount * share : 1.0,
-                                     turns ? 0.0 : sloppy_direction_deg * degree * share, 0.0,
-                                     about_origin})) {
+                    !visit(Execution{.amount = turns ? 1.0 + sloppy_amount * share : 1.0,
+                                     .aside_rad = turns ? 0.0 : sloppy_direction_deg * degree * share,
+                                     .raised_rad = 0.0,
+                                     .about_origin = about_origin})) {
                     return false;
                 }
             }
@@ -75,8 +76,10 @@ void for_each_way(const Move& move, const GuidanceSetup& setup, double margin, V
     for (const double amount : amounts) {
         for (const double aside : sides) {
             for (const double rise : {0.0, -1.0, 1.0, -0.5, 0.5}) {
-                if ((rise == 0.0 || raised) && !visit(Execution{1.0 + margin * sloppy_amount * amount,
-                                                                aside_rad * aside, off_rad * rise})) {
+                if ((rise == 0.0 || raised) &&
+                    !visit(Execution{.amount = 1.0 + margin * sloppy_amount * amount,
+                                     .aside_rad = aside_rad * aside,
+                                     .raised_rad = off_rad * rise})) {
                     return;
                 }
             }
@@ -123,11 +126,11 @@ bool GivenAdvice::holds(const GuidedState& tracked_state) const {
     constexpr double begun_m = 0.03;
     constexpr double begun_rad = 10.0 * degree;
     constexpr double walked_m = 0.1;
-    const RigidTransform& now = tracked_state.table_from_prop;
-    const RigidTransform& then = given.table_from_prop;
+    const geometry::RigidTransform& now = tracked_state.table_from_prop;
+    const geometry::RigidTransform& then = given.table_from_prop;
     return glm::distance(now.translation, then.translation) < begun_m &&
-           rotation_angle(now.rotation, then.rotation) < begun_rad &&
+           geometry::rotation_angle(now.rotation, then.rotation) < begun_rad &&
            glm::distance(tracked_state.eye_m, given.eye_m) < walked_m;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -7,7 +7,7 @@
 #include "app/guidance/face_reader.h"
 #include "app/guidance/move.h"
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 inline constexpr double sloppy_direction_deg = 20.0;
 inline constexpr double sloppy_amount = 0.4;
@@ -33,4 +33,4 @@ struct Help {
 [[nodiscard]] Help help_of(const FaceReader& reader, const GuidedState& tracked_state, const Move& move,
                            double margin = 1.0, int* looks = nullptr);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

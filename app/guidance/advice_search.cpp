@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -227,4 +227,4 @@ double AdviceSearch::min_effort(const FaceReader& reader, const GuidedState& fro
     return least;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

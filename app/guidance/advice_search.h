@@ -18,7 +18,7 @@
 #include <limits>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 class AdviceSearch {
 public:
@@ -77,4 +77,4 @@ private:
     std::size_t try_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -1,6 +1,6 @@
 #include "app/guidance/advise.h"
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 std::optional<Advice> advise(const FaceReader& reader, const GuidedState& tracked_state,
                              const std::optional<GivenAdvice>& standing) {
@@ -34,4 +34,4 @@ std::optional<Advice> Advisor::advise(const GuidedState& tracked_state) {
     return search_.found();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

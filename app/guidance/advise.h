@@ -22,7 +22,7 @@
 #include <span>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 /// Nothing if the artifact is whole. Action::Wait: no sequence of up to four moves was found.
 [[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedState& tracked_state,
@@ -49,4 +49,4 @@ private:
     AdviceSearch search_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

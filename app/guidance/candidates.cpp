@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -169,4 +169,4 @@ Candidates candidates(const GuidanceSetup& setup, const GuidedState& tracked_sta
     return candidates;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

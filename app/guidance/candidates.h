@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 struct Candidate {
     Move move;
@@ -45,4 +45,4 @@ enum class MoveSet { Only, Last, Inner };
 [[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedState& tracked_state,
                                     MoveSet set);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

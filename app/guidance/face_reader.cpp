@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -16,13 +16,13 @@ namespace {
 constexpr double nearest_share = 0.01;
 
 /// The direction from the eye to the prop's middle.
-glm::dvec3 forward_from(const glm::dvec3& eye, const PropShape& prop) {
+glm::dvec3 forward_from(const glm::dvec3& eye, const geometry::PropShape& prop) {
     const glm::dvec3 way = prop.middle - eye;
     return way / std::fmax(glm::length(way), 1e-9);
 }
 
 /// The sine at a corner is the height over the plane divided by the corner's distance.
-bool sees(const glm::dvec3& point, const PropFace& face, double min_sine) {
+bool sees(const glm::dvec3& point, const geometry::PropFace& face, double min_sine) {
     const double height = face.plane.distance(point);
     if (!(height > 0.0)) {
         return false;
@@ -39,23 +39,23 @@ bool sees(const glm::dvec3& point, const PropFace& face, double min_sine) {
 struct Views {
     glm::dvec3 eye;
     glm::dvec3 lens;
-    RigidTransform projector_from_prop;
+    geometry::RigidTransform projector_from_prop;
 
-    Views(const GuidanceSetup& setup, const RigidTransform& projector_from_table,
+    Views(const GuidanceSetup& setup, const geometry::RigidTransform& projector_from_table,
           const GuidedState& tracked_state)
         : projector_from_prop(projector_from_table * tracked_state.table_from_prop) {
-        const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+        const geometry::RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
         eye = prop_from_table.point(tracked_state.eye_m);
         lens = prop_from_table.point(setup.table_from_projector.translation);
     }
-    [[nodiscard]] bool seen(const PropFace& face) const {
+    [[nodiscard]] bool seen(const geometry::PropFace& face) const {
         return sees(eye, face, FaceReader::min_sine_of_sight);
     }
-    [[nodiscard]] bool turned_to_light(const PropFace& face, const GuidanceSetup& setup) const {
+    [[nodiscard]] bool turned_to_light(const geometry::PropFace& face, const GuidanceSetup& setup) const {
         return sees(lens, face, setup.min_sine_of_light);
     }
-    [[nodiscard]] bool lit(const PropFace& face, const GuidanceSetup& setup) const {
-        const Pinhole& pinhole = setup.projector;
+    [[nodiscard]] bool lit(const geometry::PropFace& face, const GuidanceSetup& setup) const {
+        const geometry::Pinhole& pinhole = setup.projector;
         return turned_to_light(face, setup) &&
                std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
                    const auto pixel = pinhole.pixel(projector_from_prop.point(corner));
@@ -65,14 +65,14 @@ struct Views {
     }
     /// Calls `visit` with disjoint parts that together are the face's unlit area, until it returns false.
     template <typename Visit>
-    bool for_each_unlit(const PropFace& face, const GuidanceSetup& setup, const std::array<Plane, 4>& picture,
-                        const Visit& visit) const {
+    bool for_each_unlit(const geometry::PropFace& face, const GuidanceSetup& setup,
+                        const std::array<geometry::Plane, 4>& picture, const Visit& visit) const {
         FacePart rest(face.corners);
         if (!turned_to_light(face, setup)) {
             return visit(rest);
         }
-        for (const Plane& edge : picture) {
-            const Plane inward = in_prop(edge);
+        for (const geometry::Plane& edge : picture) {
+            const geometry::Plane inward = in_prop(edge);
             const FacePart outside = rest.clipped(-inward.normal, -inward.offset);
             if (!outside.empty() && !visit(outside)) {
                 return false;
@@ -84,7 +84,7 @@ struct Views {
 
 private:
     /// A plane through the lens, from the projector's frame.
-    [[nodiscard]] Plane in_prop(const Plane& plane) const {
+    [[nodiscard]] geometry::Plane in_prop(const geometry::Plane& plane) const {
         const glm::dvec3 normal = glm::conjugate(projector_from_prop.rotation) * plane.normal;
         return {normal, glm::dot(normal, lens)};
     }
@@ -94,7 +94,7 @@ private:
 
 FaceReader::FaceReader(GuidanceSetup setup)
     : setup_(std::move(setup)), projector_from_table_(setup_.table_from_projector.inverse()),
-      picture_(picture_planes(setup_.projector, RigidTransform())) {
+      picture_(geometry::picture_planes(setup_.projector, geometry::RigidTransform())) {
     assert(setup_.prop.faces.size() <= 32);
 }
 
@@ -102,7 +102,7 @@ FaceSets FaceReader::read(const GuidedState& tracked_state) const {
     const Views views(setup_, projector_from_table_, tracked_state);
     FaceSets sets;
     for (std::size_t k = 0; k < setup_.prop.faces.size(); ++k) {
-        const PropFace& face = setup_.prop.faces[k];
+        const geometry::PropFace& face = setup_.prop.faces[k];
         sets.seen |= views.seen(face) ? std::uint32_t{1} << k : 0U;
         sets.lit |= views.lit(face, setup_) ? std::uint32_t{1} << k : 0U;
     }
@@ -111,8 +111,9 @@ FaceSets FaceReader::read(const GuidedState& tracked_state) const {
 
 bool FaceReader::valid(const GuidedState& tracked_state) const {
     const Views views(setup_, projector_from_table_, tracked_state);
-    return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(),
-                       [&](const PropFace& face) { return !views.seen(face) || views.lit(face, setup_); });
+    return std::all_of(
+        setup_.prop.faces.begin(), setup_.prop.faces.end(),
+        [&](const geometry::PropFace& face) { return !views.seen(face) || views.lit(face, setup_); });
 }
 
 bool FaceReader::whole(const GuidedState& tracked_state) const {
@@ -121,12 +122,13 @@ bool FaceReader::whole(const GuidedState& tracked_state) const {
         return valid(tracked_state);
     }
     const Views views(setup_, projector_from_table_, tracked_state);
-    return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(), [&](const PropFace& face) {
-        return !views.seen(face) || views.lit(face, setup_) ||
-               views.for_each_unlit(face, setup_, picture_, [&](const FacePart& unlit) {
-                   return !sees_through(views.eye, unlit, hull);
-               });
-    });
+    return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(),
+                       [&](const geometry::PropFace& face) {
+                           return !views.seen(face) || views.lit(face, setup_) ||
+                                  views.for_each_unlit(face, setup_, picture_, [&](const FacePart& unlit) {
+                                      return !sees_through(views.eye, unlit, hull);
+                                  });
+                       });
 }
 
 double FaceReader::lost_px(const GuidedState& tracked_state) const {
@@ -137,7 +139,7 @@ double FaceReader::lost_px(const GuidedState& tracked_state) const {
     const Views views(setup_, projector_from_table_, tracked_state);
     const SeenOutline outline(views.eye, forward_from(views.eye, setup_.prop), hull);
     double area = 0.0;
-    for (const PropFace& face : setup_.prop.faces) {
+    for (const geometry::PropFace& face : setup_.prop.faces) {
         if (!views.seen(face) || views.lit(face, setup_)) {
             continue;
         }
@@ -153,7 +155,7 @@ double FaceReader::area_px(const GuidedState& tracked_state, std::uint32_t faces
     if (faces == 0) {
         return 0.0;
     }
-    const PropShape& prop = setup_.prop;
+    const geometry::PropShape& prop = setup_.prop;
     const glm::dvec3 eye = tracked_state.table_from_prop.inverse().point(tracked_state.eye_m);
     const glm::dvec3 way = prop.middle - eye;
     const double distance = std::fmax(glm::length(way), 1e-9);
@@ -197,4 +199,4 @@ std::uint32_t FaceReader::largest_of(const GuidedState& tracked_state, std::uint
     return largest;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -26,13 +26,13 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 /// The environment of guidance: the prop, its light and its room to move.
 struct GuidanceSetup {
-    PropShape prop;
-    Pinhole projector;
-    RigidTransform table_from_projector;
+    geometry::PropShape prop;
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector;
     double min_sine_of_light = 0.035;
     bool in_hand = false; ///< false: the prop stands on the table, whose edges limit its way
     glm::dvec2 half_table_m{0.4, 0.25};
@@ -42,7 +42,7 @@ struct GuidanceSetup {
 };
 
 struct GuidedState {
-    RigidTransform table_from_prop;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
 };
 
@@ -93,9 +93,9 @@ public:
 
 private:
     GuidanceSetup setup_;
-    RigidTransform projector_from_table_;
-    std::array<Plane, 4> picture_; ///< projector's frame
+    geometry::RigidTransform projector_from_table_;
+    std::array<geometry::Plane, 4> picture_; ///< projector's frame
     std::optional<std::span<const glm::dvec3>> shown_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

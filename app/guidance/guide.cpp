@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -33,10 +33,10 @@ bool has_moved(const GuidedState& now, const GuidedState& then) {
     constexpr double moved_m = 0.004;
     constexpr double turned_rad = 0.03;
     constexpr double looked_around_m = 0.02;
-    const RigidTransform& a = now.table_from_prop;
-    const RigidTransform& b = then.table_from_prop;
+    const geometry::RigidTransform& a = now.table_from_prop;
+    const geometry::RigidTransform& b = then.table_from_prop;
     return glm::distance(a.translation, b.translation) > moved_m ||
-           rotation_angle(a.rotation, b.rotation) > turned_rad ||
+           geometry::rotation_angle(a.rotation, b.rotation) > turned_rad ||
            glm::distance(now.eye_m, then.eye_m) > looked_around_m;
 }
 
@@ -274,4 +274,4 @@ std::string_view words_key(const Guidance& guidance) {
     return "wait_tracker";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -19,7 +19,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 /// How well the tracker knows the prop and the visitor. A lost prop takes priority over everything else; a lost head
 /// and metal are reported only when every seen face is lit.
@@ -109,4 +109,4 @@ private:
 /// Key of the sentence in the exhibit's own texts (assets_baked/texts/words), in the visitor's own directions.
 [[nodiscard]] std::string_view words_key(const Guidance& guidance);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

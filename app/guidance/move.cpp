@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -17,15 +17,15 @@ glm::dquat about_vertical(double angle_rad) {
 }
 
 /// Turns the prop about a point of its own, given in the prop's frame.
-RigidTransform turned(const RigidTransform& table_from_prop, const glm::dquat& turn,
-                      const glm::dvec3& fixed) {
+geometry::RigidTransform turned(const geometry::RigidTransform& table_from_prop, const glm::dquat& turn,
+                                const glm::dvec3& fixed) {
     const glm::dvec3 place = table_from_prop.point(fixed);
     const glm::dquat rotation = turn * table_from_prop.rotation;
     return {rotation, place - rotation * fixed};
 }
 
 /// The shortest turn that brings the prop's axis to the vertical.
-glm::dquat to_upright(const RigidTransform& table_from_prop) {
+glm::dquat to_upright(const geometry::RigidTransform& table_from_prop) {
     const glm::dvec3 axis = table_from_prop.direction(up);
     const glm::dvec3 across = glm::cross(axis, up);
     const double sine = glm::length(across);
@@ -54,15 +54,16 @@ glm::dvec3 way_of(const Move& move, const Execution& execution) {
 }
 
 /// A hand cannot push the prop into the table.
-void keep_above_table(const PropShape& prop, RigidTransform& table_from_prop) {
+void keep_above_table(const geometry::PropShape& prop, geometry::RigidTransform& table_from_prop) {
     table_from_prop.translation.z += std::fmax(0.0, -lowest_m(prop, table_from_prop));
 }
 
-RigidTransform standing(const Move& move, const GuidanceSetup& setup, const RigidTransform& table_from_prop,
-                        const Execution& execution) {
+geometry::RigidTransform standing(const Move& move, const GuidanceSetup& setup,
+                                  const geometry::RigidTransform& table_from_prop,
+                                  const Execution& execution) {
     const glm::dquat turn = about_vertical(execution.aside_rad) * to_upright(table_from_prop);
     if (setup.in_hand) {
-        RigidTransform held =
+        geometry::RigidTransform held =
             turned(table_from_prop, turn, execution.about_origin ? glm::dvec3(0.0) : setup.prop.middle);
         held.translation += way_of(move, execution);
         return held;
@@ -111,7 +112,7 @@ bool alike(const Move& a, const Move& b) {
 GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedState& before,
                   const Execution& execution) {
     GuidedState tracked_state = before;
-    RigidTransform& pose = tracked_state.table_from_prop;
+    geometry::RigidTransform& pose = tracked_state.table_from_prop;
     switch (move.action) {
     case Action::Slide:
     case Action::Raise:
@@ -142,12 +143,12 @@ GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedStat
     return tracked_state;
 }
 
-double tilt_rad(const RigidTransform& table_from_prop) {
+double tilt_rad(const geometry::RigidTransform& table_from_prop) {
     const glm::dvec3 axis = table_from_prop.direction(up);
     return std::atan2(std::hypot(axis.x, axis.y), axis.z);
 }
 
-double lowest_m(const PropShape& prop, const RigidTransform& table_from_prop) {
+double lowest_m(const geometry::PropShape& prop, const geometry::RigidTransform& table_from_prop) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : prop.corners) {
         lowest = std::fmin(lowest, table_from_prop.point(corner).z);
@@ -155,9 +156,9 @@ double lowest_m(const PropShape& prop, const RigidTransform& table_from_prop) {
     return lowest;
 }
 
-bool over_table(const GuidanceSetup& setup, const RigidTransform& table_from_prop) {
+bool over_table(const GuidanceSetup& setup, const geometry::RigidTransform& table_from_prop) {
     const glm::dvec2 place(table_from_prop.translation);
     return std::abs(place.x) <= setup.half_table_m.x && std::abs(place.y) <= setup.half_table_m.y;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

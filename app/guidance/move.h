@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 enum class Action : std::uint8_t { Slide, Turn, SetDown, Upright, ComeRound, Raise, Lower, Wait };
 /// As in `frustumscreen guide --json`: slide, turn, set_down, upright, come_round, raise, lower, wait.
@@ -52,10 +52,11 @@ struct Execution {
 /// A prop that leans less than this counts as upright, within a tracker's accuracy: 3.4 degrees.
 inline constexpr double upright_within_rad = 0.06;
 /// The angle between the prop's axis and the vertical.
-[[nodiscard]] double tilt_rad(const RigidTransform& table_from_prop);
+[[nodiscard]] double tilt_rad(const geometry::RigidTransform& table_from_prop);
 /// Height of the prop's lowest corner over the table.
-[[nodiscard]] double lowest_m(const PropShape& prop, const RigidTransform& table_from_prop);
+[[nodiscard]] double lowest_m(const geometry::PropShape& prop,
+                              const geometry::RigidTransform& table_from_prop);
 /// True if the prop's axis lies over the table. A prop that is already off the table may stay off it.
-[[nodiscard]] bool over_table(const GuidanceSetup& setup, const RigidTransform& table_from_prop);
+[[nodiscard]] bool over_table(const GuidanceSetup& setup, const geometry::RigidTransform& table_from_prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

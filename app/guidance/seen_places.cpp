@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -210,4 +210,4 @@ double SeenOutline::area_through(const FacePart& part) const {
     return std::abs(area);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

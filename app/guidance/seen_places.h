@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 /// A part of a face: the face clipped by several planes. Its corners are in order; fewer than 3 make it empty.
 class FacePart {
@@ -66,4 +66,4 @@ private:
     std::size_t count_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 namespace {
 
@@ -48,7 +48,7 @@ double steadiness(const FaceReader& reader, const GuidedState& tracked_state, in
         count.add(after({Action::Slide, push_m * way}, setup, tracked_state));
         if (setup.in_hand) {
             GuidedState leaning = tracked_state;
-            RigidTransform& pose = leaning.table_from_prop;
+            geometry::RigidTransform& pose = leaning.table_from_prop;
             pose.rotation = glm::angleAxis(lean_rad, way) * pose.rotation;
             pose.translation +=
                 tracked_state.table_from_prop.point(setup.prop.middle) - pose.point(setup.prop.middle);
@@ -58,4 +58,4 @@ double steadiness(const FaceReader& reader, const GuidedState& tracked_state, in
     return count.share();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

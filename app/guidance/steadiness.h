@@ -6,10 +6,10 @@
 
 #include "app/guidance/face_reader.h"
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 /// Fraction of these small movements after which the picture is still whole. `looks`: incremented by the number of
 /// situations examined.
 [[nodiscard]] double steadiness(const FaceReader& reader, const GuidedState& tracked_state, int& looks);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 template <typename Texel> struct Image {
     int width = 0;
@@ -80,4 +80,4 @@ struct PictureExtent {
                        [](const glm::u8vec4& texel) { return texel.a < 128; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -8,9 +8,9 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 /// The colours' light over black, opaque; finest first, down to one texel.
 [[nodiscard]] std::vector<Image8> light_mips(const Image8& picture);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

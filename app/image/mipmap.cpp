@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<Image8> light_mips(const Image8& picture) {
     return mips;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 static_assert(std::endian::native == std::endian::little, "the PFM is written as it lies in memory");
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
@@ -25,4 +25,4 @@ Bytes encode_pfm(const ImageFloat& image) {
     return bytes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 namespace {
 
@@ -112,4 +112,4 @@ Bytes encode_png(const Image16& image) {
     return encode(image.width, image.height, PNG_FORMAT_LINEAR_Y, image.texels.data());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 namespace {
 
@@ -48,4 +48,4 @@ std::uint8_t srgb8_from_linear(double linear01) {
     return static_cast<std::uint8_t>(above - thresholds.begin());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 namespace {
 
@@ -98,4 +98,4 @@ bool begins_as_webp(std::span<const std::byte> bytes) {
     return bytes.size() >= 12 && as_text(bytes.first(4)) == "RIFF" && as_text(bytes.subspan(8, 4)) == "WEBP";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -33,16 +33,16 @@ private:
 
 /// A pack of which only the signature is checked so far, and the size of its file.
 struct WatchedPack {
-    tl::expected<SignedPack, PackRefusal> pack;
+    tl::expected<pack::SignedPack, pack::PackRefusal> pack;
     std::uint64_t bytes = 0;
 };
 
-FileResult<WatchedPack> open_watched(FileTree& tree, const std::string& path, const PackTrust& trust,
+FileResult<WatchedPack> open_watched(FileTree& tree, const std::string& path, const pack::PackTrust& trust,
                                      int& fault) {
     TRY(std::unique_ptr<const FileContent> content, tree.open(path));
     const std::uint64_t bytes = content->bytes();
     WatchedPack watched{
-        open_signed_pack(OpenFile(std::make_unique<WatchedContent>(std::move(content), fault)), trust),
+        pack::open_signed_pack(OpenFile(std::make_unique<WatchedContent>(std::move(content), fault)), trust),
         bytes};
     if (fault != 0) {
         return file_fault(fault);
@@ -50,7 +50,7 @@ FileResult<WatchedPack> open_watched(FileTree& tree, const std::string& path, co
     return watched;
 }
 
-InstalledPack described(const SignedPack& opened, std::uint64_t bytes) {
+InstalledPack described(const pack::SignedPack& opened, std::uint64_t bytes) {
     InstalledPack pack;
     pack.id = opened.description().id;
     pack.title = opened.description().title;
@@ -61,9 +61,10 @@ InstalledPack described(const SignedPack& opened, std::uint64_t bytes) {
 }
 
 tl::unexpected<ImportFailure> changed() {
-    return failed({ImportRefusal::Altered,
-                   "the stick held something else when it was read again; copy the pack onto another stick",
-                   false});
+    return failed(
+        {.refusal = ImportRefusal::Altered,
+         .reason = "the stick held something else when it was read again; copy the pack onto another stick",
+         .whole = false});
 }
 
 /// Returns the hash of the bytes written.
@@ -71,7 +72,7 @@ tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, con
                                                     NewFile& to, std::size_t step_bytes,
                                                     const CopyObserver& ears) {
     Bytes step(std::min<std::uint64_t>(step_bytes, pack.pack.bytes));
-    Sha256 hash;
+    pack::Sha256 hash;
     for (std::uint64_t at = 0; at < pack.pack.bytes; at += step.size()) {
         step.resize(std::min<std::uint64_t>(step.size(), pack.pack.bytes - at));
         const MonotonicTime began = ears.now();
@@ -110,9 +111,9 @@ tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree
     return copy_bytes(**from, pack, **to, step_bytes, ears);
 }
 
-std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
+std::uint64_t unpacked_bytes(const pack::Manifest& manifest) {
     std::uint64_t sum = 0;
-    for (const pack_format::PartRecord& part : manifest.parts) {
+    for (const pack::PartRecord& part : manifest.parts) {
         sum += part.bytes;
     }
     return sum;
@@ -120,7 +121,7 @@ std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
 
 /// Reads the copy alone.
 tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, const StickPack& pack,
-                                                      const PackTrust& trust, std::size_t step_bytes,
+                                                      const pack::PackTrust& trust, std::size_t step_bytes,
                                                       const CopyObserver& ears) {
     int fault = 0;
     FileResult<WatchedPack> opened = open_watched(library, std::string(incoming_file_name), trust, fault);
@@ -137,7 +138,7 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
     const std::uint64_t all = unpacked_bytes(opened->pack->reader.manifest());
     std::uint64_t unpacked = 0;
     std::uint64_t told = 0;
-    const Result<void> good = check_parts(opened->pack->reader, [&](std::uint64_t bytes) {
+    const Result<void> good = pack::check_parts(opened->pack->reader, [&](std::uint64_t bytes) {
         unpacked += bytes;
         const auto share = static_cast<double>(unpacked) / static_cast<double>(std::max(all, unpacked));
         const auto now = static_cast<std::uint64_t>(share * static_cast<double>(copied.bytes));
@@ -150,7 +151,7 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
         return failed(disk_failure(incoming_file_name, {fault}));
     }
     if (!good) {
-        return failed({ImportRefusal::Altered, good.error().message, false});
+        return failed({.refusal = ImportRefusal::Altered, .reason = good.error().message, .whole = false});
     }
     return copied;
 }
@@ -158,7 +159,7 @@ tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, con
 } // namespace
 
 tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
-                                                    const PackTrust& trust) {
+                                                    const pack::PackTrust& trust) {
     int fault = 0;
     const FileResult<WatchedPack> opened = open_watched(tree, path, trust, fault);
     if (!opened) {
@@ -167,14 +168,17 @@ tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::s
     if (!opened->pack) {
         return failed(failure_of(opened->pack.error()));
     }
-    StickPack pack{path, described(*opened->pack, opened->bytes), opened->pack->signer.has_value(), {}};
+    StickPack pack{.path = path,
+                   .pack = described(*opened->pack, opened->bytes),
+                   .is_signed = opened->pack->signer.has_value(),
+                   .told = {}};
     pack.told.file = printable(path);
     pack.told.title = printable(pack.pack.title, 1000);
     return pack;
 }
 
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
-                                                     const StickPack& pack, const PackTrust& trust,
+                                                     const StickPack& pack, const pack::PackTrust& trust,
                                                      std::size_t step_bytes, const CopyObserver& ears) {
     TRY(const std::string hash, copy_file(stick, library, pack, step_bytes, ears));
     TRY(InstalledPack copied, check_copy(library, pack, trust, step_bytes, ears));
@@ -186,4 +190,4 @@ tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTr
     return copied;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

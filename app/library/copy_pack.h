@@ -15,11 +15,11 @@
 #include <functional>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// Opens a pack on the stick, checks its signature and returns what is known of it.
 [[nodiscard]] tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
-                                                                  const PackTrust& trust);
+                                                                  const pack::PackTrust& trust);
 
 /// Callbacks during a copy. A failure ends the copy.
 struct CopyObserver {
@@ -33,7 +33,7 @@ struct CopyObserver {
 /// Copies `step_bytes` at a time. `pack`: as look_at_pack returned it; the result has its file and sha256 too. The
 /// name is on the disk once the folder of packs is synced.
 [[nodiscard]] tl::expected<InstalledPack, ImportFailure>
-copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const PackTrust& trust,
+copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const pack::PackTrust& trust,
           std::size_t step_bytes, const CopyObserver& ears);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -4,9 +4,9 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
-ImportResult<void> CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
+ImportResult<void> CopyStage::run(std::vector<StickPack>& packs, const pack::PackTrust& trust) {
     std::uint64_t decided_bytes = 0; // whole packs, even if their copy ended early
     for (const std::size_t k : copy_order(packs)) {
         StickPack& pack = packs[k];
@@ -30,12 +30,13 @@ void CopyStage::add(std::uint64_t bytes) {
     progress_(done_bytes_);
 }
 
-ImportResult<void> CopyStage::copy(StickPack& pack, const PackTrust& trust) {
+ImportResult<void> CopyStage::copy(StickPack& pack, const pack::PackTrust& trust) {
     if (in_vain_.is_hopeless(pack.pack.manifest_sha256)) {
-        refuse(pack.told, {ImportRefusal::Altered,
-                           "it was not tried, because other copies of this pack on the stick are damaged; "
-                           "put one whole copy on the stick",
-                           false});
+        refuse(pack.told,
+               {.refusal = ImportRefusal::Altered,
+                .reason = "it was not tried, because other copies of this pack on the stick are damaged; "
+                          "put one whole copy on the stick",
+                .whole = false});
         return {};
     }
     const auto on_copied = [this](std::uint64_t bytes, Nanoseconds reading) {
@@ -61,4 +62,4 @@ ImportResult<void> CopyStage::copy(StickPack& pack, const PackTrust& trust) {
                : ImportResult<void>();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

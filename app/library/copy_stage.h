@@ -15,7 +15,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 class CopyStage {
 public:
@@ -28,10 +28,10 @@ public:
           progress_(std::move(progress)), pace_(limits) {}
 
     /// Takes or refuses each wanted pack. At the end, the names of the taken packs are on the disk.
-    [[nodiscard]] ImportResult<void> run(std::vector<StickPack>& packs, const PackTrust& trust);
+    [[nodiscard]] ImportResult<void> run(std::vector<StickPack>& packs, const pack::PackTrust& trust);
 
 private:
-    ImportResult<void> copy(StickPack& pack, const PackTrust& trust);
+    ImportResult<void> copy(StickPack& pack, const pack::PackTrust& trust);
     void add(std::uint64_t bytes);
 
     FileTree& stick_;
@@ -44,4 +44,4 @@ private:
     std::uint64_t done_bytes_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

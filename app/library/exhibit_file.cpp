@@ -14,7 +14,7 @@
 #include <set>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -22,11 +22,11 @@ constexpr std::size_t max_keys = 16; ///< in one file
 constexpr std::size_t max_attract_texts = 64;
 constexpr std::size_t max_key_name_bytes = 100;
 
-void read_ids(TableReader& table, std::string_view key, std::vector<std::string>& ids) {
+void read_ids(settings::TableReader& table, std::string_view key, std::vector<std::string>& ids) {
     table.texts(key, ids, max_installed_packs);
     std::set<std::string_view> seen;
     for (const std::string& id : ids) {
-        table.require("exhibit_file.id", is_artifact_id(id), key,
+        table.require("exhibit_file.id", pack::is_artifact_id(id), key,
                       fmt::format("names \"{}\"; allowed are ids as in artifact.toml: 1 to 64 of a-z 0-9 . _ "
                                   "-, a letter or a digit first",
                                   printable(id, 40)));
@@ -35,7 +35,7 @@ void read_ids(TableReader& table, std::string_view key, std::vector<std::string>
     }
 }
 
-void read_attract(TableReader& table, ExhibitFile& file) {
+void read_attract(settings::TableReader& table, ExhibitFile& file) {
     std::vector<std::pair<std::string, std::string>> texts;
     table.named_texts("attract", texts, max_attract_texts);
     if (!table.has("attract")) {
@@ -44,11 +44,11 @@ void read_attract(TableReader& table, ExhibitFile& file) {
     file.attract.emplace();
     for (const auto& [language, text] : texts) {
         const std::optional<std::string> usual =
-            has_language_form(language) ? parse_language_tag(language) : std::nullopt;
-        table.require(
-            "exhibit_file.language", usual.has_value(), "attract",
-            fmt::format("has \"{}\"; allowed are {}", printable(language, 40), allowed_language_tags));
-        const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
+            pack::has_language_form(language) ? settings::parse_language_tag(language) : std::nullopt;
+        table.require("exhibit_file.language", usual.has_value(), "attract",
+                      fmt::format("has \"{}\"; allowed are {}", printable(language, 40),
+                                  settings::allowed_language_tags));
+        const std::optional<std::string> fault = pack::fault_of_text(text, pack::TextShape::Line);
         table.require("exhibit_file.text", !fault, "attract",
                       fmt::format("in {} {}", printable(language, 40), fault.value_or("")));
         table.require("exhibit_file.text_empty", !trimmed(text).empty(), "attract",
@@ -62,7 +62,7 @@ void read_attract(TableReader& table, ExhibitFile& file) {
     }
 }
 
-void read_key(TableReader& table, CarriedKey& key) {
+void read_key(settings::TableReader& table, CarriedKey& key) {
     table.any_text("name", key.name);
     table.require(
         "exhibit_file.key_name", !key.name.empty() && key.name == printable(key.name, max_key_name_bytes),
@@ -70,17 +70,17 @@ void read_key(TableReader& table, CarriedKey& key) {
         fmt::format("is missing or not a name; allowed is one line of 1 to {} bytes, such as \"2031\"",
                     max_key_name_bytes));
     table.any_text("public_key", key.public_key);
-    const Result<PublicKey> parsed = parse_public_key(key.public_key);
+    const Result<pack::PublicKey> parsed = pack::parse_public_key(key.public_key);
     table.require("exhibit_file.public_key", parsed.has_value(), "public_key",
                   "is missing or not a public key; allowed is the second line of a file that "
                   "frustumscreen-pack keygen or minisign made, RW...");
-    key.public_key = parsed ? public_key_line(*parsed) : std::string();
+    key.public_key = parsed ? pack::public_key_line(*parsed) : std::string();
     table.any_text("until", key.until);
     table.require("exhibit_file.until", key.until.empty() || parse_day(key.until), "until",
                   "is not a day; allowed is the key's last day as a text, \"2031-12-31\"");
 }
 
-void read_all(TableReader& table, ExhibitFile& file) {
+void read_all(settings::TableReader& table, ExhibitFile& file) {
     read_ids(table, "order", file.order);
     table.flag("only", file.only, {});
     read_ids(table, "remove", file.remove);
@@ -96,10 +96,11 @@ void read_all(TableReader& table, ExhibitFile& file) {
 } // namespace
 
 Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
-    ReadState state{std::string(exhibit_file_name), {}, {}, std::nullopt};
+    settings::ReadState state{
+        .file = std::string(exhibit_file_name), .folder = {}, .lines = {}, .error = std::nullopt};
     ExhibitFile file;
-    read_toml(state, text, max_exhibit_file_bytes, [&](const toml::table& root) {
-        TableReader keys(state, &root, "");
+    settings::read_toml(state, text, max_exhibit_file_bytes, [&](const toml::table& root) {
+        settings::TableReader keys(state, &root, "");
         read_all(keys, file);
         keys.finish(); // a misspelt key is reported before a missing one
         keys.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
@@ -111,4 +112,4 @@ Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
     return file;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 inline constexpr std::string_view exhibit_file_name = "exhibit.toml";
 inline constexpr std::string_view exhibit_signature_name = "exhibit.toml.minisig";
@@ -31,4 +31,4 @@ struct ExhibitFile {
 };
 [[nodiscard]] Result<ExhibitFile> parse_exhibit_file(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -1,6 +1,6 @@
 #include "app/library/import_costs.h"
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 bool ReadingPace::add(std::uint64_t bytes, Nanoseconds reading) {
     bytes_ += bytes;
@@ -25,4 +25,4 @@ bool WastedWorkBudget::is_hopeless(const std::string& manifest_sha256) const {
     return copies != copies_of_.end() && copies->second >= limits_.max_refused_copies_of_one;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

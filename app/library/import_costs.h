@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// Read rate of the stick. Time spent writing does not count: a slow disk is not the stick's fault.
 class ReadingPace {
@@ -47,4 +47,4 @@ private:
     std::map<std::string, int> copies_of_; ///< by the manifest's hash
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -67,4 +67,4 @@ Nanoseconds wait_before_first_word(const std::optional<ImportReport>& last, std:
     return std::clamp(stands - age, Nanoseconds(0), stands);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// The final report of the import `import_id`, which has ended; `last` is the report on file. None if the import
 /// wrote its own final report, if another stick is being read, or if another stick's report came after this import
@@ -31,4 +31,4 @@ namespace frustumscreen {
                                                  std::string_view import_id, Nanoseconds age,
                                                  Nanoseconds stands);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

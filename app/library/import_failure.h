@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct ImportFailure {
     ImportRefusal refusal = ImportRefusal::NotAPack;
@@ -31,8 +31,8 @@ template <typename T> using ImportResult = tl::expected<T, ImportFailure>;
 [[nodiscard]] ImportFailure stick_failure(std::string_view path, FileFault fault);
 /// A file on the kiosk's disk could not be read or written.
 [[nodiscard]] ImportFailure disk_failure(std::string_view path, FileFault fault);
-[[nodiscard]] ImportFailure failure_of(const PackRefusal& refusal);
-[[nodiscard]] ImportFailure failure_of(const SignatureRefusal& refusal);
+[[nodiscard]] ImportFailure failure_of(const pack::PackRefusal& refusal);
+[[nodiscard]] ImportFailure failure_of(const pack::SignatureRefusal& refusal);
 /// The packs need `wanted` bytes; `free` are left, of which `margin` must stay free.
 [[nodiscard]] ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin);
 /// The new set is shown, but may not be on the disk.
@@ -40,4 +40,4 @@ template <typename T> using ImportResult = tl::expected<T, ImportFailure>;
 [[nodiscard]] ImportFailure too_slow();
 [[nodiscard]] ImportFailure too_much(std::string reason);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct ImportLimits {
     Nanoseconds look = std::chrono::seconds(60); ///< wall time until every pack's signature has been checked
@@ -24,4 +24,4 @@ struct ImportLimits {
     std::size_t max_packs = 1000;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::string write_import_report(const ImportReport& report) {
     return write_document(report, [](auto& fields, auto& value) { report_fields(fields, value); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

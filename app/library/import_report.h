@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 enum class ImportStage : std::uint8_t {
     Found,      ///< a stick is there; its files are looked at
@@ -79,4 +79,4 @@ struct ImportReport {
 [[nodiscard]] Result<ImportReport> parse_import_report(std::string_view json);
 [[nodiscard]] std::string write_import_report(const ImportReport& report);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 std::optional<ImportReport> read_import_report(const std::filesystem::path& file) {
     constexpr std::uintmax_t max_report_bytes = 8U << 20U;
@@ -32,4 +32,4 @@ void wait_for_readers(const std::filesystem::path& file, std::string_view import
     std::this_thread::sleep_for(wait_before_first_word(read_import_report(file), import_id, age, stands));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -17,7 +17,7 @@
 #include <map>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -148,7 +148,7 @@ std::string Import::of_ended_keys(const InstalledSet& set) {
     if (!contents_.exhibit || contents_.exhibit->file.keys.empty()) {
         return {};
     }
-    const PackTrust trust = keys_.trust();
+    const pack::PackTrust trust = keys_.trust();
     const std::vector<std::string> packs = packs_of_ended_keys(library_, set, trust.keys, trust.today);
     return packs.empty() ? std::string()
                          : fmt::format("packs of a key that is no longer trusted stay: {}; take them out "
@@ -242,4 +242,4 @@ ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRe
     return *std::move(report);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -23,14 +23,14 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct ImportRequest {
     std::string import_id;
     std::string stick;                          ///< its label
-    std::vector<TrustedKey> keys;               ///< of the settings; set.txt has those that sets brought
+    std::vector<pack::TrustedKey> keys;         ///< of the settings; set.txt has those that sets brought
     std::optional<std::chrono::sys_days> today; ///< used only for the last days of keys
-    UnsignedPacks unsigned_packs = UnsignedPacks::Refuse;
+    pack::UnsignedPacks unsigned_packs = pack::UnsignedPacks::Refuse;
     bool takes_settings = false;          ///< the kiosk takes its settings from sticks
     std::optional<ImportedPack> settings; ///< outcome of the stick's settings: the report's first line
     bool writes_reports = false;          ///< the kiosk writes a report on itself to a stick that asks for it
@@ -50,4 +50,4 @@ struct ImportEnvironment {
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
                           const ImportEnvironment& environment);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

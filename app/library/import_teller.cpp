@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -39,4 +39,4 @@ void ImportTeller::tell_failed(const ImportFailure& failure) {
     tell(ImportStage::Failed);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

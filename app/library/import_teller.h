@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 class ImportTeller {
 public:
@@ -42,4 +42,4 @@ private:
     MonotonicTime told_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::string write_verdict(const SetVerdict& verdict) {
     return write_document(verdict, [](auto& fields, auto& value) { verdict_fields(fields, value); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

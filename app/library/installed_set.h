@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct InstalledPack {
     std::string file;         ///< relative to the folder
@@ -75,4 +75,4 @@ struct SetChoice {
 [[nodiscard]] Result<SetVerdict> parse_verdict(std::string_view json);
 [[nodiscard]] std::string write_verdict(const SetVerdict& verdict);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// `name` is used in messages, such as "the verdict". `describe(fields, value)` names the fields.
 template <typename Value>
@@ -23,11 +23,11 @@ template <typename Value>
         return bad_input("library.document_too_long", "{} has {} bytes; allowed are {}", name, json.size(),
                          max_bytes);
     }
-    pack_format::Refusal refusal{{}, name};
-    const nlohmann::json document = pack_format::parse_json(refusal, json);
+    pack::Refusal refusal{{}, name};
+    const nlohmann::json document = pack::parse_json(refusal, json);
     Value value;
     if (!refusal.error) {
-        pack_format::JsonReader fields(refusal, &document, "");
+        pack::JsonReader fields(refusal, &document, "");
         describe(fields, value);
         fields.finish();
     }
@@ -38,10 +38,10 @@ template <typename Value>
 }
 
 template <typename Value> [[nodiscard]] std::string write_document(const Value& value, const auto& describe) {
-    pack_format::JsonWriter fields;
+    pack::JsonWriter fields;
     describe(fields, value);
     // Invalid UTF-8 is replaced: a name on a stick must not make a report fail.
     return fields.document().dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

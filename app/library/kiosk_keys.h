@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 class KioskKeys {
 public:
@@ -24,12 +24,12 @@ public:
     /// Takes the keys and the latest day of set.txt.
     void read(const SetFile& known);
     /// Adds the keys that a set file of this signer brings. Errors, one sentence: with_brought_keys.
-    [[nodiscard]] Result<void> bring(std::span<const CarriedKey> brought, const Signer& signer);
+    [[nodiscard]] Result<void> bring(std::span<const CarriedKey> brought, const pack::Signer& signer);
 
     /// True if a trusted key has a last day.
     [[nodiscard]] bool some_end() const;
     /// What a signature is checked against today; valid until the keys change.
-    [[nodiscard]] PackTrust trust() const { return {trusted_, today(), request_.unsigned_packs}; }
+    [[nodiscard]] pack::PackTrust trust() const { return {trusted_, today(), request_.unsigned_packs}; }
     /// For the next set.txt.
     [[nodiscard]] const std::vector<CarriedKey>& carried() const { return carried_; }
 
@@ -39,7 +39,7 @@ private:
     const ImportRequest& request_;
     std::string latest_day_;
     std::vector<CarriedKey> carried_; ///< including those that the set file brings
-    std::vector<TrustedKey> trusted_;
+    std::vector<pack::TrustedKey> trusted_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -39,11 +39,11 @@ tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library) {
     }
     Result<SetFile> file = parse_set_file(*text);
     if (!file) {
-        return tl::unexpected<ImportFailure>(
-            ImportFailure{ImportRefusal::Unwritable,
-                          std::string(set_file_name) + " on the kiosk's disk: " + file.error().message +
-                              "; call a technician, who removes it and puts all packs in again",
-                          true});
+        return tl::unexpected<ImportFailure>(ImportFailure{
+            .refusal = ImportRefusal::Unwritable,
+            .reason = std::string(set_file_name) + " on the kiosk's disk: " + file.error().message +
+                      "; call a technician, who removes it and puts all packs in again",
+            .whole = true});
     }
     return *std::move(file);
 }
@@ -63,7 +63,7 @@ bool is_sound(FileTree& library, const InstalledPack& pack, std::size_t step_byt
         return false;
     }
     Bytes step(std::min<std::uint64_t>(step_bytes, pack.bytes));
-    Sha256 hash;
+    pack::Sha256 hash;
     for (std::uint64_t at = 0; at < pack.bytes; at += step.size()) {
         step.resize(std::min<std::uint64_t>(step.size(), pack.bytes - at));
         if ((*file)->read(at, step) != 0) {
@@ -109,4 +109,4 @@ void clear_away(WritableTree& library, const SetFile& file) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 inline constexpr std::string_view incoming_file_name = "packs/incoming"; ///< a pack that is being copied
 inline constexpr std::string_view next_set_file_name = "set.txt.new";
@@ -33,4 +33,4 @@ inline constexpr std::string_view next_set_file_name = "set.txt.new";
 /// next import.
 void clear_away(WritableTree& library, const SetFile& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 void remember(SetFile& known, const std::vector<StickPack>& packs,
               const std::optional<SignedExhibitFile>& exhibit) {
@@ -58,4 +58,4 @@ void replace_set(SetFile& known, InstalledSet set, const std::optional<SetVerdic
     known.choice.set = std::move(set);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// Records the serials of taken packs and of the set file, and the latest day on which any of these was signed.
 void remember(SetFile& known, const std::vector<StickPack>& packs,
@@ -28,4 +28,4 @@ void remember(SetFile& known, const std::vector<StickPack>& packs,
 /// set.txt has been removed in between.
 void replace_set(SetFile& known, InstalledSet set, const std::optional<SetVerdict>& verdict);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct PackLeftOut {
     std::string pack;
@@ -27,4 +27,4 @@ using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
     return {pack, std::string(message)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -10,29 +10,30 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 std::optional<std::string> signing_key(FileTree& library, const InstalledPack& pack) {
     FileResult<std::unique_ptr<const FileContent>> content = library.open(pack.file);
     if (!content) {
         return std::nullopt;
     }
-    Result<std::optional<SignatureClaim>> claim =
-        pack_format::PackReader::open(OpenFile(*std::move(content)))
-            .and_then([](pack_format::PackReader&& reader) { return claim_of(reader); });
+    Result<std::optional<pack::SignatureClaim>> claim =
+        pack::PackReader::open(OpenFile(*std::move(content))).and_then([](pack::PackReader&& reader) {
+            return pack::claim_of(reader);
+        });
     return claim && *claim ? std::optional((*claim)->key_id) : std::nullopt;
 }
 
-bool counts_today(std::span<const TrustedKey> counting, std::string_view key_id,
+bool counts_today(std::span<const pack::TrustedKey> counting, std::string_view key_id,
                   std::optional<std::chrono::sys_days> today) {
-    return std::any_of(counting.begin(), counting.end(), [&](const TrustedKey& each) {
+    return std::any_of(counting.begin(), counting.end(), [&](const pack::TrustedKey& each) {
         const bool has_ended = each.until && today && *today > *each.until;
-        return text_of_key_id(each.key.id) == key_id && !has_ended;
+        return pack::text_of_key_id(each.key.id) == key_id && !has_ended;
     });
 }
 
 std::vector<std::string> packs_of_ended_keys(FileTree& library, const InstalledSet& set,
-                                             std::span<const TrustedKey> counting,
+                                             std::span<const pack::TrustedKey> counting,
                                              std::optional<std::chrono::sys_days> today) {
     std::vector<std::string> names;
     for (const InstalledPack& pack : set.packs) {
@@ -50,4 +51,4 @@ std::string names_in_words(std::span<const std::string> names) {
     return names.size() <= most ? some : fmt::format("{} and {} more", some, names.size() - most);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

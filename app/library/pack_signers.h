@@ -17,22 +17,22 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// Id of the signing key as text_of_key_id gives it; none: the pack is unsigned, or cannot be read.
 [[nodiscard]] std::optional<std::string> signing_key(FileTree& library, const InstalledPack& pack);
 
 /// True if a signature by this key is accepted today. `counting`: as trusted_keys.h. `today`: none: no key has
 /// expired.
-[[nodiscard]] bool counts_today(std::span<const TrustedKey> counting, std::string_view key_id,
+[[nodiscard]] bool counts_today(std::span<const pack::TrustedKey> counting, std::string_view key_id,
                                 std::optional<std::chrono::sys_days> today);
 
 /// The packs that were signed with a key that has stopped counting, by id, or by title if they have no id.
 [[nodiscard]] std::vector<std::string> packs_of_ended_keys(FileTree& library, const InstalledSet& set,
-                                                           std::span<const TrustedKey> counting,
+                                                           std::span<const pack::TrustedKey> counting,
                                                            std::optional<std::chrono::sys_days> today);
 
 /// "vase, bowl and 3 more"
 [[nodiscard]] std::string names_in_words(std::span<const std::string> names);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

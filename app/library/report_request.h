@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 inline constexpr std::string_view report_request_name = "frustumscreen-report.toml";
 inline constexpr std::size_t max_report_request_bytes = 4096;
@@ -22,4 +22,4 @@ inline constexpr std::size_t max_report_request_bytes = 4096;
 [[nodiscard]] std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
                                                               std::vector<ImportedPack> written);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -88,7 +88,7 @@ Result<SetFile> parse_set_file(std::string_view text) {
                          "FrustumScreen");
     }
     const std::string_view body = text.substr(line_end + 1);
-    if (text.substr(first_words.size(), hash_digits) != sha256_hex(as_bytes(body))) {
+    if (text.substr(first_words.size(), hash_digits) != pack::sha256_hex(as_bytes(body))) {
         return bad_input("set.wrong_hash", "it does not match the hash in its first line; it is damaged");
     }
     TRY(SetFile file, parse_document<SetFile>(body, "the set", max_set_file_bytes,
@@ -104,7 +104,7 @@ Result<SetFile> parse_set_file(std::string_view text) {
 std::string write_set_file(const SetFile& file) {
     const std::string body =
         write_document(file, [](auto& fields, auto& value) { file_fields(fields, value); });
-    return fmt::format("{}{}\n{}", first_words, sha256_hex(as_bytes(body)), body);
+    return fmt::format("{}{}\n{}", first_words, pack::sha256_hex(as_bytes(body)), body);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

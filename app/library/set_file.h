@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// The highest serial that was ever taken of an artifact; a lower one is refused.
 struct AcceptedSerial {
@@ -54,4 +54,4 @@ inline constexpr std::size_t max_carried_keys = 64;
 [[nodiscard]] std::string installed_file_name(std::string_view sha256);
 [[nodiscard]] bool is_sha256_text(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

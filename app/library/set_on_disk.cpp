@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 ImportResult<void> SetOnDisk::read() {
     TRY(known_, read_set_file(library_));
@@ -18,7 +18,7 @@ ImportResult<void> SetOnDisk::read_verdict_again() {
 }
 
 ImportResult<void> SetOnDisk::settle() {
-    if (const FileResult<void> settled = frustumscreen::settle(library_); !settled) {
+    if (const FileResult<void> settled = frustumscreen::library::settle(library_); !settled) {
         return failed(disk_failure(packs_folder_name, settled.error()));
     }
     may_clear_away_ = true;
@@ -68,4 +68,4 @@ void SetOnDisk::clear_away_if_sure() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 class SetOnDisk {
 public:
@@ -48,4 +48,4 @@ private:
     bool is_unsure_ = false;      ///< known_ is shown, but may not be on the disk
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -7,12 +7,13 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
 tl::unexpected<ImportFailure> no_set(ImportRefusal refusal, std::string reason) {
-    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), true, true});
+    return tl::unexpected<ImportFailure>(
+        ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = true, .by_set_file = true});
 }
 
 bool names(const std::vector<std::string>& ids, const std::string& id) {
@@ -123,4 +124,4 @@ tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std:
     return planned;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

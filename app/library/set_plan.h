@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct PlannedSet {
     InstalledSet set; ///< has the number of `shown`
@@ -27,4 +27,4 @@ struct PlannedSet {
                                                                std::span<const ImportedPack> unread,
                                                                const std::optional<ExhibitFile>& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -13,11 +13,11 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct SignedExhibitFile {
     ExhibitFile file;
-    std::optional<Signer> signer; ///< none: unsigned, which is allowed
+    std::optional<pack::Signer> signer; ///< none: unsigned, which is allowed
     std::string sha256;
 
     /// 0: unsigned.
@@ -27,6 +27,6 @@ struct SignedExhibitFile {
 /// Parses the file only after its signature is checked. `known`: what was taken before. Errors concern the stick as
 /// a whole.
 [[nodiscard]] tl::expected<SignedExhibitFile, ImportFailure>
-read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known);
+read_signed_exhibit_file(FileTree& stick, const pack::PackTrust& trust, const SetFile& known);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -27,8 +27,9 @@ read_if_there(FileTree& stick, const std::string& name, std::size_t max_bytes) {
     }
     if (text.error().number == EFBIG) {
         return tl::unexpected<ImportFailure>(ImportFailure{
-            ImportRefusal::NotAPack,
-            fmt::format("{}: it is too large; allowed are at most {} bytes", name, max_bytes), false});
+            .refusal = ImportRefusal::NotAPack,
+            .reason = fmt::format("{}: it is too large; allowed are at most {} bytes", name, max_bytes),
+            .whole = false});
     }
     return tl::unexpected<ImportFailure>(stick_failure(name, text.error()));
 }
@@ -42,23 +43,23 @@ tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::s
         return SignedText();
     }
     TRY(auto signature,
-        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::max_signature_bytes));
+        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack::max_signature_bytes));
     return SignedText{std::move(text), std::move(signature)};
 }
 
-tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
-                                              std::span<const TrustedKey> keys,
-                                              std::optional<std::chrono::sys_days> today) {
+tl::expected<pack::Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
+                                                    std::span<const pack::TrustedKey> keys,
+                                                    std::optional<std::chrono::sys_days> today) {
     if (!file.signature) {
         return tl::unexpected<ImportFailure>(
-            ImportFailure{ImportRefusal::Unsigned,
-                          fmt::format("{}: it is not signed: no {}{} lies beside it; sign it with "
-                                      "frustumscreen-pack sign, and put both on the stick",
-                                      name, name, signature_ending),
-                          false});
+            ImportFailure{.refusal = ImportRefusal::Unsigned,
+                          .reason = fmt::format("{}: it is not signed: no {}{} lies beside it; sign it with "
+                                                "frustumscreen-pack sign, and put both on the stick",
+                                                name, name, signature_ending),
+                          .whole = false});
     }
-    return check_signature(as_bytes(file.text.value_or("")), *file.signature, keys, today)
-        .map_error([&](const SignatureRefusal& refusal) {
+    return pack::check_signature(as_bytes(file.text.value_or("")), *file.signature, keys, today)
+        .map_error([&](const pack::SignatureRefusal& refusal) {
             ImportFailure failure = failure_of(refusal);
             failure.reason = fmt::format("{}: {}", name, failure.reason);
             return failure;
@@ -66,11 +67,11 @@ tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const Signe
 }
 
 ImportFailure lower_serial(std::string_view name, std::uint64_t serial, std::uint64_t latest) {
-    return {ImportRefusal::Older,
-            fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
-                        "sign it anew to go back to it",
-                        name, serial, latest),
-            false};
+    return {.refusal = ImportRefusal::Older,
+            .reason = fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
+                                  "sign it anew to go back to it",
+                                  name, serial, latest),
+            .whole = false};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

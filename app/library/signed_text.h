@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct SignedText {
     std::optional<std::string> text; ///< none: there is no such file
@@ -26,10 +26,11 @@ struct SignedText {
                                                                        std::size_t max_bytes);
 
 /// The key that signed the file, which is not parsed. `today`: none: no key has expired.
-[[nodiscard]] tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
-                                                            std::span<const TrustedKey> keys,
-                                                            std::optional<std::chrono::sys_days> today);
+[[nodiscard]] tl::expected<pack::Signer, ImportFailure> signer_of(std::string_view name,
+                                                                  const SignedText& file,
+                                                                  std::span<const pack::TrustedKey> keys,
+                                                                  std::optional<std::chrono::sys_days> today);
 
 [[nodiscard]] ImportFailure lower_serial(std::string_view name, std::uint64_t serial, std::uint64_t latest);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 std::vector<ImportedPack> lines_of(const StickContents& contents, const ImportRequest& request,
                                    const std::vector<InstalledPack>& removed) {
@@ -44,9 +44,12 @@ void refuse_whole(StickContents& contents, const ImportFailure& failure) {
         "nothing of this stick was taken" +
         (is_by_exhibit_file ? fmt::format(", because of {}", exhibit_file_name) : ": " + failure.reason);
     if (exhibit_line && exhibit_line->outcome != ImportOutcome::Refused) {
-        refuse(*exhibit_line, is_by_exhibit_file ? failure : ImportFailure{failure.refusal, of_each, false});
+        refuse(*exhibit_line,
+               is_by_exhibit_file
+                   ? failure
+                   : ImportFailure{.refusal = failure.refusal, .reason = of_each, .whole = false});
     }
-    refuse_all(contents.packs, {failure.refusal, std::move(of_each), false});
+    refuse_all(contents.packs, {.refusal = failure.refusal, .reason = std::move(of_each), .whole = false});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct StickContents {
     StickFiles files;                         ///< its `refused` are those of which only the name is known
@@ -29,4 +29,4 @@ struct StickContents {
 /// Refuses the whole stick: says in each line that nothing of it was taken, and why.
 void refuse_whole(StickContents& contents, const ImportFailure& failure);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 ImportResult<void> StickLook::run(StickContents& contents, const SetFile& known) {
     TRY(contents.files, walk_stick(stick_, limits_, [this] { return is_too_late(); }));
@@ -22,8 +22,9 @@ ImportResult<void> StickLook::read_exhibit_file(StickContents& contents, const S
     ImportResult<SignedExhibitFile> read = read_signed_exhibit_file(stick_, keys_.trust(), known);
     if (read && read->signer) {
         if (const Result<void> brought = keys_.bring(read->file.keys, *read->signer); !brought) {
-            read = failed({ImportRefusal::WrongKey,
-                           fmt::format("{}: {}", exhibit_file_name, brought.error().message), true});
+            read = failed({.refusal = ImportRefusal::WrongKey,
+                           .reason = fmt::format("{}: {}", exhibit_file_name, brought.error().message),
+                           .whole = true});
         }
     }
     if (!read) {
@@ -62,4 +63,4 @@ ImportResult<void> StickLook::look_at_packs(std::vector<StickPack>& packs,
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

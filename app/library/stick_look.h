@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 class StickLook {
 public:
@@ -40,4 +40,4 @@ private:
     MonotonicTime began_; ///< the work on the kiosk's own disk before does not count
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

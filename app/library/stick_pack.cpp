@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -30,11 +30,12 @@ std::string without_name(const std::string& reason, const std::string& name) {
 void clash(StickPack& pack, std::string_view other) {
     pack.clashes = true;
     refuse(pack.told,
-           {ImportRefusal::Older,
-            fmt::format("it has the same id and the same serial {} as {}, and other contents; sign it again "
-                        "with a higher serial",
-                        pack.pack.serial, other),
-            false});
+           {.refusal = ImportRefusal::Older,
+            .reason = fmt::format(
+                "it has the same id and the same serial {} as {}, and other contents; sign it again "
+                "with a higher serial",
+                pack.pack.serial, other),
+            .whole = false});
 }
 
 const InstalledPack* find_same(const InstalledSet& set, const InstalledPack& pack) {
@@ -68,13 +69,13 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
     const std::uint64_t highest = highest_serial(known, pack.id);
     if (pack.serial < highest) {
         refuse(candidate.told,
-               {ImportRefusal::Older,
-                candidate.is_signed
-                    ? fmt::format("it is older (serial {}) than one that was taken before (serial "
-                                  "{}); sign it anew to go back to it",
-                                  pack.serial, highest)
-                    : "it is unsigned, and a signed one of the same id was taken before; sign it",
-                false});
+               {.refusal = ImportRefusal::Older,
+                .reason = candidate.is_signed
+                              ? fmt::format("it is older (serial {}) than one that was taken before (serial "
+                                            "{}); sign it anew to go back to it",
+                                            pack.serial, highest)
+                              : "it is unsigned, and a signed one of the same id was taken before; sign it",
+                .whole = false});
     } else if (installed != nullptr && pack.serial > 0 && installed->serial == pack.serial) {
         clash(candidate, "the one that is installed");
     }
@@ -89,8 +90,11 @@ void refuse(ImportedPack& told, const ImportFailure& failure) {
 }
 
 ImportedPack removed_line(const InstalledPack& pack) {
-    return {printable(pack.id.empty() ? pack.file : pack.id), printable(pack.title), ImportOutcome::Removed,
-            ImportRefusal::None, "the set file removes it"};
+    return {.file = printable(pack.id.empty() ? pack.file : pack.id),
+            .title = printable(pack.title),
+            .outcome = ImportOutcome::Removed,
+            .refusal = ImportRefusal::None,
+            .reason = "the set file removes it"};
 }
 
 bool is_same_artifact(const InstalledPack& a, const InstalledPack& b) {
@@ -133,11 +137,12 @@ void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs) {
         return;
     }
     refuse(pack.told,
-           {ImportRefusal::Older,
-            fmt::format("{} on this stick has the same id and is newer (serial {} against {}), so that one "
-                        "is taken",
-                        name, taken->pack.serial, pack.pack.serial),
-            false});
+           {.refusal = ImportRefusal::Older,
+            .reason = fmt::format(
+                "{} on this stick has the same id and is newer (serial {} against {}), so that one "
+                "is taken",
+                name, taken->pack.serial, pack.pack.serial),
+            .whole = false});
 }
 
 void refuse_all(std::vector<StickPack>& packs, const ImportFailure& failure) {
@@ -148,4 +153,4 @@ void refuse_all(std::vector<StickPack>& packs, const ImportFailure& failure) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

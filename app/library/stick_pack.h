@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct StickPack {
     std::string path;       ///< on the stick
@@ -46,4 +46,4 @@ void weigh_against_taken(StickPack& pack, const std::vector<StickPack>& packs);
 /// Takes nothing of the stick: each pack that would have been taken, and each of its doubles, gets this reason.
 void refuse_all(std::vector<StickPack>& packs, const ImportFailure& failure);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -25,7 +25,8 @@ constexpr std::string_view next_name = "kiosk.toml.new";
 template <typename T> using Outcome = tl::expected<T, ImportFailure>;
 
 tl::unexpected<ImportFailure> failed(ImportRefusal refusal, std::string reason) {
-    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), false});
+    return tl::unexpected<ImportFailure>(
+        ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = false});
 }
 
 tl::unexpected<ImportFailure> failed_on_disk(FileFault fault) {
@@ -37,15 +38,15 @@ tl::unexpected<ImportFailure> failed_on_disk(FileFault fault) {
 
 /// The kiosk's present settings.
 struct Own {
-    std::string text;             ///< of kiosk.toml; empty: unreadable
-    bool sound = false;           ///< `text` is valid settings
-    std::vector<TrustedKey> keys; ///< named by the settings
-    std::uint64_t serial = 0;     ///< the highest that was taken; 0: none
+    std::string text;                   ///< of kiosk.toml; empty: unreadable
+    bool sound = false;                 ///< `text` is valid settings
+    std::vector<pack::TrustedKey> keys; ///< named by the settings
+    std::uint64_t serial = 0;           ///< the highest that was taken; 0: none
 };
 
 /// Nothing if these are no settings.
-std::optional<std::vector<TrustedKey>> keys_named_by(const std::string& text) {
-    const Result<CheckedSettings> settings = parse_settings(text, settings_file_name);
+std::optional<std::vector<pack::TrustedKey>> keys_named_by(const std::string& text) {
+    const Result<settings::CheckedSettings> settings = settings::parse_settings(text, settings_file_name);
     return settings && !text.empty() ? std::optional((*settings)->exhibit.keys) : std::nullopt;
 }
 
@@ -54,7 +55,7 @@ std::optional<std::vector<TrustedKey>> keys_named_by(const std::string& text) {
 Outcome<Own> read_own(WritableTree& folder) {
     Own own;
     own.text = read_text(folder, settings_file_name, max_stick_settings_bytes).value_or("");
-    std::optional<std::vector<TrustedKey>> keys = keys_named_by(own.text);
+    std::optional<std::vector<pack::TrustedKey>> keys = keys_named_by(own.text);
     own.sound = keys.has_value();
     if (!keys) {
         keys = keys_named_by(read_text(folder, settings_before_name, max_stick_settings_bytes).value_or(""));
@@ -79,7 +80,7 @@ Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
     if (own.keys.empty()) {
         return 0;
     }
-    TRY(const Signer signer, signer_of(settings_file_name, file, own.keys, today));
+    TRY(const pack::Signer signer, signer_of(settings_file_name, file, own.keys, today));
     if (signer.serial < own.serial) {
         return tl::unexpected<ImportFailure>(lower_serial(settings_file_name, signer.serial, own.serial));
     }
@@ -88,8 +89,9 @@ Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
 
 /// The serial of settings that needed no signature but are signed with one of their own keys: older ones are
 /// refused afterwards.
-std::uint64_t serial_of_first(const SignedText& file, const CheckedSettings& settings) {
-    const Outcome<Signer> signer = signer_of(settings_file_name, file, settings->exhibit.keys, std::nullopt);
+std::uint64_t serial_of_first(const SignedText& file, const settings::CheckedSettings& settings) {
+    const Outcome<pack::Signer> signer =
+        signer_of(settings_file_name, file, settings->exhibit.keys, std::nullopt);
     return signer ? signer->serial : 0;
 }
 
@@ -149,7 +151,7 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
     if (std::optional<std::string> fault = fault_of_copy(file)) {
         return failed(ImportRefusal::NotAPack, *std::move(fault));
     }
-    const Result<CheckedSettings> settings = parse_settings(text, settings_file_name);
+    const Result<settings::CheckedSettings> settings = settings::parse_settings(text, settings_file_name);
     if (!settings) {
         return failed(ImportRefusal::NotAPack, settings.error().message);
     }
@@ -178,7 +180,8 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
 
 std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
                                           std::optional<std::chrono::sys_days> today) {
-    ImportedPack told{std::string(settings_file_name), "", {}, {}, ""};
+    ImportedPack told{
+        .file = std::string(settings_file_name), .title = "", .outcome = {}, .refusal = {}, .reason = ""};
     const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, max_stick_settings_bytes);
     if (file && !file->text) {
         return std::nullopt;
@@ -193,4 +196,4 @@ std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
     return told;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -17,7 +17,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 inline constexpr std::string_view settings_file_name = "kiosk.toml";
 inline constexpr std::string_view settings_before_name = "kiosk.toml.before";
@@ -30,4 +30,4 @@ inline constexpr std::size_t max_stick_settings_bytes = 64U << 10U;
 [[nodiscard]] std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
                                                         std::optional<std::chrono::sys_days> today);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

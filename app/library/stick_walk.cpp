@@ -12,7 +12,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
@@ -70,8 +70,10 @@ private:
 };
 
 void Walk::refuse(const std::string& path, const ImportFailure& failure) {
-    frustumscreen::refuse(found_.refused.emplace_back(ImportedPack{printable(path), {}, {}, {}, {}}),
-                          failure);
+    frustumscreen::library::refuse(
+        found_.refused.emplace_back(
+            ImportedPack{.file = printable(path), .title = {}, .outcome = {}, .refusal = {}, .reason = {}}),
+        failure);
 }
 
 void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
@@ -84,8 +86,9 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         if (entry.kind == EntryKind::File) {
             found_.packs.push_back(path);
         } else {
-            refuse(path, {ImportRefusal::NotAPack,
-                          "it is a link or a device, not a file; put the pack itself on the stick", false});
+            refuse(path, {.refusal = ImportRefusal::NotAPack,
+                          .reason = "it is a link or a device, not a file; put the pack itself on the stick",
+                          .whole = false});
         }
     } else if (folder.empty() && entry.name == exhibit_file_name) {
         found_.has_exhibit_file = true;
@@ -150,24 +153,36 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
     }
     std::sort(found_.packs.begin(), found_.packs.end());
     if (!misnamed_.empty() && !found_.has_exhibit_file) {
-        found_.misnamed = {printable(misnamed_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
-                           fmt::format("it is not looked at; a set file is called {}, with its signature {} "
-                                       "beside it, and both lie in the stick's root",
-                                       exhibit_file_name, exhibit_signature_name)};
+        found_.misnamed = {
+            .file = printable(misnamed_),
+            .title = "",
+            .outcome = ImportOutcome::Refused,
+            .refusal = ImportRefusal::NotAPack,
+            .reason = fmt::format("it is not looked at; a set file is called {}, with its signature {} "
+                                  "beside it, and both lie in the stick's root",
+                                  exhibit_file_name, exhibit_signature_name)};
     }
     if (!misnamed_settings_.empty() && !has_settings_) {
         found_.misnamed_settings = {
-            printable(misnamed_settings_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
-            fmt::format("it is not looked at; a kiosk's settings are called {} and lie in the stick's root: "
-                        "rename it, and check that no .txt is hidden after the name",
-                        settings_file_name)};
+            .file = printable(misnamed_settings_),
+            .title = "",
+            .outcome = ImportOutcome::Refused,
+            .refusal = ImportRefusal::NotAPack,
+            .reason = fmt::format(
+                "it is not looked at; a kiosk's settings are called {} and lie in the stick's root: "
+                "rename it, and check that no .txt is hidden after the name",
+                settings_file_name)};
     }
     if (!misnamed_request_.empty() && !has_request_) {
         found_.misnamed_request = {
-            printable(misnamed_request_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
-            fmt::format("no report was written; the file that asks for one is called {} and lies in the "
-                        "stick's root: rename it, and look that no .txt is hidden behind the name",
-                        report_request_name)};
+            .file = printable(misnamed_request_),
+            .title = "",
+            .outcome = ImportOutcome::Refused,
+            .refusal = ImportRefusal::NotAPack,
+            .reason =
+                fmt::format("no report was written; the file that asks for one is called {} and lies in the "
+                            "stick's root: rename it, and look that no .txt is hidden behind the name",
+                            report_request_name)};
     }
     return std::move(found_);
 }
@@ -184,4 +199,4 @@ tl::expected<StickFiles, ImportFailure> walk_stick(FileTree& stick, const Import
     return Walk(stick, limits, too_late).all();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

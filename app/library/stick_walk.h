@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 struct StickFiles {
     std::vector<std::string> packs;    ///< paths, in the order of their names
@@ -37,4 +37,4 @@ struct StickFiles {
 [[nodiscard]] tl::expected<StickFiles, ImportFailure> walk_stick(FileTree& stick, const ImportLimits& limits,
                                                                  const std::function<bool()>& too_late);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

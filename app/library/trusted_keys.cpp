@@ -7,39 +7,39 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 namespace {
 
 constexpr std::chrono::days max_days_ahead(3653);
 
-const TrustedKey* find(std::span<const TrustedKey> keys, const PublicKey& key) {
+const pack::TrustedKey* find(std::span<const pack::TrustedKey> keys, const pack::PublicKey& key) {
     const auto found =
-        std::find_if(keys.begin(), keys.end(), [&](const TrustedKey& each) { return each.key == key; });
+        std::find_if(keys.begin(), keys.end(), [&](const pack::TrustedKey& each) { return each.key == key; });
     return found != keys.end() ? &*found : nullptr;
 }
 
-bool had_ended(const TrustedKey& key, std::optional<std::chrono::sys_days> day) {
+bool had_ended(const pack::TrustedKey& key, std::optional<std::chrono::sys_days> day) {
     return key.until && day && *day > *key.until;
 }
 
 /// True if the signer of a key counts, among the keys found so far.
-bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> counting) {
-    const Result<PublicKey> signer = parse_public_key(carried.signer);
-    return signer && std::any_of(counting.begin(), counting.end(), [&](const TrustedKey& each) {
+bool is_vouched_for(const CarriedKey& carried, std::span<const pack::TrustedKey> counting) {
+    const Result<pack::PublicKey> signer = pack::parse_public_key(carried.signer);
+    return signer && std::any_of(counting.begin(), counting.end(), [&](const pack::TrustedKey& each) {
                return each.key == *signer && !had_ended(each, parse_day(carried.since));
            });
 }
 
 } // namespace
 
-std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
-                                     std::span<const CarriedKey> carried) {
-    std::vector<TrustedKey> counting(settings.begin(), settings.end());
+std::vector<pack::TrustedKey> trusted_keys(std::span<const pack::TrustedKey> settings,
+                                           std::span<const CarriedKey> carried) {
+    std::vector<pack::TrustedKey> counting(settings.begin(), settings.end());
     for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it signs for
         is_longer = false;
         for (const CarriedKey& each : carried) {
-            const Result<PublicKey> key = parse_public_key(each.public_key);
+            const Result<pack::PublicKey> key = pack::parse_public_key(each.public_key);
             const std::optional<std::chrono::sys_days> until = parse_day(each.until);
             if (key && find(counting, *key) == nullptr && (until || each.until.empty()) &&
                 is_vouched_for(each, counting)) {
@@ -52,10 +52,11 @@ std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
 }
 
 Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carried,
-                                                  std::span<const CarriedKey> brought, const Signer& signer,
-                                                  std::span<const TrustedKey> settings,
+                                                  std::span<const CarriedKey> brought,
+                                                  const pack::Signer& signer,
+                                                  std::span<const pack::TrustedKey> settings,
                                                   std::optional<std::chrono::sys_days> day) {
-    const std::string signer_line = public_key_line(signer.public_key);
+    const std::string signer_line = pack::public_key_line(signer.public_key);
     for (CarriedKey key : brought) {
         key.signer = signer_line;
         key.since = day ? text_of_day(*day) : "";
@@ -71,9 +72,9 @@ Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carrie
         }
         *place = std::move(key);
     }
-    const std::vector<TrustedKey> counting = trusted_keys(settings, carried);
+    const std::vector<pack::TrustedKey> counting = trusted_keys(settings, carried);
     for (const CarriedKey& key : brought) {
-        const Result<PublicKey> parsed = parse_public_key(key.public_key);
+        const Result<pack::PublicKey> parsed = pack::parse_public_key(key.public_key);
         if (!parsed || find(counting, *parsed) == nullptr || find(counting, signer.public_key) == nullptr) {
             return bad_input("keys.vouches_for_itself",
                              "it brings the key {} and is signed with it, or with one that it "
@@ -102,4 +103,4 @@ std::optional<std::chrono::sys_days> day_here(std::optional<std::chrono::sys_day
     return clock ? std::optional(std::max(*clock, parse_day(latest).value_or(*clock))) : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -19,17 +19,19 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 
 /// The keys of the settings, then those of `carried` that count.
-[[nodiscard]] std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
-                                                   std::span<const CarriedKey> carried);
+[[nodiscard]] std::vector<pack::TrustedKey> trusted_keys(std::span<const pack::TrustedKey> settings,
+                                                         std::span<const CarriedKey> carried);
 
 /// `carried` with the keys that a set file brought; `signer` signed the file, and it was taken on `day`. A known
 /// key gets the new name, last day and signer. Errors, one sentence: a key that would vouch for itself.
-[[nodiscard]] Result<std::vector<CarriedKey>>
-with_brought_keys(std::vector<CarriedKey> carried, std::span<const CarriedKey> brought, const Signer& signer,
-                  std::span<const TrustedKey> settings, std::optional<std::chrono::sys_days> day);
+[[nodiscard]] Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carried,
+                                                                std::span<const CarriedKey> brought,
+                                                                const pack::Signer& signer,
+                                                                std::span<const pack::TrustedKey> settings,
+                                                                std::optional<std::chrono::sys_days> day);
 
 /// The day of signing, if the serial is a time, as frustumscreen-pack and minisign write it.
 [[nodiscard]] std::optional<std::chrono::sys_days> signing_day(std::uint64_t serial);
@@ -39,4 +41,4 @@ with_brought_keys(std::vector<CarriedKey> carried, std::span<const CarriedKey> b
 [[nodiscard]] std::optional<std::chrono::sys_days> day_here(std::optional<std::chrono::sys_days> clock,
                                                             const std::string& latest);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::library

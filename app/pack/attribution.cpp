@@ -11,7 +11,7 @@
 #include <array>
 #include <initializer_list>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -71,7 +71,7 @@ void put_scan_rights(Pack& pack, const ScanRights& rights) {
     if (rights.author.empty() && rights.source.empty()) {
         return;
     }
-    pack_format::JsonWriter fields;
+    JsonWriter fields;
     section_fields(fields, rights);
     pack.sections.push_back(
         {std::string(section_name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
@@ -88,10 +88,10 @@ Result<ScanRights> scan_rights(const PackDescription& pack) {
         return bad_input("pack.attribution_parts", "the section {} has {} parts; allowed are none",
                          section_name, section->parts.size());
     }
-    pack_format::Refusal refusal;
-    const nlohmann::json data = pack_format::parse_json(refusal, section->data);
+    Refusal refusal;
+    const nlohmann::json data = parse_json(refusal, section->data);
     if (!refusal.error) {
-        pack_format::JsonReader fields(refusal, &data, "sections.attribution.data");
+        JsonReader fields(refusal, &data, "sections.attribution.data");
         section_fields(fields, rights);
         fields.finish();
     }
@@ -149,4 +149,4 @@ std::vector<std::string> missing_in(const PackDescription& pack, const ScanRight
     return missing;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

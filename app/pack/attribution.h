@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The key of the attribution among a pack's set texts.
 inline constexpr std::string_view attribution_key = "attribution";
@@ -47,4 +47,4 @@ void put_scan_rights(Pack& pack, const ScanRights& rights);
 /// Missing statements, a sentence each: a licence, the author that the licence requires, an id.
 [[nodiscard]] std::vector<std::string> missing_in(const PackDescription& pack, const ScanRights& rights);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -14,7 +14,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// Vertices, indices and clusters. A relief level's vertices are stored as texels of `relief`; a vertex is refused
 /// unless it is at the centre of a filled texel of a chart, at the place that the relief gives it.
@@ -49,4 +49,4 @@ private:
 [[nodiscard]] Bytes encode_charts(const std::vector<ReliefChart>& charts);
 [[nodiscard]] Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

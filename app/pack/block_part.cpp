@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -19,8 +19,8 @@ constexpr std::array<char, 4> blocks_magic{'F', 'S', 'R', 'B'};
 constexpr std::uint32_t blocks_version = 1;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t grid_bytes = 32;
-constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
-constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
+constexpr std::size_t corners = std::size_t{relief::block_corners} * relief::block_corners;
+constexpr std::size_t cells = std::size_t{relief::block_cells} * relief::block_cells;
 constexpr std::uint32_t max_directions = 6;
 constexpr double max_origin_box = 4.0;   ///< the box is 1 long
 constexpr float max_texels_along = 1e6F; ///< of a height, or of its change from cell to cell
@@ -28,17 +28,17 @@ constexpr std::uint8_t opaque = 255;
 
 /// A block's numbers in the order of the file. Each number is stored for all blocks before the next: similar values
 /// pack better.
-using Number = float& (*)(ReliefBlock&);
+using Number = float& (*)(relief::ReliefBlock&);
 constexpr std::array<Number, 9> numbers{
-    [](ReliefBlock& block) -> float& { return block.w0; },
-    [](ReliefBlock& block) -> float& { return block.w_u; },
-    [](ReliefBlock& block) -> float& { return block.w_v; },
-    [](ReliefBlock& block) -> float& { return block.residual_low; },
-    [](ReliefBlock& block) -> float& { return block.residual_step; },
-    [](ReliefBlock& block) -> float& { return block.gradient_u.x; },
-    [](ReliefBlock& block) -> float& { return block.gradient_u.y; },
-    [](ReliefBlock& block) -> float& { return block.gradient_v.x; },
-    [](ReliefBlock& block) -> float& { return block.gradient_v.y; },
+    [](relief::ReliefBlock& block) -> float& { return block.w0; },
+    [](relief::ReliefBlock& block) -> float& { return block.w_u; },
+    [](relief::ReliefBlock& block) -> float& { return block.w_v; },
+    [](relief::ReliefBlock& block) -> float& { return block.residual_low; },
+    [](relief::ReliefBlock& block) -> float& { return block.residual_step; },
+    [](relief::ReliefBlock& block) -> float& { return block.gradient_u.x; },
+    [](relief::ReliefBlock& block) -> float& { return block.gradient_u.y; },
+    [](relief::ReliefBlock& block) -> float& { return block.gradient_v.x; },
+    [](relief::ReliefBlock& block) -> float& { return block.gradient_v.y; },
 };
 constexpr std::size_t places_bytes = 2 * sizeof(std::uint16_t);
 constexpr std::size_t planes = 4; ///< byte planes of the corners: height, red, green, blue
@@ -46,19 +46,19 @@ constexpr std::size_t block_bytes =
     places_bytes + numbers.size() * sizeof(float) + 2 * sizeof(std::uint64_t) + planes * corners;
 
 /// The axes across and along a direction, as in pack.h.
-ReliefGrid grid_towards(std::uint32_t direction) {
+relief::ReliefGrid grid_towards(std::uint32_t direction) {
     constexpr std::array<std::array<int, 3>, 3> axes{{{1, 2, 0}, {0, 2, 1}, {0, 1, 2}}};
     return {axes.at(direction / 2), direction % 2 == 0 ? 1.0 : -1.0, {}};
 }
 
-std::uint32_t direction_of(const ReliefGrid& grid) {
+std::uint32_t direction_of(const relief::ReliefGrid& grid) {
     return 2 * static_cast<std::uint32_t>(grid.axis[2]) + (grid.sign < 0.0 ? 1 : 0);
 }
 
 /// The corner that a corner is stored relative to: its left neighbour, or the one above at a row's beginning;
 /// neighbours are similar.
 std::size_t before(std::size_t corner) {
-    return corner % block_corners > 0 ? corner - 1 : corner - block_corners;
+    return corner % relief::block_corners > 0 ? corner - 1 : corner - relief::block_corners;
 }
 
 using Plane = std::array<std::uint8_t, corners>;
@@ -81,13 +81,13 @@ Plane read_plane(ByteReader& reader) {
 /// Codes of the corners, from the words of the 64 cells; neighbouring cells share corners.
 Plane codes_of(std::span<const std::uint32_t> cell_words) {
     Plane codes{};
-    for (int row = 0; row < block_corners; ++row) {
-        for (int column = 0; column < block_corners; ++column) {
-            const int x = std::min(column, block_cells - 1);
-            const int y = std::min(row, block_cells - 1);
-            const std::uint32_t word = cell_words[static_cast<std::size_t>(y * block_cells + x)];
+    for (int row = 0; row < relief::block_corners; ++row) {
+        for (int column = 0; column < relief::block_corners; ++column) {
+            const int x = std::min(column, relief::block_cells - 1);
+            const int y = std::min(row, relief::block_cells - 1);
+            const std::uint32_t word = cell_words[static_cast<std::size_t>(y * relief::block_cells + x)];
             const auto corner = static_cast<unsigned>(column - x + 2 * (row - y));
-            codes.at(static_cast<std::size_t>(row * block_corners + column)) =
+            codes.at(static_cast<std::size_t>(row * relief::block_corners + column)) =
                 static_cast<std::uint8_t>(word >> 8U * corner);
         }
     }
@@ -95,23 +95,23 @@ Plane codes_of(std::span<const std::uint32_t> cell_words) {
 }
 
 void append_cell_words(const Plane& codes, std::vector<std::uint32_t>& words) {
-    for (std::size_t row = 0; row < block_cells; ++row) {
-        for (std::size_t column = 0; column < block_cells; ++column) {
-            const std::size_t at = row * block_corners + column;
+    for (std::size_t row = 0; row < relief::block_cells; ++row) {
+        for (std::size_t column = 0; column < relief::block_cells; ++column) {
+            const std::size_t at = row * relief::block_corners + column;
             const auto code = [&](std::size_t k) { return std::uint32_t{codes.at(at + k)}; };
-            words.push_back(code(0) | code(1) << 8U | code(block_corners) << 16U |
-                            code(block_corners + 1) << 24U);
+            words.push_back(code(0) | code(1) << 8U | code(relief::block_corners) << 16U |
+                            code(relief::block_corners + 1) << 24U);
         }
     }
 }
 
 /// The range of columns and rows of the existing cells.
 std::array<std::uint8_t, 4> extent_of(std::uint64_t mask) {
-    std::array<std::uint8_t, 4> extent{block_cells, 0, block_cells, 0};
+    std::array<std::uint8_t, 4> extent{relief::block_cells, 0, relief::block_cells, 0};
     for (std::uint8_t cell = 0; cell < cells; ++cell) {
         if ((mask >> cell & 1U) != 0) {
-            const auto column = static_cast<std::uint8_t>(cell % block_cells);
-            const auto row = static_cast<std::uint8_t>(cell / block_cells);
+            const auto column = static_cast<std::uint8_t>(cell % relief::block_cells);
+            const auto row = static_cast<std::uint8_t>(cell / relief::block_cells);
             extent = {std::min(extent[0], column), std::max(extent[1], static_cast<std::uint8_t>(column + 1)),
                       std::min(extent[2], row), std::max(extent[3], static_cast<std::uint8_t>(row + 1))};
         }
@@ -156,7 +156,7 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
     return header;
 }
 
-Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& relief) {
+Result<void> read_grids(ByteReader& reader, const Header& header, relief::BlockRelief& relief) {
     std::uint64_t first = 0;
     std::uint32_t seen = 0; // bits
     for (std::uint32_t k = 0; k < header.directions; ++k) {
@@ -167,7 +167,7 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
                              "its directions have the number {}; allowed are 0 to 5, each once", direction);
         }
         seen |= 1U << direction;
-        ReliefGrid grid = grid_towards(direction);
+        relief::ReliefGrid grid = grid_towards(direction);
         for (int axis = 0; axis < 3; ++axis) {
             grid.origin_box[axis] = reader.read<double>();
             if (!(std::abs(grid.origin_box[axis]) <= max_origin_box)) { // false for NaN too
@@ -191,7 +191,7 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
     return {};
 }
 
-Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels) {
+Result<void> check_block(relief::ReliefBlock& block, std::size_t k, std::uint32_t texels) {
     const auto sound = [&](Number number) {
         return std::abs(number(block)) <= max_texels_along;
     }; // false for NaN
@@ -207,7 +207,7 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
                          k);
     }
     // A grid extends some cells beyond the box.
-    const auto end = static_cast<float>(texels + 2 * block_cells);
+    const auto end = static_cast<float>(texels + 2 * relief::block_cells);
     if (block.u0 > end || block.v0 > end) {
         return bad_input("blocks.outside_grid", "block {} lies at ({}, {}), outside a grid of {} texels", k,
                          block.u0, block.v0, texels);
@@ -216,10 +216,10 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
 }
 
 /// Reads which cells are cut, and checks the blocks.
-Result<void> read_cuts(ByteReader& reader, const Header& header, BlockRelief& relief) {
+Result<void> read_cuts(ByteReader& reader, const Header& header, relief::BlockRelief& relief) {
     std::uint64_t covers = 0;
     for (std::size_t k = 0; k < relief.blocks.size(); ++k) {
-        ReliefBlock& block = relief.blocks[k];
+        relief::ReliefBlock& block = relief.blocks[k];
         block.cut = reader.read<std::uint64_t>();
         block.first_cover = static_cast<std::uint32_t>(covers);
         covers += static_cast<std::uint64_t>(std::popcount(block.cut));
@@ -232,7 +232,7 @@ Result<void> read_cuts(ByteReader& reader, const Header& header, BlockRelief& re
 
 } // namespace
 
-Bytes encode_blocks(const BlockRelief& relief) {
+Bytes encode_blocks(const relief::BlockRelief& relief) {
     Bytes bytes;
     bytes.reserve(header_bytes + relief.grids.size() * grid_bytes + relief.blocks.size() * block_bytes);
     for (const char c : blocks_magic) {
@@ -250,21 +250,21 @@ Bytes encode_blocks(const BlockRelief& relief) {
             append(bytes, relief.grids[k].origin_box[axis]);
         }
     }
-    for (const ReliefBlock& block : relief.blocks) {
-        append(bytes, static_cast<std::uint16_t>(std::lround(block.u0) / block_cells));
+    for (const relief::ReliefBlock& block : relief.blocks) {
+        append(bytes, static_cast<std::uint16_t>(std::lround(block.u0) / relief::block_cells));
     }
-    for (const ReliefBlock& block : relief.blocks) {
-        append(bytes, static_cast<std::uint16_t>(std::lround(block.v0) / block_cells));
+    for (const relief::ReliefBlock& block : relief.blocks) {
+        append(bytes, static_cast<std::uint16_t>(std::lround(block.v0) / relief::block_cells));
     }
     for (const Number number : numbers) {
-        for (ReliefBlock block : relief.blocks) {
+        for (relief::ReliefBlock block : relief.blocks) {
             append(bytes, number(block));
         }
     }
-    for (const ReliefBlock& block : relief.blocks) {
+    for (const relief::ReliefBlock& block : relief.blocks) {
         append(bytes, block.mask);
     }
-    for (const ReliefBlock& block : relief.blocks) {
+    for (const relief::ReliefBlock& block : relief.blocks) {
         append(bytes, block.cut);
     }
     for (std::size_t k = 0; k < relief.blocks.size(); ++k) {
@@ -283,25 +283,25 @@ Bytes encode_blocks(const BlockRelief& relief) {
     return bytes;
 }
 
-Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
+Result<relief::BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
     TRY(const Header header, read_header(bytes));
-    BlockRelief relief;
+    relief::BlockRelief relief;
     relief.texel_box = static_cast<float>(1.0 / header.texels);
     ByteReader reader(bytes.subspan(header_bytes));
     TRY_VOID(read_grids(reader, header, relief));
     relief.blocks.resize(header.blocks);
-    for (ReliefBlock& block : relief.blocks) {
-        block.u0 = static_cast<float>(block_cells * reader.read<std::uint16_t>());
+    for (relief::ReliefBlock& block : relief.blocks) {
+        block.u0 = static_cast<float>(relief::block_cells * reader.read<std::uint16_t>());
     }
-    for (ReliefBlock& block : relief.blocks) {
-        block.v0 = static_cast<float>(block_cells * reader.read<std::uint16_t>());
+    for (relief::ReliefBlock& block : relief.blocks) {
+        block.v0 = static_cast<float>(relief::block_cells * reader.read<std::uint16_t>());
     }
     for (const Number number : numbers) {
-        for (ReliefBlock& block : relief.blocks) {
+        for (relief::ReliefBlock& block : relief.blocks) {
             number(block) = reader.read<float>();
         }
     }
-    for (ReliefBlock& block : relief.blocks) {
+    for (relief::ReliefBlock& block : relief.blocks) {
         block.mask = reader.read<std::uint64_t>();
         block.cells = extent_of(block.mask);
     }
@@ -323,4 +323,4 @@ Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
     return relief;
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -11,10 +11,10 @@
 
 #include <span>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// `relief` as made by `bake_blocks`: opaque colours, the axes of pack.h.
-[[nodiscard]] Bytes encode_blocks(const BlockRelief& relief);
-[[nodiscard]] Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes);
+[[nodiscard]] Bytes encode_blocks(const relief::BlockRelief& relief);
+[[nodiscard]] Result<relief::BlockRelief> decode_blocks(std::span<const std::byte> bytes);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

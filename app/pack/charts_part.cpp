@@ -6,7 +6,7 @@
 #include <array>
 #include <cstring>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -74,4 +74,4 @@ Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes)
     return charts;
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -50,7 +50,7 @@ Result<void> check_level(const Pack& pack, const PackLevel& level) {
         return bad_input("level.texture", "its texture is number {}, the pack has {} textures", level.texture,
                          pack.textures.size());
     }
-    const Image8& texture = pack.textures[level.texture];
+    const image::Image8& texture = pack.textures[level.texture];
     if (level.technique == LevelTechnique::Relief &&
         (texture.width != pack.relief.relief.width || texture.height != pack.relief.relief.height)) {
         return bad_input("level.texture_size",
@@ -124,4 +124,4 @@ Result<void> check_levels(const Pack& pack, Read read) {
     return {};
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

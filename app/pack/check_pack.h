@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// All checks below except those of levels and pictures.
 [[nodiscard]] Result<void> check_description(const PackDescription& pack);
@@ -30,7 +30,7 @@ namespace frustumscreen::pack_format {
 /// Textures, relief and its charts, the table picture; needs no levels. `Chosen`: an empty texture was not read.
 enum class Read { All, Chosen };
 [[nodiscard]] Result<void> check_pictures(const Pack& pack, Read read = Read::All);
-[[nodiscard]] Result<void> check_table_picture(const Image8& picture);
+[[nodiscard]] Result<void> check_table_picture(const image::Image8& picture);
 /// Levels; the pictures must have been checked. `Chosen`: an empty level was not read.
 [[nodiscard]] Result<void> check_levels(const Pack& pack, Read read = Read::All);
 /// Checks cluster number `k` alone; its indices must begin at `first`.
@@ -38,4 +38,4 @@ enum class Read { All, Chosen };
 /// Checks one level's own vertices, indices and clusters.
 [[nodiscard]] Result<void> check_mesh(const PackLevel& level);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

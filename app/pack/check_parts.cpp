@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <string>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -71,8 +69,8 @@ Result<void> PartChecks::charts(const std::string& name) {
 
 Result<void> PartChecks::picture(const std::string& name, std::int64_t max_side, std::int64_t max_area) {
     TRY(const Bytes bytes, beginning_of(name, beginning_bytes));
-    TRY(const PictureExtent extent,
-        at(name, begins_as_webp(bytes) ? extent_of_webp(bytes) : extent_of_png(bytes)));
+    TRY(const image::PictureExtent extent,
+        at(name, image::begins_as_webp(bytes) ? image::extent_of_webp(bytes) : image::extent_of_png(bytes)));
     const std::int64_t area = extent.width * extent.height; // the decoders bound both to 31 bits
     if (area == 0 || std::max(extent.width, extent.height) > max_side || area > max_area) {
         return bad_input("pack.picture_size",
@@ -117,4 +115,4 @@ Result<void> check_parts(PackReader& reader, const std::function<void(std::uint6
     return PartChecks(reader, progress).all();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -13,11 +13,11 @@
 #include <cstdint>
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// `reader` must be fresh, and cannot be used afterwards. `progress` gets the number of unpacked bytes as they
 /// pass.
-[[nodiscard]] Result<void> check_parts(pack_format::PackReader& reader,
+[[nodiscard]] Result<void> check_parts(PackReader& reader,
                                        const std::function<void(std::uint64_t bytes)>& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

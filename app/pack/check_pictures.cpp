@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
-template <typename Texel> Result<void> check_size(const std::string& what, const Image<Texel>& image) {
+template <typename Texel> Result<void> check_size(const std::string& what, const image::Image<Texel>& image) {
     const std::int64_t texels = static_cast<std::int64_t>(image.width) * image.height;
     const bool sides = image.width > 0 && image.height > 0 && image.width <= max_side_texels &&
                        image.height <= max_side_texels;
@@ -93,7 +93,7 @@ Result<void> check_relief(const ReliefAtlas& atlas) {
 
 } // namespace
 
-Result<void> check_table_picture(const Image8& picture) {
+Result<void> check_table_picture(const image::Image8& picture) {
     if (picture.texels.empty()) {
         return {};
     }
@@ -110,4 +110,4 @@ Result<void> check_pictures(const Pack& pack, Read read) {
     return check_relief(pack.relief).and_then([&] { return check_table_picture(pack.table_picture); });
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

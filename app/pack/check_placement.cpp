@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -91,4 +91,4 @@ Result<void> check_placement(const PackDescription& pack) {
     return check_extremes(pack);
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

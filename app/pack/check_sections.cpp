@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -97,4 +97,4 @@ Result<void> check_description(const PackDescription& pack) {
         .and_then([&] { return check_sections(pack); });
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

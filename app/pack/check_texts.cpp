@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -122,4 +122,4 @@ Result<void> check_texts(const PackDescription& pack) {
     return check_provenance(pack.provenance);
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

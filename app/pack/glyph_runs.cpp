@@ -11,7 +11,7 @@
 #include <cstring>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -243,10 +243,10 @@ Result<GlyphRuns> decode_glyph_runs(std::span<const std::byte> bytes) {
 }
 
 Bytes encode_distance_atlas(const DistanceAtlas& atlas) {
-    Image8 grey(atlas.width, atlas.height);
+    image::Image8 grey(atlas.width, atlas.height);
     std::transform(atlas.texels.begin(), atlas.texels.end(), grey.texels.begin(),
                    [](std::uint8_t code) { return glm::u8vec4(code, code, code, 255); });
-    return encode_webp(grey);
+    return image::encode_webp(grey);
 }
 
 Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, const GlyphRuns& runs) {
@@ -255,7 +255,7 @@ Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, co
                              : bad_input("glyphs.picture_unused",
                                          "there is a picture of glyphs, and the texts have none");
     }
-    TRY(const Image8 grey, decode_webp8(bytes, max_atlas_texels));
+    TRY(const image::Image8 grey, image::decode_webp8(bytes, max_atlas_texels));
     if (grey.width != runs.atlas_width || grey.height != runs.atlas_height) {
         return bad_input("glyphs.picture_size", "it has {} x {} texels; the texts need {} x {}", grey.width,
                          grey.height, runs.atlas_width, runs.atlas_height);
@@ -271,4 +271,4 @@ Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, co
     return atlas;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

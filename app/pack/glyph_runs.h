@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 inline constexpr std::int32_t em_units = 1024;
 
@@ -80,7 +80,7 @@ struct GlyphRuns {
 
 /// Signed distances to the outline: code 128 is the outline, higher codes are inside; 128 codes are
 /// `spread_texels`.
-using DistanceAtlas = Image<std::uint8_t>;
+using DistanceAtlas = image::Image<std::uint8_t>;
 inline constexpr int outline_code = 128;
 
 namespace glyph_limits {
@@ -110,4 +110,4 @@ inline constexpr std::int32_t max_side = 256 * em_units; ///< of a setting's box
 [[nodiscard]] Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes,
                                                           const GlyphRuns& runs);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

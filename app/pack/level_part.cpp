@@ -12,7 +12,7 @@
 #include <cstring>
 #include <optional>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -38,8 +38,8 @@ std::optional<int> texel_of(std::uint16_t code, int width) {
 }
 
 /// The chart of each texel of the atlas; charts are disjoint.
-Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
-    Image<std::int32_t> owner(relief.relief.width, relief.relief.height, -1);
+image::Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
+    image::Image<std::int32_t> owner(relief.relief.width, relief.relief.height, -1);
     for (std::size_t k = 0; k < relief.charts.size(); ++k) {
         const ReliefChart& chart = relief.charts[k];
         for (int y = chart.y; y < chart.y + chart.height; ++y) {
@@ -66,7 +66,7 @@ bool same_place(const PackVertex& a, const PackVertex& b, const glm::dvec3& box_
 
 Result<std::vector<StoredTexel>> store_texels(const PackLevel& level, const ReliefAtlas& relief,
                                               const glm::dvec3& box_size) {
-    const Image<std::int32_t> owner = chart_of_texels(relief);
+    const image::Image<std::int32_t> owner = chart_of_texels(relief);
     std::vector<StoredTexel> texels;
     texels.reserve(level.vertices.size());
     for (std::size_t k = 0; k < level.vertices.size(); ++k) {
@@ -166,7 +166,7 @@ Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_
                          "its triangles have version {} and kind {}, allowed are {} and 0 or 1", version,
                          kind, level_version);
     }
-    Header header{kind == 1, 0, 0, 0};
+    Header header{.relief = kind == 1, .vertices = 0, .indices = 0, .clusters = 0};
     header.vertices = reader.read<std::uint32_t>();
     header.indices = reader.read<std::uint32_t>();
     header.clusters = reader.read<std::uint32_t>();
@@ -309,4 +309,4 @@ Result<void> LevelScan::finish(LevelTechnique technique, std::uint64_t triangles
     return {};
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

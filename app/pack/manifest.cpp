@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <set>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::string write_manifest(const Manifest& manifest) {
     return fields.document().dump(2) + "\n";
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 inline constexpr std::string_view manifest_name = "manifest.json";
 inline constexpr std::string_view signature_name = "signature";
@@ -58,4 +58,4 @@ struct Manifest {
 /// True if a part may have this name.
 [[nodiscard]] bool is_part_name(std::string_view name);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

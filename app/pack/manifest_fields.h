@@ -15,7 +15,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 inline constexpr std::string_view format_name = "FrustumScreen pack";
 inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
@@ -103,4 +103,4 @@ void manifest_fields(auto& fields, auto& manifest, auto&& sections) {
                    [](auto& item, auto& part) { part_fields(item, part); });
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

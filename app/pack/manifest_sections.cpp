@@ -11,7 +11,7 @@
 #include <array>
 #include <set>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::vector<SectionRecord> make_sections(const Manifest& manifest) {
     return records;
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// True if the description has members for the section of this name.
 [[nodiscard]] bool is_known_section(std::string_view name);
@@ -21,4 +21,4 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
 /// The records of all the manifest's sections, in the names' order. An empty section is left out.
 [[nodiscard]] std::vector<SectionRecord> make_sections(const Manifest& manifest);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

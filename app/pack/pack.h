@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The artifact's texts in one language. All but the language may be empty.
 struct PackCaption {
@@ -85,7 +85,7 @@ struct ReliefChart {
 struct ReliefAtlas {
     float texel_box = 0.0F; ///< edge of a texel, box units
     std::vector<ReliefChart> charts;
-    Image16 relief;
+    image::Image16 relief;
 };
 
 /// position: 0..65535 over the box's extent on each axis. uv: 0..65535 over the level's colour texture.
@@ -157,13 +157,13 @@ struct PackDescription {
 };
 
 struct Pack : PackDescription {
-    std::vector<Image8> textures;  ///< sRGB colour
-    ReliefAtlas relief;            ///< empty if no level is a relief
-    std::vector<PackLevel> levels; ///< coarse to fine
+    std::vector<image::Image8> textures; ///< sRGB colour
+    ReliefAtlas relief;                  ///< empty if no level is a relief
+    std::vector<PackLevel> levels;       ///< coarse to fine
     /// The artifact cut out, for the table; empty: none. Not read with chosen levels: see load_pack_card.
-    Image8 table_picture;
+    image::Image8 table_picture;
     /// Bytes of the sections' parts, by name; empty if only some levels were chosen.
     std::map<std::string, std::vector<std::byte>> section_parts;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

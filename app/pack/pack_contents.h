@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct PackPart {
     std::string name;
@@ -23,4 +23,4 @@ struct PackPart {
 /// The manifest first, then the parts in its order.
 [[nodiscard]] Result<std::vector<PackPart>> list_pack_parts(std::span<const std::byte> bytes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

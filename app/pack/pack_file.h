@@ -14,14 +14,12 @@
 #include <filesystem>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The version that is written. Packs of all earlier versions are read.
 inline constexpr int pack_format_version = 2;
 
-namespace pack_format {
 class PackReader;
-}
 
 /// A pack whose parts were checked as they were read; only the functions below make one. Levels and textures
 /// that were not chosen are empty but keep their places, so that indices are those of the file.
@@ -31,7 +29,7 @@ public:
     [[nodiscard]] const Pack* operator->() const { return &pack_; }
 
 private:
-    friend Result<VerifiedPack> read_pack(pack_format::PackReader& reader, const ChooseLevels& choose);
+    friend Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose);
     VerifiedPack() = default;
     Pack pack_;
 };
@@ -47,14 +45,13 @@ private:
 
 /// As load_pack, from an open container: what was read before, such as its signature, is not read again. A reader
 /// can be used once. Messages do not begin with the file's name.
-[[nodiscard]] Result<VerifiedPack> read_pack(pack_format::PackReader& reader,
-                                             const ChooseLevels& choose = {});
+[[nodiscard]] Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose = {});
 
 /// `box_from_file` and the placement of the box in a prop as one matrix: file to prop coordinates.
 struct Placement {
     double metres_per_box = 0.0; ///< uniform scale from box units to metres in the prop's frame
     glm::dmat4 prop_from_artifact{1.0};
 };
-[[nodiscard]] Placement place(const PackDescription& pack, const PropShape& prop);
+[[nodiscard]] Placement place(const PackDescription& pack, const geometry::PropShape& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

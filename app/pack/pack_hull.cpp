@@ -11,9 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -79,14 +77,14 @@ Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack) {
     return corners;
 }
 
-Result<std::vector<glm::dvec3>> hull_in(const PackDescription& pack, const PropShape& prop,
+Result<std::vector<glm::dvec3>> hull_in(const PackDescription& pack, const geometry::PropShape& prop,
                                         std::size_t most) {
     TRY(std::vector<glm::dvec3> corners, hull_of(pack));
     const double scale = place(pack, prop).metres_per_box;
     for (glm::dvec3& corner : corners) {
         corner *= scale;
     }
-    return corners.size() > most ? enclosing_corners(corners, most) : corners;
+    return corners.size() > most ? geometry::enclosing_corners(corners, most) : corners;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

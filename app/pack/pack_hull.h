@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The bake keeps at most as many.
 inline constexpr std::size_t max_hull_corners = 1024;
@@ -24,7 +24,7 @@ void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack);
 [[nodiscard]] Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack);
 
 /// The hull in a prop, with at most `most` corners.
-[[nodiscard]] Result<std::vector<glm::dvec3>> hull_in(const PackDescription& pack, const PropShape& prop,
-                                                      std::size_t most = max_hull_corners);
+[[nodiscard]] Result<std::vector<glm::dvec3>>
+hull_in(const PackDescription& pack, const geometry::PropShape& prop, std::size_t most = max_hull_corners);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

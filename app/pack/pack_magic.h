@@ -6,9 +6,9 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// True if the file begins with a local header of a ZIP container (APPNOTE 4.3.7) named `manifest.json`.
 [[nodiscard]] bool begins_as_pack(const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct LevelOutline {
     LevelTechnique technique = LevelTechnique::Mesh;
@@ -35,4 +35,4 @@ struct PackOutline {
 /// Indices of the levels to read; their textures are read with them, and the relief if one of them needs it.
 using ChooseLevels = std::function<Result<std::vector<std::uint32_t>>(const PackOutline&)>;
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -7,9 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -46,7 +44,7 @@ Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack)
             pack.textures.emplace_back();
             continue;
         }
-        TRY(Image8 texture, read_picture(reader, name, std::min(max_texels, left)));
+        TRY(image::Image8 texture, read_picture(reader, name, std::min(max_texels, left)));
         left -= static_cast<std::int64_t>(texture.texels.size());
         pack.textures.push_back(std::move(texture));
     }
@@ -62,7 +60,7 @@ Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
         return reader.pass_over(record->atlas).and_then([&] { return reader.pass_over(record->charts); });
     }
     TRY(const Bytes atlas, reader.take(record->atlas));
-    TRY(Image16 relief, at(record->atlas, decode_png16(atlas, max_texels)));
+    TRY(image::Image16 relief, at(record->atlas, image::decode_png16(atlas, max_texels)));
     TRY(const Bytes charts_bytes, reader.take(record->charts));
     TRY(std::vector<ReliefChart> charts, at(record->charts, decode_charts(charts_bytes)));
     pack.relief = {record->texel_box, std::move(charts), std::move(relief)};
@@ -86,7 +84,12 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
     for (const LevelRecord& record : reader.manifest().levels) {
         if (!chosen.levels[pack.levels.size()]) {
             TRY_VOID(reader.pass_over(record.mesh));
-            pack.levels.push_back({record.technique, record.error, record.texture, {}, {}, {}});
+            pack.levels.push_back({.technique = record.technique,
+                                   .error = record.error,
+                                   .texture = record.texture,
+                                   .vertices = {},
+                                   .indices = {},
+                                   .clusters = {}});
             continue;
         }
         TRY(PackLevel level, read_level(reader, record, pack));
@@ -138,8 +141,11 @@ Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack
 PackOutline outline_of(const Pack& pack) {
     PackOutline outline{pack, {}};
     for (const PackLevel& level : pack.levels) {
-        outline.levels.push_back(
-            {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), level.texture});
+        outline.levels.push_back({.technique = level.technique,
+                                  .error = level.error,
+                                  .triangles = level.indices.size() / 3,
+                                  .vertices = level.vertices.size(),
+                                  .texture = level.texture});
     }
     return outline;
 }
@@ -161,4 +167,4 @@ Result<VerifiedPack> load_pack(const std::filesystem::path& file, const ChooseLe
     return at(file.string(), read_pack(reader, choose));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -158,18 +158,21 @@ Result<PackReader> open_pack_file(const std::filesystem::path& file) {
     return at(file.string(), PackReader::open(std::move(opened)));
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 Result<std::vector<PackPart>> list_pack_parts(std::span<const std::byte> bytes) {
-    TRY(const pack_format::PackReader reader, pack_format::PackReader::open(bytes));
-    const pack_format::ZipEntry& manifest = reader.zip().entries().front();
+    TRY(const PackReader reader, PackReader::open(bytes));
+    const ZipEntry& manifest = reader.zip().entries().front();
     std::vector<PackPart> parts{{manifest.name, manifest.bytes, manifest.stored_bytes, ""}};
-    for (const pack_format::PartRecord& part : reader.manifest().parts) {
-        parts.push_back({part.name, part.bytes, reader.zip().find(part.name)->stored_bytes, part.sha256});
+    for (const PartRecord& part : reader.manifest().parts) {
+        parts.push_back({.name = part.name,
+                         .bytes = part.bytes,
+                         .stored_bytes = reader.zip().find(part.name)->stored_bytes,
+                         .sha256 = part.sha256});
     }
     return parts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

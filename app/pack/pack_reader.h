@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// The bytes of manifest.json, not parsed.
 [[nodiscard]] Result<Bytes> read_manifest_bytes(ZipReader& zip);
@@ -61,4 +61,4 @@ private:
 /// Errors: as PackReader::open; a folder; a file that cannot be opened. Messages begin with the file's name.
 [[nodiscard]] Result<PackReader> open_pack_file(const std::filesystem::path& file);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -12,9 +12,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -55,8 +53,8 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
 }
 
 /// Decodes a relief and checks it against the manifest.
-Result<BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
-    TRY(BlockRelief relief, at(outline.part, decode_blocks(bytes)));
+Result<relief::BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
+    TRY(relief::BlockRelief relief, at(outline.part, decode_blocks(bytes)));
     if (bytes.size() != outline.bytes || relief.blocks.size() != outline.blocks ||
         std::lround(1.0F / relief.texel_box) != std::lround(outline.texels)) {
         return bad_input("pack.other_relief",
@@ -100,8 +98,11 @@ void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs) {
         const auto texels = static_cast<std::uint32_t>(std::lround(1.0F / measured.relief.texel_box));
         const std::string part = fmt::format("{}/{}.bin", section_name, texels);
         Bytes bytes = encode_blocks(measured.relief);
-        outlines.push_back({texels, static_cast<std::uint32_t>(measured.relief.blocks.size()), bytes.size(),
-                            measured.error, part});
+        outlines.push_back({.texels = texels,
+                            .blocks = static_cast<std::uint32_t>(measured.relief.blocks.size()),
+                            .bytes = bytes.size(),
+                            .error = measured.error,
+                            .part = part});
         section.parts.push_back(part);
         pack.section_parts[part] = std::move(bytes);
     }
@@ -111,7 +112,7 @@ void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs) {
     pack.sections.push_back(std::move(section));
 }
 
-Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief) {
+Result<relief::BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief) {
     const Result<std::map<std::string, Bytes>> parts =
         load_section_parts(file, [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
             TRY(const std::vector<ReliefOutline> there, reliefs_of(pack));
@@ -125,7 +126,7 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
     return at(file.string(), decode(relief, parts->at(relief.part)));
 }
 
-Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
+Result<relief::BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
     return decode(relief, pack.section_parts.at(relief.part));
 }
 
@@ -137,4 +138,4 @@ Result<void> check_reliefs(const Pack& pack) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

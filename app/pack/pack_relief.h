@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// A relief as the manifest describes it.
 struct ReliefOutline {
@@ -33,19 +33,20 @@ struct ReliefOutline {
 [[nodiscard]] Result<std::vector<ReliefOutline>> reliefs_of(const PackDescription& pack);
 
 struct MeasuredRelief {
-    BlockRelief relief;
+    relief::BlockRelief relief;
     LevelError error;
 };
 /// Call once for a pack; coarse to fine, each resolution once. Without reliefs the section is left out.
 void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs);
 
 /// Loads the relief of this outline; reads only its part and the manifest.
-[[nodiscard]] Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief);
+[[nodiscard]] Result<relief::BlockRelief> load_relief(const std::filesystem::path& file,
+                                                      const ReliefOutline& relief);
 
 /// The relief of this outline, of a pack that was read whole.
-[[nodiscard]] Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief);
+[[nodiscard]] Result<relief::BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief);
 
 /// Checks the section against FORMAT.md; `pack` was read whole.
 [[nodiscard]] Result<void> check_reliefs(const Pack& pack);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -10,9 +10,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -28,7 +26,8 @@ Result<Value> with_pack(const std::filesystem::path& file,
 
 Result<PackCard> read_card(PackReader& reader) {
     const PackDescription& pack = reader.manifest().description;
-    PackCard card{pack.id, pack.title, pack.languages, {}, {}};
+    PackCard card{
+        .id = pack.id, .title = pack.title, .languages = pack.languages, .titles = {}, .table_picture = {}};
     for (const PackCaption& caption : pack.captions) {
         card.titles.push_back({caption.language, caption.title});
     }
@@ -67,4 +66,4 @@ Result<std::map<std::string, Bytes>> load_section_parts(const std::filesystem::p
         file, [&](PackReader& reader) { return read_parts(reader, choose); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

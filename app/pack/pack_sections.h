@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// An artifact for the table.
 struct PackCard {
@@ -23,7 +23,7 @@ struct PackCard {
     std::string title; ///< if no language is asked for
     std::vector<std::string> languages;
     std::vector<PackLabel> titles; ///< one for each caption
-    Image8 table_picture;          ///< cut out; empty: none
+    image::Image8 table_picture;   ///< cut out; empty: none
 };
 [[nodiscard]] Result<PackCard> load_pack_card(const std::filesystem::path& file);
 
@@ -33,4 +33,4 @@ using ChooseParts = std::function<Result<std::vector<std::string>>(const PackDes
 [[nodiscard]] Result<std::map<std::string, Bytes>> load_section_parts(const std::filesystem::path& file,
                                                                       const ChooseParts& choose);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

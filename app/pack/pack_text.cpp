@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -110,4 +108,4 @@ bool is_artifact_id(std::string_view text) {
            std::all_of(text.begin(), text.end(), allowed);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

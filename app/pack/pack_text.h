@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 enum class TextShape { Line, Lines }; ///< a title, a caption's text
 
@@ -20,4 +20,4 @@ enum class TextShape { Line, Lines }; ///< a title, a caption's text
 /// True if the text is an artifact's id: FORMAT.md, `identity`.
 [[nodiscard]] bool is_artifact_id(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

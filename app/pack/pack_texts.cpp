@@ -14,9 +14,7 @@
 #include <optional>
 #include <set>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -291,4 +289,4 @@ Result<void> check_set_and_spoken(const Pack& pack) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

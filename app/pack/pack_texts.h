@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct SetLanguage {
     std::string language; ///< BCP 47
@@ -61,4 +61,4 @@ struct SpokenText {
 /// Checks both sections against FORMAT.md; `pack` was read whole.
 [[nodiscard]] Result<void> check_set_and_spoken(const Pack& pack);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -11,9 +11,7 @@
 
 #include <set>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -31,9 +29,9 @@ Result<void> check(const Pack& pack) {
 }
 
 /// As PNG or WebP, whichever is smaller; `name` is without the ending.
-Part picture_part(const std::string& name, const Image8& picture) {
-    Bytes png = encode_png(picture);
-    Bytes webp = encode_webp(picture);
+Part picture_part(const std::string& name, const image::Image8& picture) {
+    Bytes png = image::encode_png(picture);
+    Bytes webp = image::encode_webp(picture);
     const bool is_webp = !webp.empty() && webp.size() < png.size();
     return {name + (is_webp ? ".webp" : ".png"), std::move(is_webp ? webp : png), Packing::Stored};
 }
@@ -79,7 +77,7 @@ void add_relief(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) 
         return;
     }
     manifest.relief = ReliefRecord{pack.relief.texel_box, "relief/atlas.png", "relief/charts.bin"};
-    parts.push_back({manifest.relief->atlas, encode_png(pack.relief.relief), Packing::Stored});
+    parts.push_back({manifest.relief->atlas, image::encode_png(pack.relief.relief), Packing::Stored});
     parts.push_back({manifest.relief->charts, encode_charts(pack.relief.charts), Packing::Deflated});
 }
 
@@ -141,4 +139,4 @@ Result<Bytes> write_pack(const Pack& pack) {
     return zip.finish();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -3,22 +3,23 @@
 #include "app/pack/check_pack.h"
 #include "app/pack/container/limits.h"
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
-Result<Image8> read_picture(PackReader& reader, const std::string& name, std::int64_t max_texels) {
+Result<image::Image8> read_picture(PackReader& reader, const std::string& name, std::int64_t max_texels) {
     TRY(const Bytes bytes, reader.take(name));
-    return at(name, begins_as_webp(bytes) ? decode_webp8(bytes, max_texels) : decode_png8(bytes, max_texels));
+    return at(name, image::begins_as_webp(bytes) ? image::decode_webp8(bytes, max_texels)
+                                                 : image::decode_png8(bytes, max_texels));
 }
 
-Result<Image8> read_table_picture(PackReader& reader) {
+Result<image::Image8> read_table_picture(PackReader& reader) {
     constexpr std::int64_t max_texels = std::int64_t{max_table_picture_side} * max_table_picture_side;
     const std::string& name = reader.manifest().table_picture;
     if (name.empty()) {
-        return Image8{};
+        return image::Image8{};
     }
-    TRY(Image8 picture, read_picture(reader, name, max_texels));
+    TRY(image::Image8 picture, read_picture(reader, name, max_texels));
     TRY_VOID(at(name, check_table_picture(picture)));
     return picture;
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

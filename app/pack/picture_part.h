@@ -11,12 +11,12 @@
 #include <cstdint>
 #include <string>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// A colour picture, PNG or lossless WebP.
-[[nodiscard]] Result<Image8> read_picture(PackReader& reader, const std::string& name,
-                                          std::int64_t max_texels);
+[[nodiscard]] Result<image::Image8> read_picture(PackReader& reader, const std::string& name,
+                                                 std::int64_t max_texels);
 /// Empty if the pack has none.
-[[nodiscard]] Result<Image8> read_table_picture(PackReader& reader);
+[[nodiscard]] Result<image::Image8> read_table_picture(PackReader& reader);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

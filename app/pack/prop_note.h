@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// `wanted`: the kind that the settings name. Returns nothing if they agree.
 [[nodiscard]] inline std::optional<std::string>
@@ -24,4 +24,4 @@ note_other_prop(const std::string& file, const PackDescription& pack, std::strin
         pack.prop_kind, wanted, wanted);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -49,4 +49,4 @@ PackVertex relief_vertex(const ReliefAtlas& atlas, const ReliefChart& chart, int
     return vertex;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

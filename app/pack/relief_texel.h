@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 inline constexpr std::uint16_t empty_relief = 65535;
 inline constexpr double full_relief = 65534.0;
@@ -35,4 +35,4 @@ struct ReliefAxes {
 [[nodiscard]] PackVertex relief_vertex(const ReliefAtlas& atlas, const ReliefChart& chart, int x, int y,
                                        const glm::dvec3& box_size);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -14,9 +14,7 @@
 #include <span>
 #include <utility>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -257,4 +255,4 @@ Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t level
     return seen;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// An eye sees the artifact in patches: a grid of 4 x 4 over the rectangle that encloses the box in the eye's view.
 inline constexpr std::size_t seen_patches = 16;
@@ -51,4 +51,4 @@ void put_seen_errors(const SeenErrors& seen, PackDescription& pack);
 /// Empty for a pack without `seen_errors`; without `seen_reliefs`, only `reliefs` is empty. `levels`: of the pack.
 [[nodiscard]] Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t levels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

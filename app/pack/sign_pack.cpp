@@ -4,9 +4,7 @@
 #include "app/pack/manifest.h"
 #include "firmware_host/base/streamed_file.h"
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -40,4 +38,4 @@ Result<void> write_with_signature(OpenFile pack, std::string_view signature,
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The pack with `signature` as its last entry, replacing an existing one. All other entries are copied as they are
 /// packed.
@@ -22,4 +22,4 @@ namespace frustumscreen {
 [[nodiscard]] Result<void> write_with_signature(OpenFile pack, std::string_view signature,
                                                 const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

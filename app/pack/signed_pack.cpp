@@ -2,9 +2,7 @@
 
 #include "app/pack/container/sha256.h"
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -71,4 +69,4 @@ Result<std::optional<SignatureClaim>> claim_of(PackReader& reader) {
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -17,7 +17,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// The signatures that the kiosk accepts.
 struct PackTrust {
@@ -39,7 +39,7 @@ struct PackRefusal {
 
 struct SignedPack {
     std::optional<Signer> signer; ///< none: unsigned, which is allowed
-    pack_format::PackReader reader;
+    PackReader reader;
     std::string manifest_sha256; ///< of the manifest's bytes, which have the hashes of all parts
 
     /// 0: unsigned.
@@ -53,6 +53,6 @@ struct SignedPack {
                                                                      const PackTrust& trust);
 
 /// The claims of an open pack's signature, verified or not; nothing if it has none.
-[[nodiscard]] Result<std::optional<SignatureClaim>> claim_of(pack_format::PackReader& reader);
+[[nodiscard]] Result<std::optional<SignatureClaim>> claim_of(PackReader& reader);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

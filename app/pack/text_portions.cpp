@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -197,4 +197,4 @@ double reading_time_s(std::string_view text) {
     return time_s;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

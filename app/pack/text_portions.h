@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// A recording takes at most three minutes; this many portions take about six to read.
 inline constexpr std::size_t max_text_portions = 32;
@@ -26,4 +26,4 @@ inline constexpr std::size_t max_text_portions = 32;
 /// Japanese and Korean. It is also the measure of how long the text is spoken.
 [[nodiscard]] double reading_time_s(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace frustumscreen {
-
-using namespace pack_format;
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -140,7 +138,12 @@ Result<Bytes> part_of(ZipReader& zip, const Part& part) {
 }
 
 Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
-    LanguageWords words{std::move(entry.language), std::move(entry.name), std::move(entry.words), {}, {}, {}};
+    LanguageWords words{.language = std::move(entry.language),
+                        .name = std::move(entry.name),
+                        .words = std::move(entry.words),
+                        .runs = {},
+                        .atlas = {},
+                        .sounds = {}};
     TRY(const Bytes glyphs, part_of(zip, entry.glyphs));
     TRY(const Bytes picture, part_of(zip, entry.atlas));
     TRY(GlyphRuns runs, at(printable(entry.glyphs.name), decode_glyph_runs(glyphs)));
@@ -176,7 +179,12 @@ Result<Bytes> write_words(std::span<const LanguageWords> languages) {
         return part;
     };
     for (const LanguageWords& words : languages) {
-        LanguageEntry entry{words.language, words.name, words.words, {}, {}, {}};
+        LanguageEntry entry{.language = words.language,
+                            .name = words.name,
+                            .words = words.words,
+                            .glyphs = {},
+                            .atlas = {},
+                            .sounds = {}};
         entry.glyphs = add(words.language + "/glyphs.bin", encode_glyph_runs(words.runs), Packing::Deflated);
         entry.atlas =
             add(words.language + "/atlas.webp", encode_distance_atlas(words.atlas), Packing::Stored);
@@ -201,7 +209,10 @@ Result<std::vector<WordsLanguage>> list_words(std::span<const std::byte> file) {
     TRY(const std::vector<LanguageEntry> entries, open_words(file, zip));
     std::vector<WordsLanguage> languages;
     for (const LanguageEntry& entry : entries) {
-        languages.push_back({entry.language, entry.name, entry.words.size(), entry.sounds.size()});
+        languages.push_back({.language = entry.language,
+                             .name = entry.name,
+                             .words = entry.words.size(),
+                             .sounds = entry.sounds.size()});
     }
     return languages;
 }
@@ -219,4 +230,4 @@ Result<LanguageWords> read_words(std::span<const std::byte> file, std::string_vi
     return read_language(*zip, *found);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

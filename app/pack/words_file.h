@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct PlainWord {
     std::string key;
@@ -47,4 +47,4 @@ struct WordsLanguage {
 /// Reads one language and no part of the others; the file must have `language`.
 [[nodiscard]] Result<LanguageWords> read_words(std::span<const std::byte> file, std::string_view language);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 namespace {
 
@@ -54,10 +54,10 @@ FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& ey
 struct Sides {
     float left, right, top, bottom;
 };
-constexpr Sides everywhere{-1.0F, 65e3F, -1.0F, 65e3F};
+constexpr Sides everywhere{.left = -1.0F, .right = 65e3F, .top = -1.0F, .bottom = 65e3F};
 
 FRUSTUMSCREEN_INLINE Sides sides_of(const PixelLanes& at) {
-    return {min_of(at.x), max_of(at.x), min_of(at.y), max_of(at.y)};
+    return {.left = min_of(at.x), .right = max_of(at.x), .top = min_of(at.y), .bottom = max_of(at.y)};
 }
 
 /// Bounds of the corners' pixels after distortion. The second derivative of a distorted pixel is at most 6
@@ -75,7 +75,10 @@ FRUSTUMSCREEN_INLINE Sides lit_sides(const PixelLens& lens, const PixelLanes& co
     const float height = ideal.bottom - ideal.top;
     const float beside = 0.25F * second * (width * width + height * height);
     const Sides lit = sides_of(bent(lens, corners));
-    return {lit.left - beside, lit.right + beside, lit.top - beside, lit.bottom + beside};
+    return {.left = lit.left - beside,
+            .right = lit.right + beside,
+            .top = lit.top - beside,
+            .bottom = lit.bottom + beside};
 }
 
 struct Bounds {
@@ -113,8 +116,11 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
         const PixelLanes corners{xt / t, yt / t};
         const Sides ideal = sides_of(corners);
         constexpr float rounding = 1.0001F;
-        return {ideal, lens.bends ? lit_sides(lens, corners, ideal) : ideal, rounding / shortest, true,
-                false};
+        return {.ideal = ideal,
+                .lit = lens.bends ? lit_sides(lens, corners, ideal) : ideal,
+                .nearest = rounding / shortest,
+                .in_front = true,
+                .outside = false};
     }
     // An edge and the eye span a plane in the box frame. Its test also works for corners without a pixel.
     bool outside = false;
@@ -123,7 +129,11 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
                               static_cast<float>(edge.z) * t;
         outside = outside || max_of(inside) < 0.0F;
     }
-    return {everywhere, everywhere, std::numeric_limits<float>::infinity(), false, outside};
+    return {.ideal = everywhere,
+            .lit = everywhere,
+            .nearest = std::numeric_limits<float>::infinity(),
+            .in_front = false,
+            .outside = outside};
 }
 
 enum class Place { Outside, Across, Inside };
@@ -164,8 +174,10 @@ FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Sides& sides, const Pi
     if (left >= right || top >= bottom) {
         return false;
     }
-    item.area = {static_cast<std::uint16_t>(left), static_cast<std::uint16_t>(right),
-                 static_cast<std::uint16_t>(top), static_cast<std::uint16_t>(bottom)};
+    item.area = {.left = static_cast<std::uint16_t>(left),
+                 .right = static_cast<std::uint16_t>(right),
+                 .top = static_cast<std::uint16_t>(top),
+                 .bottom = static_cast<std::uint16_t>(bottom)};
     return true;
 }
 
@@ -313,4 +325,4 @@ void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView&
     end_list(items);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 inline constexpr int rows_of_band = 64; ///< rows of pixels; small, so that the threads finish at about the
                                         ///< same time
@@ -67,4 +67,4 @@ void end_list(BlockItems& items);
 void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView& view,
                  Instructions instructions = best_instructions());
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -1,6 +1,6 @@
 #include "app/relief/block_relief.h"
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 glm::dmat4 box_from_grid(const ReliefGrid& grid, double texel_box) {
     const glm::dvec3 signs(1.0, 1.0, grid.sign);
@@ -24,4 +24,4 @@ glm::dvec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, std:
                       glm::dvec4(of.u0 + i, of.v0 + j, w, 1.0));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 inline constexpr int block_cells = 8;
 inline constexpr int block_corners = block_cells + 1;
@@ -69,4 +69,4 @@ struct BlockRelief {
     return bytes(relief.blocks) + bytes(relief.corner_codes) + bytes(relief.covers) + bytes(relief.colours);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

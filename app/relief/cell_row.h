@@ -16,7 +16,7 @@
 #include <array>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 static_assert(lanes == block_cells);
 
@@ -66,8 +66,10 @@ struct Weights {
     Floats from_d_to_c, from_d_to_b;
 
     FRUSTUMSCREEN_INLINE Weights plus(const Weights& step) const {
-        return {to_b + step.to_b, to_c + step.to_c, from_d_to_c + step.from_d_to_c,
-                from_d_to_b + step.from_d_to_b};
+        return {.to_b = to_b + step.to_b,
+                .to_c = to_c + step.to_c,
+                .from_d_to_c = from_d_to_c + step.from_d_to_c,
+                .from_d_to_b = from_d_to_b + step.from_d_to_b};
     }
 };
 
@@ -85,13 +87,13 @@ FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float o
     constexpr float min_area = 1e-6F; // pixels
     const Ints first_faces = outward * first_area > min_area;
     const Ints second_faces = outward * second_area > min_area;
-    return {cells & (first_faces | second_faces),
-            first_faces,
-            second_faces,
-            least(least(a.x, b.x), least(c.x, d.x)),
-            most(most(a.x, b.x), most(c.x, d.x)),
-            least(least(a.y, b.y), least(c.y, d.y)),
-            most(most(a.y, b.y), most(c.y, d.y))};
+    return {.there = cells & (first_faces | second_faces),
+            .first_faces = first_faces,
+            .second_faces = second_faces,
+            .left = least(least(a.x, b.x), least(c.x, d.x)),
+            .right = most(most(a.x, b.x), most(c.x, d.x)),
+            .top = least(least(a.y, b.y), least(c.y, d.y)),
+            .bottom = most(most(a.y, b.y), most(c.y, d.y))};
 }
 
 /// Change of the weights from pixel to pixel.
@@ -151,8 +153,11 @@ FRUSTUMSCREEN_INLINE Fragment fragment_at(const CellRow& row, const CellCorners&
     const Ints second = row.second_faces & (from_d_to_c >= -seam) & (from_d_to_b >= -seam) &
                         (from_d_to_c + from_d_to_b <= diagonal);
     const Floats a = at.a.nearness, b = at.b.nearness, c = at.c.nearness, d = at.d.nearness;
-    return {first | second, first ? to_b : 1.0F - from_d_to_c, first ? to_c : 1.0F - from_d_to_b,
-            first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
+    return {.met = first | second,
+            .u = first ? to_b : 1.0F - from_d_to_c,
+            .v = first ? to_c : 1.0F - from_d_to_b,
+            .nearness = first ? a + to_b * (b - a) + to_c * (c - a)
+                              : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
 }
 
 /// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all
@@ -167,10 +172,10 @@ FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCor
     const Floats top = __builtin_convertvector(pixels.top, Floats) + sample.y;
     const Floats from_a_x = left - at.a.x, from_a_y = top - at.a.y;
     const Floats from_d_x = left - at.d.x, from_d_y = top - at.d.y;
-    Weights begin = {from_a_x * along_x.to_b + from_a_y * along_y.to_b,
-                     from_a_x * along_x.to_c + from_a_y * along_y.to_c,
-                     from_d_x * along_x.from_d_to_c + from_d_y * along_y.from_d_to_c,
-                     from_d_x * along_x.from_d_to_b + from_d_y * along_y.from_d_to_b};
+    Weights begin = {.to_b = from_a_x * along_x.to_b + from_a_y * along_y.to_b,
+                     .to_c = from_a_x * along_x.to_c + from_a_y * along_y.to_c,
+                     .from_d_to_c = from_d_x * along_x.from_d_to_c + from_d_y * along_y.from_d_to_c,
+                     .from_d_to_b = from_d_x * along_x.from_d_to_b + from_d_y * along_y.from_d_to_b};
     const Ints columns = pixels.there & (pixels.right - pixels.left);
     const Ints rows = pixels.there & (pixels.bottom - pixels.top);
     const int max_columns = max_of(columns);
@@ -186,4 +191,4 @@ FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCor
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -2,7 +2,7 @@
 
 #include "firmware_host/base/device_thread.h"
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 FrameWorkers::FrameWorkers(int threads) {
     for (int k = 1; k < threads; ++k) {
@@ -64,4 +64,4 @@ void FrameWorkers::work_until_closed(int thread) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 class FrameWorkers {
 public:
@@ -51,4 +51,4 @@ private:
     std::vector<std::thread> threads_; ///< last: they use the others
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 enum class Instructions : std::uint8_t { Plain, Avx2 };
 
@@ -39,4 +39,4 @@ void run_with([[maybe_unused]] Instructions instructions, Given&... given) {
     run(given...);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

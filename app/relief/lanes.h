@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 inline constexpr int lanes = 8;
 using Floats = float __attribute__((vector_size(4 * lanes)));
@@ -88,4 +88,4 @@ FRUSTUMSCREEN_INLINE std::int32_t max_of(Ints values) {
     return std::max(values[0], values[1]);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

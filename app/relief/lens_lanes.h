@@ -7,7 +7,7 @@
 #include "app/relief/lanes.h"
 #include "app/relief/pixel_lens.h"
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 struct PixelLanes {
     Floats x, y;
@@ -42,4 +42,4 @@ FRUSTUMSCREEN_INLINE PixelLanes unbent(const PixelLens& lens, const PixelLanes& 
             lens.centre.y + (real.y - lens.centre.y) * factor};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 template <typename Texel> struct PictureSpan {
     Texel* first = nullptr;
@@ -16,4 +16,4 @@ template <typename Texel> struct PictureSpan {
     [[nodiscard]] Texel& at(int x, int y) const { return first[y * stride + x]; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

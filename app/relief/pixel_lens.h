@@ -6,7 +6,7 @@
 
 #include "app/geometry/pinhole.h"
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 struct PixelLens {
     glm::vec2 centre{0.0F}, focal{1.0F}, per_focal{1.0F};
@@ -15,10 +15,10 @@ struct PixelLens {
     bool bends = false;
 
     PixelLens() = default;
-    explicit PixelLens(const Pinhole& pinhole)
+    explicit PixelLens(const geometry::Pinhole& pinhole)
         : centre(pinhole.cx, pinhole.cy), focal(pinhole.fx, pinhole.fy), per_focal(1.0F / focal),
           k1(static_cast<float>(pinhole.lens.k1)), k2(static_cast<float>(pinhole.lens.k2)),
           max_r2(static_cast<float>(pinhole.bends_to_r2())), bends(!pinhole.lens.is_plain()) {}
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 namespace {
 
@@ -16,9 +16,9 @@ glm::dvec3 corner_of_box(const glm::dvec3& size, unsigned k) {
 }
 
 /// Bounding box of the artifact's box, in the prop frame.
-Box placed_box(const RasterScene& scene) {
-    Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
-            glm::dvec3(-std::numeric_limits<double>::infinity())};
+geometry::Box placed_box(const RasterScene& scene) {
+    geometry::Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                      glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (unsigned k = 0; k < 8; ++k) {
         const glm::dvec3 corner(scene.prop_from_box * glm::dvec4(corner_of_box(scene.box_size, k), 1.0));
         box.low = glm::min(box.low, corner);
@@ -28,25 +28,28 @@ Box placed_box(const RasterScene& scene) {
 }
 
 /// The projector's pixels around everything between two ideal pixels.
-PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const Pinhole& projector) {
+PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const geometry::Pinhole& projector) {
     projector.bend_around(low, high);
     const auto clamped = [](double value, int most) {
         return static_cast<int>(std::clamp(value, 0.0, double(most)));
     };
     const int left = clamped(std::floor(low.x), projector.width);
     const int top = clamped(std::floor(low.y), projector.height);
-    return {left, top, clamped(std::ceil(high.x), projector.width) - left,
-            clamped(std::ceil(high.y), projector.height) - top};
+    return {.x = left,
+            .y = top,
+            .width = clamped(std::ceil(high.x), projector.width) - left,
+            .height = clamped(std::ceil(high.y), projector.height) - top};
 }
 
 /// The pixels around the box's corners; the whole picture if a corner is not in front of the eye.
-PixelRectangle pixels_around(const RasterFace& face, const glm::dvec3& size, const Pinhole& projector) {
+PixelRectangle pixels_around(const RasterFace& face, const glm::dvec3& size,
+                             const geometry::Pinhole& projector) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (unsigned k = 0; k < 8; ++k) {
         const glm::dvec3 at = face.pixel_from_box * glm::dvec4(corner_of_box(size, k), 1.0);
         if (!(at.z > 0.0)) {
-            return {0, 0, projector.width, projector.height};
+            return {.x = 0, .y = 0, .width = projector.width, .height = projector.height};
         }
         low = glm::min(low, glm::dvec2(at) / at.z);
         high = glm::max(high, glm::dvec2(at) / at.z);
@@ -55,15 +58,15 @@ PixelRectangle pixels_around(const RasterFace& face, const glm::dvec3& size, con
 }
 
 /// The pixels around a face as the projector lights it; the whole picture if a corner is not in front of it.
-PixelRectangle pixels_of(const PropFace& face, const RasterScene& scene) {
-    const RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
-    const Pinhole ideal = scene.projector.ideal();
+PixelRectangle pixels_of(const geometry::PropFace& face, const RasterScene& scene) {
+    const geometry::RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
+    const geometry::Pinhole ideal = scene.projector.ideal();
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (const glm::dvec3& corner : face.corners) {
         const std::optional<glm::dvec2> pixel = ideal.pixel(projector_from_prop.point(corner));
         if (!pixel) {
-            return {0, 0, scene.projector.width, scene.projector.height};
+            return {.x = 0, .y = 0, .width = scene.projector.width, .height = scene.projector.height};
         }
         low = glm::min(low, *pixel);
         high = glm::max(high, *pixel);
@@ -78,7 +81,7 @@ glm::dvec3 inward_edge(const glm::dvec3& edge) {
 
 } // namespace
 
-void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene) {
+void set_up(RasterView& view, const geometry::PropShape& prop, const RasterScene& scene) {
     const glm::dmat4 box_from_prop = glm::inverse(scene.prop_from_box);
     const int width = scene.projector.width;
     const int height = scene.projector.height;
@@ -88,22 +91,23 @@ void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene) {
     const glm::mat<4, 3, double> pixel_from_clip(glm::dvec3(0.5 * width, 0.0, 0.0),
                                                  glm::dvec3(0.0, 0.5 * height, 0.0), glm::dvec3(0.0),
                                                  glm::dvec3(0.5 * width, 0.5 * height, 1.0));
-    const Box box = placed_box(scene);
+    const geometry::Box box = placed_box(scene);
     view.eye_box = glm::dvec3(box_from_prop * glm::dvec4(scene.eye_m, 1.0));
     view.faces.clear();
     view.lit = {};
     view.projector = scene.projector;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
-        const PropFace& face = prop.faces[k];
+        const geometry::PropFace& face = prop.faces[k];
         if (!(face.plane.distance(scene.prop_from_projector.translation) > 0.0)) {
             continue;
         }
-        const std::optional<glm::dmat4> clip = collineation(face.plane, scene.eye_m, clip_from_prop, box);
+        const std::optional<glm::dmat4> clip =
+            geometry::collineation(face.plane, scene.eye_m, clip_from_prop, box);
         if (!clip) {
             continue;
         }
-        const FaceRays rays =
-            face_rays(face, scene.projector.ideal(), scene.prop_from_projector, scene.eye_m);
+        const geometry::FaceRays rays =
+            geometry::face_rays(face, scene.projector.ideal(), scene.prop_from_projector, scene.eye_m);
         RasterFace face_view;
         face_view.face = static_cast<int>(k);
         face_view.direction = glm::dmat3(box_from_prop) * rays.direction;
@@ -118,4 +122,4 @@ void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

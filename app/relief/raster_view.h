@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 struct RasterFace {
     int face = 0;                      ///< index into the prop's faces
@@ -33,19 +33,19 @@ struct RasterView {
     glm::dvec3 eye_box{0.0};
     std::vector<RasterFace> faces;
     PixelRectangle lit; ///< around all of them
-    Pinhole projector;
+    geometry::Pinhole projector;
 };
 
 /// The artifact's placement in the prop, the projector and the eye.
 struct RasterScene {
     glm::dmat4 prop_from_box{1.0}; ///< a rotation, one scale, a translation
     glm::dvec3 box_size{1.0};
-    Pinhole projector;
-    RigidTransform prop_from_projector;
+    geometry::Pinhole projector;
+    geometry::RigidTransform prop_from_projector;
     glm::dvec3 eye_m{0.0}; ///< prop frame
 };
 
 /// `view` keeps its memory from frame to frame.
-void set_up(RasterView& view, const PropShape& prop, const RasterScene& scene);
+void set_up(RasterView& view, const geometry::PropShape& prop, const RasterScene& scene);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -8,7 +8,7 @@
 #include <bit>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 namespace {
 
@@ -31,14 +31,14 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
     const std::array<glm::dvec3, 4>& edges = view.faces[item.face].edges;
     const float turn =
         glm::dot(glm::vec3(grid.pixel[0]), glm::cross(glm::vec3(grid.pixel[1]), glm::vec3(grid.pixel[2])));
-    return {item,
-            block,
-            &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
-            relief.covers.data() + block.first_cover,
-            items.lens,
-            {edges[0], edges[1], edges[2], edges[3]},
-            corner_map(block, grid),
-            turn > 0.0F ? -1.0F : 1.0F};
+    return {.item = item,
+            .block = block,
+            .codes = &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
+            .covers = relief.covers.data() + block.first_cover,
+            .lens = items.lens,
+            .edges = {edges[0], edges[1], edges[2], edges[3]},
+            .map = corner_map(block, grid),
+            .outward = turn > 0.0F ? -1.0F : 1.0F};
 }
 
 /// True if the surface exists at this position of the block.
@@ -344,4 +344,4 @@ glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint3
     return std::bit_cast<glm::u8vec4>(mean(0) | mean(8) << 8U);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

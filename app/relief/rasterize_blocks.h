@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 /// The samples of a rectangle of pixels, row by row: first the first sample of each pixel of the row, then
 /// the second ones, and so on, so that samples of neighbouring pixels are adjacent. `lanes` elements after
@@ -71,4 +71,4 @@ void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterVi
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 namespace {
 
@@ -20,11 +20,14 @@ int bands_of(const PixelRectangle& lit) {
 }
 
 PixelRectangle band_of(const PixelRectangle& lit, int k) {
-    return intersected(lit, {lit.x, (lit.y / rows_of_band + k) * rows_of_band, lit.width, rows_of_band});
+    return intersected(lit, {.x = lit.x,
+                             .y = (lit.y / rows_of_band + k) * rows_of_band,
+                             .width = lit.width,
+                             .height = rows_of_band});
 }
 
 /// The pixel of the ideal pinhole, as (x, y, 1), that the lens maps to the centre of a projector pixel.
-glm::dvec3 ideal_pixel(const Pinhole& projector, int x, int y) {
+glm::dvec3 ideal_pixel(const geometry::Pinhole& projector, int x, int y) {
     const glm::dvec3 ray = projector.ray({x + 0.5, y + 0.5});
     return {projector.fx * ray.x + projector.cx, projector.fy * ray.y + projector.cy, 1.0};
 }
@@ -58,7 +61,7 @@ PixelRectangle ReliefPainter::lit_part(const RasterSamples& samples, int top, in
     PixelRectangle part;
     for (int y = std::max(top, pixels.y); y < std::min(bottom, pixels.y + pixels.height); ++y) {
         const RasterSamples::Extent& extent = samples.extent(y);
-        part = united(part, {extent.first, y, extent.end - extent.first, 1});
+        part = united(part, {.x = extent.first, .y = y, .width = extent.end - extent.first, .height = 1});
     }
     return part;
 }
@@ -134,4 +137,4 @@ void ReliefPainter::hit_points(const BlockRelief& relief, const RasterView& view
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

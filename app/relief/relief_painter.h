@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 /// Changes a row's codes right after they are computed.
 class RowLight {
@@ -57,4 +57,4 @@ private:
     FrameWorkers workers_; ///< last: its threads use the other members
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

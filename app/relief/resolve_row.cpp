@@ -7,7 +7,7 @@
 #include <bit>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 namespace {
 
@@ -196,4 +196,4 @@ void resolve_row(const RasterSamples& samples, const BlockRelief& relief, const 
     run_with<resolve>(instructions, samples, relief, light, y, first, codes);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

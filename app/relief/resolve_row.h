@@ -14,10 +14,10 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 /// For row `y`, from pixel `first` on; alpha 0 without a hit.
 void resolve_row(const RasterSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
                  int first, std::span<glm::u8vec4> codes, Instructions instructions = best_instructions());
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

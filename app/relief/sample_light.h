@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
 class SampleLight {
 public:
@@ -29,4 +29,4 @@ private:
     std::array<std::uint8_t, 16384> code_{};  ///< of linear light / 4
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -6,11 +6,11 @@
 #include <array>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
-constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
+constexpr std::size_t cells = std::size_t{relief::block_cells} * relief::block_cells;
 constexpr std::array<std::uint16_t, 6> corners_of_cell{0, 1, 2, 3, 2, 1};
 constexpr std::size_t indices_of_block = cells * corners_of_cell.size();
 constexpr std::size_t max_directions = 6;
@@ -25,12 +25,13 @@ std::array<std::uint16_t, indices_of_block> indices() {
 }
 
 /// Sets the matrices of each direction's grid, computed in 64-bit arithmetic.
-void set_grids(const BlockRelief& relief, const Draw& draw, double metres_per_box, const Shader& shader) {
+void set_grids(const relief::BlockRelief& relief, const scene::Draw& draw, double metres_per_box,
+               const Shader& shader) {
     std::array<glm::mat4, max_directions> clip{};
     std::array<glm::mat4, max_directions> prop{};
     GLuint mirrored = 0;
     for (std::size_t k = 0; k < relief.grids.size(); ++k) {
-        const glm::dmat4 box = box_from_grid(relief.grids[k], static_cast<double>(relief.texel_box));
+        const glm::dmat4 box = relief::box_from_grid(relief.grids[k], static_cast<double>(relief.texel_box));
         clip[k] = glm::mat4(draw.clip_from_box * box);
         prop[k] = glm::mat4(glm::dmat4(glm::dmat3(metres_per_box)) * box);
         mirrored |= glm::determinant(glm::dmat3(box)) < 0.0 ? 1U << k : 0U;
@@ -54,24 +55,28 @@ BlockInstances::BlockInstances() {
     glBindVertexArray(0);
 }
 
-void BlockInstances::list(const FramePlan& plan, const GpuStore& store) {
+void BlockInstances::list(const scene::FramePlan& plan, const GpuStore& store) {
     instances_.clear();
     runs_.clear();
     for (std::size_t relief_draw = 0; relief_draw < plan.relief_draw_count; ++relief_draw) {
-        const ReliefDraw& planned = plan.relief_draws[relief_draw];
-        const BlockRelief* const relief = planned.on_gpu ? store.find_relief(planned.relief) : nullptr;
+        const scene::ReliefDraw& planned = plan.relief_draws[relief_draw];
+        const relief::BlockRelief* const relief =
+            planned.on_gpu ? store.find_relief(planned.relief) : nullptr;
         if (relief == nullptr) {
             continue;
         }
-        list_blocks(items_, *relief, planned.view);
+        relief::list_blocks(items_, *relief, planned.view);
         for (std::size_t face = 0; face < planned.view.faces.size(); ++face) {
             const std::size_t first = instances_.size();
-            for (const BlockItem& item : items_.sorted) {
+            for (const relief::BlockItem& item : items_.sorted) {
                 if (item.face == face) {
                     instances_.emplace_back(item.block, item.direction);
                 }
             }
-            runs_.push_back({relief_draw, planned.view.faces[face].face, first, instances_.size() - first});
+            runs_.push_back({.relief_draw = relief_draw,
+                             .face = planned.view.faces[face].face,
+                             .first = first,
+                             .count = instances_.size() - first});
         }
     }
     if (!runs_.empty()) {
@@ -81,8 +86,8 @@ void BlockInstances::list(const FramePlan& plan, const GpuStore& store) {
     }
 }
 
-void BlockInstances::draw(const FramePlan& plan, const Draw& draw, const GpuStore::Blocks& blocks,
-                          const Shader& shader) const {
+void BlockInstances::draw(const scene::FramePlan& plan, const scene::Draw& draw,
+                          const GpuStore::Blocks& blocks, const Shader& shader) const {
     const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
     const auto run = std::find_if(runs_.begin(), runs_.end(), [&](const Run& each) {
         return each.relief_draw == draw.relief_draw && each.face == face;
@@ -107,4 +112,4 @@ void BlockInstances::draw(const FramePlan& plan, const Draw& draw, const GpuStor
                             static_cast<GLsizei>(run->count));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -19,15 +19,15 @@
 #include <cstddef>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class BlockInstances {
 public:
     BlockInstances();
     /// Lists the plan's reliefs that are in the store and that the GPU draws.
-    void list(const FramePlan& plan, const GpuStore& store);
+    void list(const scene::FramePlan& plan, const GpuStore& store);
     /// Draws a relief's blocks for `draw`, one of the plan's draws, with `shader`, which must be in use.
-    void draw(const FramePlan& plan, const Draw& draw, const GpuStore::Blocks& blocks,
+    void draw(const scene::FramePlan& plan, const scene::Draw& draw, const GpuStore::Blocks& blocks,
               const Shader& shader) const;
 
 private:
@@ -36,12 +36,12 @@ private:
         int face = 0;                ///< index into the prop's faces
         std::size_t first = 0, count = 0;
     };
-    BlockItems items_;
+    relief::BlockItems items_;
     std::vector<glm::uvec2> instances_; ///< block, direction
     std::vector<Run> runs_;
-    GlVertexArray vertex_array_ = GlVertexArray::generate();
-    GlBuffer corners_ = GlBuffer::generate();         ///< indices of a block's triangles
-    GlBuffer instance_buffer_ = GlBuffer::generate(); ///< refilled for each picture
+    gl::GlVertexArray vertex_array_ = gl::GlVertexArray::generate();
+    gl::GlBuffer corners_ = gl::GlBuffer::generate();         ///< indices of a block's triangles
+    gl::GlBuffer instance_buffer_ = gl::GlBuffer::generate(); ///< refilled for each picture
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -10,7 +10,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// Tests a bit of an 8 x 8 mask; in both stages.
 inline constexpr std::string_view block_bits = R"(
@@ -104,4 +104,4 @@ bool is_beside_cover() { return false; }
 #endif
 )";
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

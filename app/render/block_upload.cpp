@@ -10,13 +10,13 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
 constexpr int numbers_of_block = 3; ///< texels
-constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
-constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
+constexpr std::size_t corners = std::size_t{relief::block_corners} * relief::block_corners;
+constexpr std::size_t cells = std::size_t{relief::block_cells} * relief::block_cells;
 constexpr std::uint64_t bytes_of_block =
     corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4);
 
@@ -38,7 +38,7 @@ std::uint32_t upper(std::uint64_t bits) {
     return static_cast<std::uint32_t>(bits >> 32U);
 }
 
-std::array<glm::uvec4, numbers_of_block> numbers_of(const ReliefBlock& block) {
+std::array<glm::uvec4, numbers_of_block> numbers_of(const relief::ReliefBlock& block) {
     const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
     return {
         glm::uvec4(bits(block.u0), bits(block.v0), bits(block.w0), bits(block.w_u)),
@@ -48,11 +48,11 @@ std::array<glm::uvec4, numbers_of_block> numbers_of(const ReliefBlock& block) {
 
 /// Residual code of a block's corner. Neighbouring cells share corners; the corners of the last column and
 /// row come from the last cells.
-std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::size_t column,
+std::uint8_t residual_code(const relief::BlockRelief& relief, std::size_t block, std::size_t column,
                            std::size_t row) {
-    const std::size_t x = std::min(column, std::size_t{block_cells} - 1);
-    const std::size_t y = std::min(row, std::size_t{block_cells} - 1);
-    const std::uint32_t codes = relief.corner_codes[block * cells + y * block_cells + x];
+    const std::size_t x = std::min(column, std::size_t{relief::block_cells} - 1);
+    const std::size_t y = std::min(row, std::size_t{relief::block_cells} - 1);
+    const std::uint32_t codes = relief.corner_codes[block * cells + y * relief::block_cells + x];
     return static_cast<std::uint8_t>(codes >> 8U * (column - x + 2 * (row - y)));
 }
 
@@ -63,8 +63,8 @@ int max_texels() {
     return limit;
 }
 
-GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
@@ -76,13 +76,13 @@ GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
 
 } // namespace
 
-Result<BlockSheet> sheet_of(const BlockRelief& relief, int max_texels) {
+Result<BlockSheet> sheet_of(const relief::BlockRelief& relief, int max_texels) {
     BlockSheet sheet;
     sheet.columns = side_of(relief.blocks.size());
     sheet.rows = rows_of(relief.blocks.size(), sheet.columns);
     sheet.cover_columns = side_of(relief.covers.size());
     sheet.cover_rows = rows_of(relief.covers.size(), sheet.cover_columns);
-    if (const int widest = std::max(block_corners * sheet.columns, sheet.cover_columns);
+    if (const int widest = std::max(relief::block_corners * sheet.columns, sheet.cover_columns);
         widest > max_texels) {
         return fail(ErrorKind::BadConfiguration, "render.relief_too_wide",
                     "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
@@ -92,7 +92,7 @@ Result<BlockSheet> sheet_of(const BlockRelief& relief, int max_texels) {
     return sheet;
 }
 
-std::uint64_t gpu_bytes(const BlockRelief& relief) {
+std::uint64_t gpu_bytes(const relief::BlockRelief& relief) {
     const BlockSheet sheet = sheet_of(relief, std::numeric_limits<int>::max()).value();
     const auto texels = [](int width, int height) {
         return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -103,15 +103,15 @@ std::uint64_t gpu_bytes(const BlockRelief& relief) {
 
 /// A block has at most 64 covers, so the covers' texture is never the wider one.
 std::uint32_t max_blocks_on_gpu() {
-    const auto along = static_cast<std::uint32_t>(max_texels() / block_corners);
+    const auto along = static_cast<std::uint32_t>(max_texels() / relief::block_corners);
     return along * along;
 }
 
 /// Allocates the textures and uploads the covers, which are a small part of the data.
 Result<void> BlockUpload::begin() {
     TRY(sheet_, sheet_of(*relief_, max_texels()));
-    textures_.colours =
-        make_texture(GL_RGBA8, block_corners * sheet_.columns, block_corners * sheet_.rows, GL_LINEAR);
+    textures_.colours = make_texture(GL_RGBA8, relief::block_corners * sheet_.columns,
+                                     relief::block_corners * sheet_.rows, GL_LINEAR);
     textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * sheet_.columns, sheet_.rows, GL_NEAREST);
     textures_.covers = make_texture(GL_RG32UI, sheet_.cover_columns, sheet_.cover_rows, GL_NEAREST);
     upload_covers();
@@ -136,16 +136,16 @@ void BlockUpload::upload_row() {
     const auto columns = static_cast<std::size_t>(sheet_.columns);
     const std::size_t first = static_cast<std::size_t>(row_) * columns;
     const std::size_t end = std::min(first + columns, relief_->blocks.size());
-    const std::size_t wide = (end - first) * block_corners;
+    const std::size_t wide = (end - first) * relief::block_corners;
     std::vector<glm::uvec4> numbers;
-    std::vector<glm::u8vec4> colours(wide * block_corners);
+    std::vector<glm::u8vec4> colours(wide * relief::block_corners);
     for (std::size_t block = first; block < end; ++block) {
         const std::array<glm::uvec4, numbers_of_block> of = numbers_of(relief_->blocks[block]);
         numbers.insert(numbers.end(), of.begin(), of.end());
         for (std::size_t corner = 0; corner < corners; ++corner) {
-            const std::size_t column = corner % block_corners;
-            const std::size_t row = corner / block_corners;
-            glm::u8vec4& texel = colours[row * wide + (block - first) * block_corners + column];
+            const std::size_t column = corner % relief::block_corners;
+            const std::size_t row = corner / relief::block_corners;
+            glm::u8vec4& texel = colours[row * wide + (block - first) * relief::block_corners + column];
             texel = relief_->colours[block * corners + corner];
             texel.a = residual_code(*relief_, block, column, row);
         }
@@ -154,8 +154,8 @@ void BlockUpload::upload_row() {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row_, static_cast<GLsizei>(numbers.size()), 1, GL_RGBA_INTEGER,
                     GL_UNSIGNED_INT, numbers.data());
     glBindTexture(GL_TEXTURE_2D, textures_.colours.get());
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, block_corners * row_, static_cast<GLsizei>(wide), block_corners,
-                    GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, relief::block_corners * row_, static_cast<GLsizei>(wide),
+                    relief::block_corners, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
     ++row_;
 }
 
@@ -178,4 +178,4 @@ Result<void> BlockUpload::go_on(std::uint64_t max_bytes) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -19,7 +19,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// The layout of blocks, and of covers, in their textures.
 struct BlockSheet {
@@ -27,17 +27,17 @@ struct BlockSheet {
     int cover_columns = 1, cover_rows = 1;
 };
 /// `max_texels`: the driver's limit for a texture's side.
-[[nodiscard]] Result<BlockSheet> sheet_of(const BlockRelief& relief, int max_texels);
+[[nodiscard]] Result<BlockSheet> sheet_of(const relief::BlockRelief& relief, int max_texels);
 
 /// The most blocks that fit the driver's textures.
 [[nodiscard]] std::uint32_t max_blocks_on_gpu();
 
 /// GPU memory of a relief, bytes.
-[[nodiscard]] std::uint64_t gpu_bytes(const BlockRelief& relief);
+[[nodiscard]] std::uint64_t gpu_bytes(const relief::BlockRelief& relief);
 
 class BlockUpload {
 public:
-    explicit BlockUpload(std::shared_ptr<const BlockRelief> relief) : relief_(std::move(relief)) {}
+    explicit BlockUpload(std::shared_ptr<const relief::BlockRelief> relief) : relief_(std::move(relief)) {}
 
     /// Uploads `max_bytes` more, or the rest; a row of blocks is uploaded whole, so it may exceed them
     /// slightly.
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] bool done() const { return begun_ && row_ == sheet_.rows; }
 
     struct Textures {
-        GlTexture colours, numbers, covers;
+        gl::GlTexture colours, numbers, covers;
     };
     /// Only once `done` is true.
     [[nodiscard]] Textures take() { return std::move(textures_); }
@@ -55,11 +55,11 @@ private:
     void upload_row();
     void upload_covers();
 
-    std::shared_ptr<const BlockRelief> relief_;
+    std::shared_ptr<const relief::BlockRelief> relief_;
     Textures textures_;
     BlockSheet sheet_;
     int row_ = 0; ///< the next row of blocks
     bool begun_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

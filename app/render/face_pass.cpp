@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -22,7 +22,7 @@ void set_uniform(const Shader& shader, Uniform uniform, const glm::dvec2& scale,
     glUniform4fv(shader.location(uniform), 1, glm::value_ptr(packed));
 }
 
-void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster) {
+void set_view(const Shader& shader, const geometry::Pinhole& pinhole, const Raster& raster) {
     const glm::dvec2 scale = 1.0 / glm::dvec2(raster.fragments);
     const glm::dvec2 corner(raster.corner);
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
@@ -31,13 +31,13 @@ void set_view(const Shader& shader, const Pinhole& pinhole, const Raster& raster
                 (corner - glm::dvec2(pinhole.cx, pinhole.cy)) * per_pixel);
 }
 
-void set_face(const Shader& shader, const FaceLight& light) {
+void set_face(const Shader& shader, const scene::FaceLight& light) {
     glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(light.inverse_depth));
     glUniform4f(shader.location(Uniform::FaceGain), light.per_cubic_metre, light.most,
                 std::pow(light.per_cubic_metre, code_power), std::pow(light.most, code_power));
 }
 
-void set_draw(const Shader& shader, const Draw& draw) {
+void set_draw(const Shader& shader, const scene::Draw& draw) {
     glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
     glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
     glUniform3fv(shader.location(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
@@ -47,22 +47,24 @@ void set_draw(const Shader& shader, const Draw& draw) {
 
 /// The uploaded mip level for ::mip_level, one for the whole draw: choosing and mixing two levels for each
 /// pixel costs a software or small GPU more than the rest of the pixel.
-int mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
+int mip_of(const scene::Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
     const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
-    const int mip = mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box);
+    const int mip =
+        scene::mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box);
     return std::max(mip - texture.finest_mip, 0);
 }
 
 } // namespace
 
-bool FacePass::draws(const FramePlan& plan) {
-    return std::any_of(plan.draws.begin(), plan.draws.end(),
-                       [](const Draw& draw) { return draw.shader.pass == ShaderKey::Pass::Surface; });
+bool FacePass::draws(const scene::FramePlan& plan) {
+    return std::any_of(plan.draws.begin(), plan.draws.end(), [](const scene::Draw& draw) {
+        return draw.shader.pass == scene::ShaderKey::Pass::Surface;
+    });
 }
 
-int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
                    const Raster& raster, Output output) {
-    const Shader* const outline = shaders.find({ShaderKey::Pass::Outline});
+    const Shader* const outline = shaders.find({scene::ShaderKey::Pass::Outline});
     if (!draws(plan) || outline == nullptr) {
         return 0;
     }
@@ -78,12 +80,12 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     glCullFace(GL_BACK);
     glFrontFace(GL_CW);
     auto calls = static_cast<int>(plan.faces.size());
-    for (const Draw& draw : plan.draws) {
-        if (draw.shader.pass != ShaderKey::Pass::Surface) {
+    for (const scene::Draw& draw : plan.draws) {
+        if (draw.shader.pass != scene::ShaderKey::Pass::Surface) {
             continue;
         }
         const Shader* const shader =
-            shaders.find(output == Output::Places ? places_of(draw.shader) : draw.shader);
+            shaders.find(output == Output::Places ? scene::places_of(draw.shader) : draw.shader);
         const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
         const GpuStore::Blocks* const blocks = store.find_blocks(draw.drawable.mesh);
         const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
@@ -109,8 +111,9 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     return calls;
 }
 
-int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const {
-    const Shader* const shader = shaders.find({ShaderKey::Pass::EdgeFeather});
+int FacePass::soften_edges(const scene::FramePlan& plan, const ShaderCache& shaders,
+                           const Raster& raster) const {
+    const Shader* const shader = shaders.find({scene::ShaderKey::Pass::EdgeFeather});
     if (plan.feathers.empty() || shader == nullptr) {
         return 0;
     }
@@ -120,7 +123,7 @@ int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, co
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    for (const EdgeFeather& feather : plan.feathers) {
+    for (const scene::EdgeFeather& feather : plan.feathers) {
         const auto face = static_cast<std::size_t>(feather.face);
         glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
         set_scissor(plan.faces[face].bounds, raster);
@@ -132,7 +135,7 @@ int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, co
     return static_cast<int>(plan.feathers.size());
 }
 
-void FacePass::upload_indices(const FramePlan& plan) const {
+void FacePass::upload_indices(const scene::FramePlan& plan) const {
     glBindVertexArray(no_attributes_.get()); // a bound vertex array stores the next binding
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
@@ -140,7 +143,7 @@ void FacePass::upload_indices(const FramePlan& plan) const {
                  GL_STREAM_DRAW);
 }
 
-void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const {
+void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, const Raster& raster) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -162,8 +165,9 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-void FacePass::begin_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Texture& texture,
-                             const Shader& shader, const Raster& raster) const {
+void FacePass::begin_surface(const scene::FramePlan& plan, const scene::Draw& draw,
+                             const GpuStore::Texture& texture, const Shader& shader,
+                             const Raster& raster) const {
     const auto face = static_cast<std::size_t>(draw.face);
     shader.use();
     set_view(shader, plan.projector, raster);
@@ -176,7 +180,7 @@ void FacePass::begin_surface(const FramePlan& plan, const Draw& draw, const GpuS
     set_scissor(draw.bounds, raster);
 }
 
-void FacePass::draw_mesh(const Draw& draw, const GpuStore::Mesh& mesh) const {
+void FacePass::draw_mesh(const scene::Draw& draw, const GpuStore::Mesh& mesh) const {
     glBindVertexArray(mesh.vertex_array.get());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     const std::uintptr_t offset = std::uintptr_t{draw.range.first} * sizeof(std::uint32_t);
@@ -185,4 +189,4 @@ void FacePass::draw_mesh(const Draw& draw, const GpuStore::Mesh& mesh) const {
                    reinterpret_cast<const void*>(offset));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -16,7 +16,7 @@
 #include "app/scene/frame_plan.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class FacePass {
 public:
@@ -25,25 +25,25 @@ public:
         Places ///< prop coordinates, metres; alpha 1
     };
     /// True if the plan has draws for this pass.
-    [[nodiscard]] static bool draws(const FramePlan& plan);
+    [[nodiscard]] static bool draws(const scene::FramePlan& plan);
     /// Returns the number of draw calls. It skips reliefs rasterized on the processor, draws whose shader was
     /// not prepared, and draws whose mesh or texture is not in the store.
-    int draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+    int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours);
 
 private:
-    void upload_indices(const FramePlan& plan) const;
-    void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const;
+    void upload_indices(const scene::FramePlan& plan) const;
+    void mark_faces(const scene::FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.
-    int soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
+    int soften_edges(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
     /// Sets the state that a mesh and a relief share.
-    void begin_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Texture& texture,
-                       const Shader& shader, const Raster& raster) const;
-    void draw_mesh(const Draw& draw, const GpuStore::Mesh& mesh) const;
+    void begin_surface(const scene::FramePlan& plan, const scene::Draw& draw,
+                       const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
+    void draw_mesh(const scene::Draw& draw, const GpuStore::Mesh& mesh) const;
 
     BlockInstances blocks_;
-    GlVertexArray no_attributes_ = GlVertexArray::generate();
-    GlBuffer indices_ = GlBuffer::generate(); ///< the plan's indices, refilled for each picture
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
+    gl::GlBuffer indices_ = gl::GlBuffer::generate(); ///< the plan's indices, refilled for each picture
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::string renderer_name() {
     return name != nullptr ? reinterpret_cast<const char*>(name) : "an unnamed GPU";
 }
 
-std::uint64_t bytes_of_buffer(const GlBuffer& buffer) {
+std::uint64_t bytes_of_buffer(const gl::GlBuffer& buffer) {
     GLint64 bytes = 0;
     glBindBuffer(GL_COPY_READ_BUFFER, buffer.get());
     glGetBufferParameteri64v(GL_COPY_READ_BUFFER, GL_BUFFER_SIZE, &bytes);
@@ -26,7 +26,7 @@ std::uint64_t bytes_of_buffer(const GlBuffer& buffer) {
     return static_cast<std::uint64_t>(bytes);
 }
 
-std::uint64_t bytes_of_texture(const GlTexture& texture) {
+std::uint64_t bytes_of_texture(const gl::GlTexture& texture) {
     if (texture.get() == 0) {
         return 0;
     }
@@ -52,7 +52,7 @@ std::uint64_t bytes_of_texture(const GlTexture& texture) {
     return bytes;
 }
 
-std::uint64_t bytes_of_renderbuffer(const GlRenderbuffer& renderbuffer) {
+std::uint64_t bytes_of_renderbuffer(const gl::GlRenderbuffer& renderbuffer) {
     if (renderbuffer.get() == 0) {
         return 0;
     }
@@ -71,4 +71,4 @@ std::uint64_t bytes_of_renderbuffer(const GlRenderbuffer& renderbuffer) {
     return bytes_of(ask(GL_RENDERBUFFER_WIDTH), ask(GL_RENDERBUFFER_HEIGHT), bits);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

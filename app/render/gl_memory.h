@@ -10,14 +10,14 @@
 #include <cstdint>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
-[[nodiscard]] std::uint64_t bytes_of_buffer(const GlBuffer& buffer);
+[[nodiscard]] std::uint64_t bytes_of_buffer(const gl::GlBuffer& buffer);
 /// Two-dimensional, all mip levels.
-[[nodiscard]] std::uint64_t bytes_of_texture(const GlTexture& texture);
+[[nodiscard]] std::uint64_t bytes_of_texture(const gl::GlTexture& texture);
 /// The driver's name of the GPU.
 [[nodiscard]] std::string renderer_name();
 
-[[nodiscard]] std::uint64_t bytes_of_renderbuffer(const GlRenderbuffer& renderbuffer);
+[[nodiscard]] std::uint64_t bytes_of_renderbuffer(const gl::GlRenderbuffer& renderbuffer);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -8,7 +8,7 @@
 #include <bit>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -26,8 +26,8 @@ void clamp_to_edge(GLenum minification) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture upload_coverage(const image::Image<std::uint8_t>& coverage) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     const auto longest = static_cast<unsigned>(std::max(coverage.width, coverage.height));
     glTexStorage2D(GL_TEXTURE_2D, std::bit_width(longest), GL_R8, coverage.width, coverage.height);
@@ -43,8 +43,8 @@ GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
 }
 
 /// The sampler decodes the codes, so that it filters in linear light.
-GlTexture upload_light(std::span<const Image8> mips) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture upload_light(std::span<const image::Image8> mips) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(mips.size()), GL_SRGB8_ALPHA8, mips.front().width,
                    mips.front().height);
@@ -63,21 +63,21 @@ template <typename Map, typename Id> auto found(const Map& map, Id id) -> const 
 
 } // namespace
 
-Result<Drawable> GpuStore::upload(const Pack& pack, std::uint32_t level) {
-    return upload(whole_level(pack, level), pack.textures[pack.levels[level].texture]);
+Result<scene::Drawable> GpuStore::upload(const pack::Pack& pack, std::uint32_t level) {
+    return upload(scene::whole_level(pack, level), pack.textures[pack.levels[level].texture]);
 }
 
-Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture) {
-    LevelUpload whole(level_data(level, texture));
+Result<scene::Drawable> GpuStore::upload(const scene::SceneLevel& level, const image::Image8& texture) {
+    LevelUpload whole(scene::level_data(level, texture));
     TRY_VOID(whole.go_on());
     return keep(std::move(whole));
 }
 
-Drawable GpuStore::keep(LevelUpload upload) {
+scene::Drawable GpuStore::keep(LevelUpload upload) {
     if (upload.data_.relief && !upload.blocks_) {
         return keep(std::move(upload.data_.relief));
     }
-    const MeshId id{++last_};
+    const scene::MeshId id{++last_};
     if (upload.blocks_) {
         BlockUpload::Textures blocks = upload.blocks_->take();
         blocks_.emplace(
@@ -85,12 +85,12 @@ Drawable GpuStore::keep(LevelUpload upload) {
         return {id, {keep(std::move(blocks.colours), 0)}};
     }
     meshes_.emplace(id, Mesh{std::move(upload.vertex_array_), std::move(upload.vertices_)});
-    const LevelData& data = upload.data_;
+    const scene::LevelData& data = upload.data_;
     return {id, {keep(std::move(upload.texels_), data.finest_mip), data.texels_per_box, data.cut_out}};
 }
 
-Result<Drawable> GpuStore::upload(std::shared_ptr<const BlockRelief> relief) {
-    LevelData data;
+Result<scene::Drawable> GpuStore::upload(std::shared_ptr<const relief::BlockRelief> relief) {
+    scene::LevelData data;
     data.relief = std::move(relief);
     data.on_gpu = true;
     LevelUpload whole(std::move(data));
@@ -98,13 +98,13 @@ Result<Drawable> GpuStore::upload(std::shared_ptr<const BlockRelief> relief) {
     return keep(std::move(whole));
 }
 
-Drawable GpuStore::keep(std::shared_ptr<const BlockRelief> relief) {
-    const MeshId id{++last_};
+scene::Drawable GpuStore::keep(std::shared_ptr<const relief::BlockRelief> relief) {
+    const scene::MeshId id{++last_};
     reliefs_.emplace(id, std::move(relief));
     return {id, {}};
 }
 
-Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
+Result<scene::TextureId> GpuStore::upload(const image::Image<std::uint8_t>& coverage) {
     const int limit = max_texels();
     if (coverage.width < 1 || coverage.height < 1 || std::max(coverage.width, coverage.height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.caption_size",
@@ -114,7 +114,7 @@ Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
     return keep(upload_coverage(coverage), 0);
 }
 
-Result<TextureId> GpuStore::upload_picture(std::span<const Image8> mips) {
+Result<scene::TextureId> GpuStore::upload_picture(std::span<const image::Image8> mips) {
     const int width = mips.empty() ? 0 : mips.front().width;
     const int height = mips.empty() ? 0 : mips.front().height;
     const int limit = max_texels();
@@ -125,38 +125,38 @@ Result<TextureId> GpuStore::upload_picture(std::span<const Image8> mips) {
     return keep(upload_light(mips), 0);
 }
 
-TextureId GpuStore::keep(GlTexture texels, int finest_mip) {
-    const TextureId id{++last_};
+scene::TextureId GpuStore::keep(gl::GlTexture texels, int finest_mip) {
+    const scene::TextureId id{++last_};
     textures_.emplace(id, Texture{std::move(texels), finest_mip});
     return id;
 }
 
-void GpuStore::release(const Drawable& drawable) {
+void GpuStore::release(const scene::Drawable& drawable) {
     meshes_.erase(drawable.mesh);
     reliefs_.erase(drawable.mesh);
     blocks_.erase(drawable.mesh);
     release(drawable.material.texture);
 }
 
-void GpuStore::release(TextureId texture) {
+void GpuStore::release(scene::TextureId texture) {
     textures_.erase(texture);
 }
 
-const GpuStore::Mesh* GpuStore::find(MeshId mesh) const {
+const GpuStore::Mesh* GpuStore::find(scene::MeshId mesh) const {
     return found(meshes_, mesh);
 }
 
-const BlockRelief* GpuStore::find_relief(MeshId relief) const {
+const relief::BlockRelief* GpuStore::find_relief(scene::MeshId relief) const {
     const auto place = reliefs_.find(relief);
     const Blocks* const blocks = find_blocks(relief);
     return place != reliefs_.end() ? place->second.get() : blocks != nullptr ? blocks->relief.get() : nullptr;
 }
 
-const GpuStore::Blocks* GpuStore::find_blocks(MeshId relief) const {
+const GpuStore::Blocks* GpuStore::find_blocks(scene::MeshId relief) const {
     return found(blocks_, relief);
 }
 
-const GpuStore::Texture* GpuStore::find(TextureId texture) const {
+const GpuStore::Texture* GpuStore::find(scene::TextureId texture) const {
     return found(textures_, texture);
 }
 
@@ -174,7 +174,7 @@ std::uint64_t GpuStore::bytes() const {
     return bytes;
 }
 
-std::uint64_t GpuStore::bytes(const Drawable& drawable) const {
+std::uint64_t GpuStore::bytes(const scene::Drawable& drawable) const {
     const Mesh* const mesh = find(drawable.mesh);
     const Blocks* const blocks = find_blocks(drawable.mesh);
     return (mesh != nullptr ? bytes_of_buffer(mesh->vertices) : 0) +
@@ -182,9 +182,9 @@ std::uint64_t GpuStore::bytes(const Drawable& drawable) const {
            bytes(drawable.material.texture);
 }
 
-std::uint64_t GpuStore::bytes(TextureId texture) const {
+std::uint64_t GpuStore::bytes(scene::TextureId texture) const {
     const Texture* const held = find(texture);
     return held != nullptr ? bytes_of_texture(held->texels) : 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

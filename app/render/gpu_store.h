@@ -20,62 +20,64 @@
 #include <memory>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class GpuStore {
 public:
     /// Uploads the part of a level that a scene needs; `texture` is the level's whole texture.
-    [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
+    [[nodiscard]] Result<scene::Drawable> upload(const scene::SceneLevel& level,
+                                                 const image::Image8& texture);
     /// Takes over a level or a relief that has been uploaded piece by piece; its upload must be done.
-    [[nodiscard]] Drawable keep(LevelUpload upload);
+    [[nodiscard]] scene::Drawable keep(LevelUpload upload);
     /// Takes over a relief that is rasterized on the processor; nothing is uploaded.
-    [[nodiscard]] Drawable keep(std::shared_ptr<const BlockRelief> relief);
+    [[nodiscard]] scene::Drawable keep(std::shared_ptr<const relief::BlockRelief> relief);
     /// Uploads a relief that the GPU draws.
-    [[nodiscard]] Result<Drawable> upload(std::shared_ptr<const BlockRelief> relief);
+    [[nodiscard]] Result<scene::Drawable> upload(std::shared_ptr<const relief::BlockRelief> relief);
     /// Uploads a whole level.
-    [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
+    [[nodiscard]] Result<scene::Drawable> upload(const pack::Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
-    [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
+    [[nodiscard]] Result<scene::TextureId> upload(const image::Image<std::uint8_t>& coverage);
     /// Uploads a picture on the table, row 0 at its top: `mips` from light_mips.
-    [[nodiscard]] Result<TextureId> upload_picture(std::span<const Image8> mips);
+    [[nodiscard]] Result<scene::TextureId> upload_picture(std::span<const image::Image8> mips);
     /// From now on, draws that name it show nothing.
-    void release(const Drawable& drawable);
-    void release(TextureId texture);
+    void release(const scene::Drawable& drawable);
+    void release(scene::TextureId texture);
 
     struct Mesh {
-        GlVertexArray vertex_array;
-        GlBuffer vertices;
+        gl::GlVertexArray vertex_array;
+        gl::GlBuffer vertices;
     };
     struct Texture {
-        GlTexture texels;
+        gl::GlTexture texels;
         int finest_mip = 0; ///< mip level of the whole texture that is uploaded as level 0
     };
     /// As in block_upload.h; the colours are the drawable's texture.
     struct Blocks {
-        std::shared_ptr<const BlockRelief> relief; ///< in main memory, where blocks are listed
-        GlTexture numbers, covers;
+        std::shared_ptr<const relief::BlockRelief> relief; ///< in main memory, where blocks are listed
+        gl::GlTexture numbers, covers;
     };
     /// Null if it was not uploaded, or was released.
-    [[nodiscard]] const Mesh* find(MeshId mesh) const;
+    [[nodiscard]] const Mesh* find(scene::MeshId mesh) const;
     /// As above, for a relief's data in main memory, whichever way it is drawn.
-    [[nodiscard]] const BlockRelief* find_relief(MeshId relief) const;
+    [[nodiscard]] const relief::BlockRelief* find_relief(scene::MeshId relief) const;
     /// As above, for a relief that the GPU draws.
-    [[nodiscard]] const Blocks* find_blocks(MeshId relief) const;
-    [[nodiscard]] const Texture* find(TextureId texture) const;
+    [[nodiscard]] const Blocks* find_blocks(scene::MeshId relief) const;
+    [[nodiscard]] const Texture* find(scene::TextureId texture) const;
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
-    [[nodiscard]] std::uint64_t bytes(const Drawable& drawable) const;
-    [[nodiscard]] std::uint64_t bytes(TextureId texture) const;
+    [[nodiscard]] std::uint64_t bytes(const scene::Drawable& drawable) const;
+    [[nodiscard]] std::uint64_t bytes(scene::TextureId texture) const;
 
 private:
-    [[nodiscard]] TextureId keep(GlTexture texels, int finest_mip);
+    [[nodiscard]] scene::TextureId keep(gl::GlTexture texels, int finest_mip);
 
-    std::map<MeshId, Mesh> meshes_;
-    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_; ///< rasterized on the processor
-    std::map<MeshId, Blocks> blocks_;
-    std::map<TextureId, Texture> textures_;
+    std::map<scene::MeshId, Mesh> meshes_;
+    std::map<scene::MeshId, std::shared_ptr<const relief::BlockRelief>>
+        reliefs_; ///< rasterized on the processor
+    std::map<scene::MeshId, Blocks> blocks_;
+    std::map<scene::TextureId, Texture> textures_;
     std::uint32_t last_ = 0; ///< last number given out
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -6,22 +6,22 @@
 #include <set>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
     const int width = shown.width();
     const int height = shown.height();
     HitPointRenderer renderer(width, height);
-    std::set<ShaderKey> shaders{{ShaderKey::Pass::Outline}};
-    for (const ShaderKey& key : shown.shaders()) {
-        if (key.pass == ShaderKey::Pass::Surface) {
-            shaders.insert(places_of(key));
+    std::set<scene::ShaderKey> shaders{{scene::ShaderKey::Pass::Outline}};
+    for (const scene::ShaderKey& key : shown.shaders()) {
+        if (key.pass == scene::ShaderKey::Pass::Surface) {
+            shaders.insert(scene::places_of(key));
         }
     }
     TRY_VOID(renderer.shaders_.prepare(shaders, shown.bent_by()));
-    renderer.framebuffer_ = GlFramebuffer::generate();
-    renderer.points_ = GlRenderbuffer::generate();
-    renderer.depth_stencil_ = GlRenderbuffer::generate();
+    renderer.framebuffer_ = gl::GlFramebuffer::generate();
+    renderer.points_ = gl::GlRenderbuffer::generate();
+    renderer.depth_stencil_ = gl::GlRenderbuffer::generate();
     glBindFramebuffer(GL_FRAMEBUFFER, renderer.framebuffer_.get());
     glBindRenderbuffer(GL_RENDERBUFFER, renderer.points_.get());
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, width, height);
@@ -38,7 +38,7 @@ Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
     return renderer;
 }
 
-ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) {
+image::ImageFloat HitPointRenderer::draw(const scene::FramePlan& plan, const GpuStore& store) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glViewport(0, 0, width_, height_);
     glDisable(GL_SCISSOR_TEST);
@@ -47,7 +47,7 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) 
     glClearBufferfv(GL_COLOR, 0, nothing.data());
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
     pass_.draw(plan, store, shaders_, {}, FacePass::Output::Places);
-    ImageFloat image(width_, height_);
+    image::ImageFloat image(width_, height_);
     std::vector<glm::vec4> read(image.texels.size());
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, read.data());
     for (std::size_t k = 0; k < read.size(); ++k) {
@@ -58,15 +58,19 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) 
     return image;
 }
 
-void HitPointRenderer::add_rasters(const FramePlan& plan, const GpuStore& store, ImageFloat& points) {
+void HitPointRenderer::add_rasters(const scene::FramePlan& plan, const GpuStore& store,
+                                   image::ImageFloat& points) {
     for (std::size_t relief_draw = 0; relief_draw < plan.relief_draw_count; ++relief_draw) {
-        const ReliefDraw& planned = plan.relief_draws[relief_draw];
-        const BlockRelief* const relief = planned.on_gpu ? nullptr : store.find_relief(planned.relief);
+        const scene::ReliefDraw& planned = plan.relief_draws[relief_draw];
+        const relief::BlockRelief* const relief =
+            planned.on_gpu ? nullptr : store.find_relief(planned.relief);
         if (relief == nullptr) {
             continue;
         }
-        ImageFloat met(width_, height_);
-        painter_->hit_points(*relief, planned.view, {met.texels.data(), width_, height_, width_});
+        image::ImageFloat met(width_, height_);
+        painter_->hit_points(
+            *relief, planned.view,
+            {.first = met.texels.data(), .width = width_, .height = height_, .stride = width_});
         const auto metres = static_cast<float>(planned.metres_per_box);
         for (std::size_t k = 0; k < points.texels.size(); ++k) {
             if (std::isnan(points.texels[k].x)) {
@@ -76,4 +80,4 @@ void HitPointRenderer::add_rasters(const FramePlan& plan, const GpuStore& store,
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

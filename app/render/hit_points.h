@@ -12,7 +12,7 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class HitPointRenderer {
 public:
@@ -21,21 +21,21 @@ public:
     [[nodiscard]] static Result<HitPointRenderer> create(const Renderer& renderer);
     /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top. `store`: the same
     /// renderer's.
-    [[nodiscard]] ImageFloat draw(const FramePlan& plan, const GpuStore& store);
+    [[nodiscard]] image::ImageFloat draw(const scene::FramePlan& plan, const GpuStore& store);
 
 private:
     /// Adds the rasterized reliefs where the meshes show nothing.
-    void add_rasters(const FramePlan& plan, const GpuStore& store, ImageFloat& points);
+    void add_rasters(const scene::FramePlan& plan, const GpuStore& store, image::ImageFloat& points);
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 
     int width_;
     int height_;
     ShaderCache shaders_;
     FacePass pass_;
-    std::unique_ptr<ReliefPainter> painter_ = std::make_unique<ReliefPainter>(1);
-    GlFramebuffer framebuffer_;
-    GlRenderbuffer points_;
-    GlRenderbuffer depth_stencil_;
+    std::unique_ptr<relief::ReliefPainter> painter_ = std::make_unique<relief::ReliefPainter>(1);
+    gl::GlFramebuffer framebuffer_;
+    gl::GlRenderbuffer points_;
+    gl::GlRenderbuffer depth_stencil_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 Result<void> LevelUpload::go_on(std::uint64_t max_bytes) {
     if (data_.relief && !data_.on_gpu) {
@@ -41,7 +41,7 @@ Result<void> LevelUpload::go_on(std::uint64_t max_bytes) {
 
 /// Creates the objects and allocates their memory, without copying data.
 Result<void> LevelUpload::begin() {
-    const Image8& finest = data_.mips.front();
+    const image::Image8& finest = data_.mips.front();
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     const int scale = 1 << data_.finest_mip;
@@ -50,20 +50,20 @@ Result<void> LevelUpload::begin() {
                     "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
                     finest.width * scale, finest.height * scale, limit);
     }
-    vertex_array_ = GlVertexArray::generate();
-    vertices_ = GlBuffer::generate();
+    vertex_array_ = gl::GlVertexArray::generate();
+    vertices_ = gl::GlBuffer::generate();
     glBindVertexArray(vertex_array_.get());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data_.vertices.size() * sizeof(PackVertex)),
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data_.vertices.size() * sizeof(pack::PackVertex)),
                  nullptr, GL_STATIC_DRAW);
     glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex), nullptr);
+    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(pack::PackVertex), nullptr);
     glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(PackVertex),
+    glVertexAttribPointer(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(pack::PackVertex),
                           // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                          reinterpret_cast<const void*>(offsetof(PackVertex, uv)));
+                          reinterpret_cast<const void*>(offsetof(pack::PackVertex, uv)));
     glBindVertexArray(0);
-    texels_ = GlTexture::generate();
+    texels_ = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texels_.get());
     glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
                    finest.height);
@@ -77,21 +77,21 @@ Result<void> LevelUpload::begin() {
 }
 
 std::uint64_t LevelUpload::upload_vertices(std::uint64_t max_bytes) {
-    const std::size_t count =
-        std::min<std::uint64_t>(data_.vertices.size() - vertices_there_, max_bytes / sizeof(PackVertex) + 1);
+    const std::size_t count = std::min<std::uint64_t>(data_.vertices.size() - vertices_there_,
+                                                      max_bytes / sizeof(pack::PackVertex) + 1);
     if (count == 0) {
         return 0;
     }
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
-    glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(vertices_there_ * sizeof(PackVertex)),
-                    static_cast<GLsizeiptr>(count * sizeof(PackVertex)),
+    glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(vertices_there_ * sizeof(pack::PackVertex)),
+                    static_cast<GLsizeiptr>(count * sizeof(pack::PackVertex)),
                     data_.vertices.data() + vertices_there_);
     vertices_there_ += count;
-    return count * sizeof(PackVertex);
+    return count * sizeof(pack::PackVertex);
 }
 
 std::uint64_t LevelUpload::upload_texels(std::uint64_t max_bytes) {
-    Image8& mip = data_.mips[mip_];
+    image::Image8& mip = data_.mips[mip_];
     const std::uint64_t bytes_a_row = sizeof(glm::u8vec4) * static_cast<std::uint64_t>(mip.width);
     const int rows = static_cast<int>(
         std::min<std::uint64_t>(static_cast<std::uint64_t>(mip.height - row_), max_bytes / bytes_a_row + 1));
@@ -100,11 +100,11 @@ std::uint64_t LevelUpload::upload_texels(std::uint64_t max_bytes) {
                     GL_UNSIGNED_BYTE, &mip.at(0, row_));
     row_ += rows;
     if (row_ == mip.height) {
-        mip = Image8();
+        mip = image::Image8();
         ++mip_;
         row_ = 0;
     }
     return bytes_a_row * static_cast<std::uint64_t>(rows);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

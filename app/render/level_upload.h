@@ -16,11 +16,11 @@
 #include <limits>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class LevelUpload {
 public:
-    explicit LevelUpload(LevelData data) : data_(std::move(data)) {}
+    explicit LevelUpload(scene::LevelData data) : data_(std::move(data)) {}
 
     /// Uploads `max_bytes` more, or the rest; a row of texels is uploaded whole, so it may exceed them
     /// slightly.
@@ -34,11 +34,11 @@ private:
     [[nodiscard]] std::uint64_t upload_vertices(std::uint64_t max_bytes);
     [[nodiscard]] std::uint64_t upload_texels(std::uint64_t max_bytes);
 
-    LevelData data_;
+    scene::LevelData data_;
     std::optional<BlockUpload> blocks_; ///< for a relief that the GPU draws
-    GlVertexArray vertex_array_;
-    GlBuffer vertices_;
-    GlTexture texels_;
+    gl::GlVertexArray vertex_array_;
+    gl::GlBuffer vertices_;
+    gl::GlTexture texels_;
     bool begun_ = false;
     bool done_ = false;
     std::size_t vertices_there_ = 0;
@@ -46,4 +46,4 @@ private:
     int row_ = 0;         ///< the next row of that mip level
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

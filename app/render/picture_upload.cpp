@@ -1,16 +1,17 @@
 #include "app/render/picture_upload.h"
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 PictureUpload::PictureUpload(int width, int height)
-    : width_(width), height_(height), texture_(GlTexture::generate()), source_(GlFramebuffer::generate()) {
+    : width_(width), height_(height), texture_(gl::GlTexture::generate()),
+      source_(gl::GlFramebuffer::generate()) {
     glBindTexture(GL_TEXTURE_2D, texture_.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, width, height);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, source_.get());
     glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.get(), 0);
 }
 
-void PictureUpload::put(const Image8& picture) {
+void PictureUpload::put(const image::Image8& picture) {
     glBindTexture(GL_TEXTURE_2D, texture_.get());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
                     picture.texels.data());
@@ -24,4 +25,4 @@ void PictureUpload::show_again(unsigned framebuffer, const glm::ivec2& place) {
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -7,26 +7,26 @@
 #include "app/image/image.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class PictureUpload {
 public:
     PictureUpload(int width, int height);
     /// `picture` has the size given above; sRGB codes arrive unchanged, row 0 at the picture's top.
-    void show(const Image8& picture, unsigned framebuffer) {
+    void show(const image::Image8& picture, unsigned framebuffer) {
         put(picture);
         show_again(framebuffer);
     }
     /// The same in two steps: the picture is stored, and shown as often as needed.
-    void put(const Image8& picture);
+    void put(const image::Image8& picture);
     /// `place`: position of its upper left corner in the framebuffer.
     void show_again(unsigned framebuffer, const glm::ivec2& place = glm::ivec2(0));
 
 private:
     int width_;
     int height_;
-    GlTexture texture_;
-    GlFramebuffer source_;
+    gl::GlTexture texture_;
+    gl::GlFramebuffer source_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -37,12 +37,12 @@ bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& 
     return true;
 }
 
-std::optional<std::uint8_t> read_probe(const Image8& picture) {
+std::optional<std::uint8_t> read_probe(const image::Image8& picture) {
     if (picture.width < probe_pixels || picture.height < 1) {
         return std::nullopt;
     }
     const std::span<const glm::u8vec4, std::size_t{probe_pixels}> corner(picture.texels.data(), probe_pixels);
-    return read_probe(std::as_bytes(corner));
+    return frustumscreen::read_probe(std::as_bytes(corner));
 }
 
 std::optional<std::uint8_t> read_probe(unsigned framebuffer) {
@@ -50,10 +50,10 @@ std::optional<std::uint8_t> read_probe(unsigned framebuffer) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, probe_pixels, 1, GL_RGBA, GL_UNSIGNED_BYTE, corner.data());
-    return read_probe(std::span<const std::byte, probe_bytes>(corner));
+    return frustumscreen::read_probe(std::span<const std::byte, probe_bytes>(corner));
 }
 
-void erase_probe(Image8& picture) {
+void erase_probe(image::Image8& picture) {
     if (read_probe(picture)) {
         for (int k = 0; k < probe_pixels; ++k) {
             picture.at(k, 0) = {0, 0, 0, 255};
@@ -61,4 +61,4 @@ void erase_probe(Image8& picture) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

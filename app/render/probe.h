@@ -13,18 +13,18 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// Writes only into the picture's corner. Returns false and writes nothing if `lit` covers the corner.
 bool write_probe(unsigned framebuffer, std::uint8_t code, const PixelRectangle& lit);
 
 /// The code in a picture's corner; nullopt if there is none.
-[[nodiscard]] std::optional<std::uint8_t> read_probe(const Image8& picture);
+[[nodiscard]] std::optional<std::uint8_t> read_probe(const image::Image8& picture);
 /// As above, from a framebuffer, once everything in it is drawn. It waits for the GPU, so do not call it in
 /// every frame.
 [[nodiscard]] std::optional<std::uint8_t> read_probe(unsigned framebuffer);
 
 /// Makes the corner black again, as in the picture. A picture without a code is left unchanged.
-void erase_probe(Image8& picture);
+void erase_probe(image::Image8& picture);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

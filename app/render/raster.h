@@ -8,7 +8,7 @@
 #include <GLES3/gl32.h>
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 struct Raster {
     glm::ivec2 fragments{1, 1}; ///< along the sides of one pixel
@@ -28,4 +28,4 @@ inline void set_scissor(const PixelRectangle& r, const Raster& raster = {}) {
     glScissor(first.x, first.y, size.x, size.y);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -9,18 +9,18 @@
 #include <span>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
 /// True if the relief can be copied there: no fade, no mesh, no picture on the table. A face drawn in black
 /// under such a picture does not matter, because the relief's unlit pixels are black too.
-bool stands_alone(const FramePlan& plan, const PixelRectangle& part) {
+bool stands_alone(const scene::FramePlan& plan, const PixelRectangle& part) {
     return plan.relief_draw_count == 1 &&
-           std::none_of(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
-               const bool black =
-                   draw.face == Draw::on_table && draw.drawable.material.texture == TextureId::None;
-               return draw.shader.pass == ShaderKey::Pass::Raster
+           std::none_of(plan.draws.begin(), plan.draws.end(), [&](const scene::Draw& draw) {
+               const bool black = draw.face == scene::Draw::on_table &&
+                                  draw.drawable.material.texture == scene::TextureId::None;
+               return draw.shader.pass == scene::ShaderKey::Pass::Raster
                           ? draw.shader.dithered
                           : !black && !intersected(draw.bounds, part).empty();
            });
@@ -41,11 +41,11 @@ GLuint texture_of_framebuffer() {
 
 Result<void> RasterPass::prepare(std::size_t relief_draws, int width, int height) {
     if (relief_draws > 0 && !painter_) {
-        painter_ = std::make_unique<ReliefPainter>(static_cast<int>(usable_cores()));
-        memory_ = Image8(width, height);
+        painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
+        memory_ = image::Image8(width, height);
     }
     while (pictures_.size() < relief_draws) {
-        Picture picture{GlTexture::generate(), {}};
+        Picture picture{gl::GlTexture::generate(), {}};
         glBindTexture(GL_TEXTURE_2D, picture.texels.get());
         glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -63,21 +63,25 @@ Result<void> RasterPass::prepare(std::size_t relief_draws, int width, int height
     return {};
 }
 
-void RasterPass::paint(const FramePlan& plan, const GpuStore& store) {
+void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
         Picture& picture = pictures_[k];
         picture.painted.clear();
         picture.copied = 0;
-        const BlockRelief* const relief = k < plan.relief_draw_count && !plan.relief_draws[k].on_gpu
-                                              ? store.find_relief(plan.relief_draws[k].relief)
-                                              : nullptr;
+        const relief::BlockRelief* const relief = k < plan.relief_draw_count && !plan.relief_draws[k].on_gpu
+                                                      ? store.find_relief(plan.relief_draws[k].relief)
+                                                      : nullptr;
         if (relief == nullptr) {
             continue;
         }
         light_.begin(plan, k);
         const std::span<const PixelRectangle> painted =
             painter_->paint(*relief, plan.relief_draws[k].view, plan.relief_draws[k].samples,
-                            {memory_.texels.data(), memory_.width, memory_.height, memory_.width}, &light_);
+                            {.first = memory_.texels.data(),
+                             .width = memory_.width,
+                             .height = memory_.height,
+                             .stride = memory_.width},
+                            &light_);
         picture.painted.assign(painted.begin(), painted.end());
         const auto drawn =
             std::partition(picture.painted.begin(), picture.painted.end(),
@@ -98,7 +102,7 @@ void RasterPass::upload(std::span<const PixelRectangle> parts) const {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-int RasterPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
+int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) const {
     glBindVertexArray(no_attributes_.get());
     glActiveTexture(GL_TEXTURE0);
     int calls = 0;
@@ -111,8 +115,8 @@ int RasterPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
             upload(copied);
         }
         // One draw serves all faces: their pixels are disjoint, and the light is already applied.
-        const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const Draw& draw) {
-            return draw.shader.pass == ShaderKey::Pass::Raster && draw.relief_draw == k;
+        const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const scene::Draw& draw) {
+            return draw.shader.pass == scene::ShaderKey::Pass::Raster && draw.relief_draw == k;
         });
         const Shader* const shader = shown != plan.draws.end() ? shaders.find(shown->shader) : nullptr;
         if (shader == nullptr || drawn.empty()) {
@@ -136,4 +140,4 @@ std::uint64_t RasterPass::bytes() const {
         [](std::uint64_t sum, const Picture& picture) { return sum + bytes_of_texture(picture.texels); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class RasterPass {
 public:
@@ -33,17 +33,17 @@ public:
     [[nodiscard]] Result<void> prepare(std::size_t relief_draws, int width, int height);
 
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws.
-    void paint(const FramePlan& plan, const GpuStore& store);
+    void paint(const scene::FramePlan& plan, const GpuStore& store);
     /// Shows the painted reliefs of this plan in the bound framebuffer, whose colour must be a texture;
     /// returns the number of draw calls.
-    int show(const FramePlan& plan, const ShaderCache& shaders) const;
+    int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     struct Picture {
-        GlTexture texels;                    ///< valid in the rectangles that are drawn; the rest is from
+        gl::GlTexture texels;                ///< valid in the rectangles that are drawn; the rest is from
                                              ///< earlier frames
         std::vector<PixelRectangle> painted; ///< first the rectangles to copy, then those to draw
         std::size_t copied = 0;
@@ -51,11 +51,11 @@ private:
     /// Uploads from main memory into the bound texture.
     void upload(std::span<const PixelRectangle> parts) const;
 
-    std::unique_ptr<ReliefPainter> painter_; ///< null: no picture was prepared
-    RasterLight light_;
-    Image8 memory_; ///< main memory that each relief is rasterized in, one after another
+    std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
+    scene::RasterLight light_;
+    image::Image8 memory_; ///< main memory that each relief is rasterized in, one after another
     std::vector<Picture> pictures_;
-    GlVertexArray no_attributes_ = GlVertexArray::generate();
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

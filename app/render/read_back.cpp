@@ -2,15 +2,15 @@
 
 #include <GLES3/gl31.h>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
-Image8 read_colour(unsigned framebuffer, int width, int height) {
-    Image8 image(width, height);
+image::Image8 read_colour(unsigned framebuffer, int width, int height) {
+    image::Image8 image(width, height);
     read_colour_into(framebuffer, image);
     return image;
 }
 
-void read_colour_into(unsigned framebuffer, Image8& image) {
+void read_colour_into(unsigned framebuffer, image::Image8& image) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.texels.data());
@@ -23,4 +23,4 @@ void wait_until_drawn() {
     glFinish();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

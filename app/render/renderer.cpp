@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -36,7 +36,7 @@ void clear(GLbitfield what) {
 
 } // namespace
 
-Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& needs) {
+Result<Renderer> Renderer::create(int width, int height, const scene::RenderNeeds& needs) {
     for (const std::string_view extension : {"GL_EXT_texture_sRGB_decode", "GL_EXT_sRGB_write_control"}) {
         if (!driver_has(extension)) {
             return fail(ErrorKind::BadConfiguration, "render.no_extension",
@@ -48,9 +48,9 @@ Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& need
     return renderer;
 }
 
-Result<void> Renderer::prepare(const RenderNeeds& needs) {
-    const RenderNeeds all = united(needs_, needs);
-    TRY_VOID(shaders_.prepare(shaders_of(all), all.bent_by));
+Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
+    const scene::RenderNeeds all = scene::united(needs_, needs);
+    TRY_VOID(shaders_.prepare(scene::shaders_of(all), all.bent_by));
     TRY_VOID(raster_pass_.prepare(all.relief_draws, width_, height_));
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
         const PixelSize picture{width_, height_};
@@ -75,14 +75,14 @@ void Renderer::Picture::add_changes(const Picture& other, PixelRectangle& change
     }
 }
 
-Renderer::Picture Renderer::picture_of(const FramePlan& plan) {
+Renderer::Picture Renderer::picture_of(const scene::FramePlan& plan) {
     Picture picture;
     picture.hash = plan.hash;
     picture.prop_hash = plan.prop_hash;
-    picture.prop_bounds = bounds_in_prop(plan);
-    for (const Draw& draw : plan.draws) {
-        if (draw.face == Draw::on_table && picture.count < picture.on_table.size()) {
-            picture.on_table[picture.count++] = {hash_of(draw), draw.bounds};
+    picture.prop_bounds = scene::bounds_in_prop(plan);
+    for (const scene::Draw& draw : plan.draws) {
+        if (draw.face == scene::Draw::on_table && picture.count < picture.on_table.size()) {
+            picture.on_table[picture.count++] = {scene::hash_of(draw), draw.bounds};
         }
     }
     return picture;
@@ -108,14 +108,15 @@ Renderer::Repaint Renderer::to_redraw(const Picture& picture, const RenderTarget
     return repaint;
 }
 
-DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Redraw redraw) {
+DrawResult Renderer::draw(const scene::FramePlan& plan, const RenderTarget& target, Redraw redraw) {
     if (redraw == Redraw::Changes && target.buffer_age > 0 && pictures_ > 0 &&
         history_[0].hash == plan.hash) {
         return {};
     }
     const Picture picture = picture_of(plan);
     const Repaint repaint = to_redraw(picture, target, redraw);
-    DrawResult result{true, repaint.part, lit_bounds(plan), 0};
+    DrawResult result{
+        .drawn = true, .redrawn = repaint.part, .lit = scene::lit_bounds(plan), .draw_calls = 0};
     if (!result.redrawn.empty()) {
         paint(plan, target, repaint, result);
     }
@@ -128,7 +129,7 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
 /// The larger picture comes first, so that a tiling GPU visits the display's framebuffer once. Codes are
 /// written unchanged throughout; passes that compute in linear light (captions, averages) enable the encoding
 /// themselves.
-void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
+void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                      DrawResult& result) {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
     const Raster raster = sample_grid_ && !plan.faces.empty() && repaint.prop
@@ -165,4 +166,4 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -20,7 +20,7 @@
 #include <optional>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// Samples a pixel lie on a regular grid and are averaged in linear light: 1, 2, 4, 8 or 16. More samples
 /// smooth the outlines and the texture. Only the artifact's rectangle is drawn larger and averaged down: on
@@ -55,10 +55,10 @@ enum class Redraw {
 class Renderer {
 public:
     /// Makes a renderer for pictures of this size.
-    [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs = {});
+    [[nodiscard]] static Result<Renderer> create(int width, int height, const scene::RenderNeeds& needs = {});
     /// Compiles and allocates whatever these needs add to the earlier ones, so that no frame compiles
     /// anything.
-    [[nodiscard]] Result<void> prepare(const RenderNeeds& needs);
+    [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
 
     /// The meshes and textures that plans name. A picture counts as unchanged until its plan names something
     /// else; a released object is missing from the next picture that is drawn.
@@ -66,14 +66,15 @@ public:
     [[nodiscard]] const GpuStore& store() const { return store_; }
 
     /// Each drawn picture must be presented before the next call: the target's age counts presents.
-    DrawResult draw(const FramePlan& plan, const RenderTarget& target, Redraw redraw = Redraw::Changes);
+    DrawResult draw(const scene::FramePlan& plan, const RenderTarget& target,
+                    Redraw redraw = Redraw::Changes);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     /// The compiled shaders.
-    [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
+    [[nodiscard]] std::set<scene::ShaderKey> shaders() const { return shaders_.keys(); }
     /// The projector whose lens distortion the shaders apply, if any.
-    [[nodiscard]] const std::optional<Pinhole>& bent_by() const { return needs_.bent_by; }
+    [[nodiscard]] const std::optional<geometry::Pinhole>& bent_by() const { return needs_.bent_by; }
     /// Bytes of GPU memory, as the driver reports, without the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -87,7 +88,7 @@ private:
         std::uint64_t hash = 0;
         std::uint64_t prop_hash = 0;
         PixelRectangle prop_bounds;
-        std::array<OnTable, max_on_table + 16> on_table{}; ///< including the prop's faces in black
+        std::array<OnTable, scene::max_on_table + 16> on_table{}; ///< including the prop's faces in black
         std::size_t count = 0;
         [[nodiscard]] bool lies(const OnTable& draw) const;
         void add_changes(const Picture& other, PixelRectangle& changes) const;
@@ -96,14 +97,15 @@ private:
         PixelRectangle part;
         bool prop = true; ///< false: the part does not touch the prop
     };
-    [[nodiscard]] static Picture picture_of(const FramePlan& plan);
+    [[nodiscard]] static Picture picture_of(const scene::FramePlan& plan);
     Renderer(int width, int height) : width_(width), height_(height) {}
-    void paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint, DrawResult& result);
+    void paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
+               DrawResult& result);
     [[nodiscard]] Repaint to_redraw(const Picture& picture, const RenderTarget& target, Redraw redraw) const;
 
     int width_, height_;
     /// Room for the largest number of samples; a plan may ask for fewer, and for more in a smaller part.
-    RenderNeeds needs_;
+    scene::RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;
     RasterPass raster_pass_;
@@ -114,4 +116,4 @@ private:
     std::size_t pictures_ = 0;              ///< valid entries of history_
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 glm::ivec2 SampleGrid::of(int samples) {
     switch (samples) {
@@ -35,7 +35,7 @@ Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize&
     made.picture_ = {picture.width, picture.height};
     made.room_ = grid * glm::ivec2(part.width, part.height);
     TRY_VOID(made.make_target());
-    made.no_attributes_ = GlVertexArray::generate();
+    made.no_attributes_ = gl::GlVertexArray::generate();
     return made;
 }
 
@@ -49,9 +49,9 @@ Result<void> SampleGrid::make_target() {
                     "use fewer samples",
                     room_.x, room_.y, most);
     }
-    framebuffer_ = GlFramebuffer::generate();
-    colour_ = GlTexture::generate();
-    depth_stencil_ = GlRenderbuffer::generate();
+    framebuffer_ = gl::GlFramebuffer::generate();
+    colour_ = gl::GlTexture::generate();
+    depth_stencil_ = gl::GlRenderbuffer::generate();
     glBindTexture(GL_TEXTURE_2D, colour_.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, room_.x, room_.y);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -80,7 +80,7 @@ std::uint64_t SampleGrid::bytes() const {
     return bytes_of_texture(colour_) + bytes_of_renderbuffer(depth_stencil_);
 }
 
-void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
+void SampleGrid::draw_tiles(const scene::LitTiles& tiles, const Shader& shader) const {
     glBindVertexArray(no_attributes_.get());
     shader.draw_rectangles(picture_, tiles.rectangles());
     glBindVertexArray(0);
@@ -106,7 +106,7 @@ Raster SampleGrid::raster(const PixelRectangle& lit, const PixelRectangle& aroun
     return {};
 }
 
-void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
+void SampleGrid::begin(const scene::LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     set_viewport(picture_, raster);
     glDisable(GL_SCISSOR_TEST);
@@ -119,7 +119,7 @@ void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const Shader
     glStencilMask(0xFF);
     glStencilFunc(GL_ALWAYS, 0, 0xFF);
     glStencilOp(GL_REPLACE, GL_REPLACE, GL_REPLACE);
-    if (const Shader* const clear = shaders.find({ShaderKey::Pass::TileClear})) {
+    if (const Shader* const clear = shaders.find({scene::ShaderKey::Pass::TileClear})) {
         clear->use();
         draw_tiles(tiles, *clear);
     }
@@ -128,10 +128,11 @@ void SampleGrid::begin(const LitTiles& tiles, const Raster& raster, const Shader
     glDisable(GL_DEPTH_TEST);
 }
 
-void SampleGrid::average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
+void SampleGrid::average(const scene::LitTiles& tiles, const Raster& raster,
+                         const ShaderCache& shaders) const {
     const bool many = raster.fragments.x * raster.fragments.y > 4;
     const Shader* const average =
-        shaders.find({many ? ShaderKey::Pass::TileAverageMany : ShaderKey::Pass::TileAverage});
+        shaders.find({many ? scene::ShaderKey::Pass::TileAverageMany : scene::ShaderKey::Pass::TileAverage});
     if (average == nullptr) {
         return;
     }
@@ -143,4 +144,4 @@ void SampleGrid::average(const LitTiles& tiles, const Raster& raster, const Shad
     draw_tiles(tiles, *average);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -16,7 +16,7 @@
 
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class SampleGrid {
 public:
@@ -34,9 +34,9 @@ public:
     /// must not depend on what a level lights.
     [[nodiscard]] Raster raster(const PixelRectangle& lit, const PixelRectangle& around, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
-    void begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
+    void begin(const scene::LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
     /// Averages the tiles into the bound framebuffer, which encodes linear light.
-    void average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
+    void average(const scene::LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -44,15 +44,15 @@ public:
 private:
     SampleGrid() = default;
     [[nodiscard]] Result<void> make_target();
-    void draw_tiles(const LitTiles& tiles, const Shader& shader) const;
+    void draw_tiles(const scene::LitTiles& tiles, const Shader& shader) const;
 
     glm::ivec2 picture_{0, 0};
     glm::ivec2 room_{0, 0}; ///< size of the larger picture, in fragments
     glm::ivec2 largest_viewport_{0, 0};
-    GlFramebuffer framebuffer_;
-    GlTexture colour_;
-    GlRenderbuffer depth_stencil_;
-    GlVertexArray no_attributes_;
+    gl::GlFramebuffer framebuffer_;
+    gl::GlTexture colour_;
+    gl::GlRenderbuffer depth_stencil_;
+    gl::GlVertexArray no_attributes_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
 constexpr std::array<const char*, 3> sampler_names{"image", "blocks", "covers"};
 
 /// The lens is constant during a program's lifetime, so its uniforms are set once.
-void set_lens(GLuint program, const Pinhole& pinhole) {
+void set_lens(GLuint program, const geometry::Pinhole& pinhole) {
     const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
     const glm::dvec2 focal(pinhole.fx, pinhole.fy);
     const glm::vec4 lens_from_clip(half / focal, (half - glm::dvec2(pinhole.cx, pinhole.cy)) / focal);
@@ -33,9 +33,9 @@ void set_lens(GLuint program, const Pinhole& pinhole) {
 
 } // namespace
 
-Result<Shader> Shader::compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by) {
+Result<Shader> Shader::compile(const scene::ShaderKey& key, const std::optional<geometry::Pinhole>& bent_by) {
     const ShaderSource source = source_of(key, bent_by.has_value());
-    TRY(GlProgram program, make_program(source.defines, source.vertex, source.fragment));
+    TRY(gl::GlProgram program, gl::make_program(source.defines, source.vertex, source.fragment));
     Shader made;
     made.program_ = std::move(program);
     for (std::size_t k = 0; k < uniform_names.size(); ++k) {
@@ -64,8 +64,8 @@ void Shader::draw_rectangles(const glm::ivec2& picture, std::span<const PixelRec
     constexpr std::size_t corners_per_rectangle = 6;
     glUniform2f(location(Uniform::Picture), static_cast<float>(picture.x), static_cast<float>(picture.y));
     while (!rectangles.empty()) {
-        const auto some = rectangles.first(std::min(rectangles.size(), LitTiles::max_rectangles));
-        std::array<glm::vec4, LitTiles::max_rectangles> corners{};
+        const auto some = rectangles.first(std::min(rectangles.size(), scene::LitTiles::max_rectangles));
+        std::array<glm::vec4, scene::LitTiles::max_rectangles> corners{};
         std::transform(some.begin(), some.end(), corners.begin(),
                        [](const PixelRectangle& r) { return glm::vec4(r.x, r.y, r.width, r.height); });
         glUniform4fv(location(Uniform::Rectangles), static_cast<GLsizei>(some.size()), &corners[0].x);
@@ -74,12 +74,13 @@ void Shader::draw_rectangles(const glm::ivec2& picture, std::span<const PixelRec
     }
 }
 
-Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, const std::optional<Pinhole>& bent_by) {
+Result<void> ShaderCache::prepare(const std::set<scene::ShaderKey>& keys,
+                                  const std::optional<geometry::Pinhole>& bent_by) {
     if (bent_by != bent_by_) {
         shaders_.clear();
         bent_by_ = bent_by;
     }
-    for (const ShaderKey& key : keys) {
+    for (const scene::ShaderKey& key : keys) {
         if (find(key) != nullptr) {
             continue;
         }
@@ -89,17 +90,17 @@ Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, const std::op
     return {};
 }
 
-const Shader* ShaderCache::find(const ShaderKey& key) const {
+const Shader* ShaderCache::find(const scene::ShaderKey& key) const {
     const auto found = shaders_.find(key);
     return found != shaders_.end() ? &found->second : nullptr;
 }
 
-std::set<ShaderKey> ShaderCache::keys() const {
-    std::set<ShaderKey> keys;
+std::set<scene::ShaderKey> ShaderCache::keys() const {
+    std::set<scene::ShaderKey> keys;
     for (const auto& [key, shader] : shaders_) {
         keys.insert(key);
     }
     return keys;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -17,7 +17,7 @@
 #include <set>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// The uniforms of all shaders; each shader has some of them.
 enum class Uniform : std::size_t {
@@ -42,7 +42,8 @@ enum class Uniform : std::size_t {
 
 class Shader {
 public:
-    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by);
+    [[nodiscard]] static Result<Shader> compile(const scene::ShaderKey& key,
+                                                const std::optional<geometry::Pinhole>& bent_by);
     void use() const { glUseProgram(program_.get()); }
     /// Draws the quadrilateral of Uniform::Corners, in cells if the shader bends; call `use` first.
     void draw_quad() const;
@@ -55,7 +56,7 @@ public:
     }
 
 private:
-    GlProgram program_;
+    gl::GlProgram program_;
     bool bends_ = false;
     std::array<GLint, static_cast<std::size_t>(Uniform::Count)> locations_{};
 };
@@ -63,15 +64,15 @@ private:
 class ShaderCache {
 public:
     /// Compiles the missing shaders. `bent_by`: as RenderNeeds; shaders for another lens are deleted.
-    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys,
-                                       const std::optional<Pinhole>& bent_by);
+    [[nodiscard]] Result<void> prepare(const std::set<scene::ShaderKey>& keys,
+                                       const std::optional<geometry::Pinhole>& bent_by);
     /// Null if the shader was not prepared.
-    [[nodiscard]] const Shader* find(const ShaderKey& key) const;
-    [[nodiscard]] std::set<ShaderKey> keys() const;
+    [[nodiscard]] const Shader* find(const scene::ShaderKey& key) const;
+    [[nodiscard]] std::set<scene::ShaderKey> keys() const;
 
 private:
-    std::optional<Pinhole> bent_by_;
-    std::map<ShaderKey, Shader> shaders_;
+    std::optional<geometry::Pinhole> bent_by_;
+    std::map<scene::ShaderKey, Shader> shaders_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 namespace {
 
@@ -258,7 +258,7 @@ void main() {
 }
 )";
 
-std::string defines_of(const ShaderKey& key) {
+std::string defines_of(const scene::ShaderKey& key) {
     std::string defines;
     const auto define = [&defines](bool wanted, std::string_view name) {
         defines += wanted ? fmt::format("#define {}\n", name) : "";
@@ -273,38 +273,38 @@ std::string defines_of(const ShaderKey& key) {
 
 } // namespace
 
-ShaderSource source_of(const ShaderKey& key, bool bends) {
+ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     const std::string defines =
         (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
     const std::string tiles_defines =
-        fmt::format("#define MOST_RECTANGLES {}\n{}", LitTiles::max_rectangles, defines_of(key));
+        fmt::format("#define MOST_RECTANGLES {}\n{}", scene::LitTiles::max_rectangles, defines_of(key));
     const auto quad = [](std::string_view vertex) {
         return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
     };
     const auto fading = [](std::string_view fragment) { return fmt::format("{}{}", dither, fragment); };
     const std::string tiles(tiles_vertex);
     switch (key.pass) {
-    case ShaderKey::Pass::Outline:
+    case scene::ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
-    case ShaderKey::Pass::Surface:
+    case scene::ShaderKey::Pass::Surface:
         return {defines,
                 key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
                            : fmt::format("{}{}", bent_vertex, surface_vertex),
                 fmt::format("{}{}{}{}", dither, block_bits, block_cover, surface_fragment)};
-    case ShaderKey::Pass::Raster:
+    case scene::ShaderKey::Pass::Raster:
         return {tiles_defines, tiles, fading(rasterize_fragment)};
-    case ShaderKey::Pass::EdgeFeather:
+    case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
-    case ShaderKey::Pass::TablePicture:
+    case scene::ShaderKey::Pass::TablePicture:
         return {defines, quad(picture_vertex), std::string(picture_fragment)};
-    case ShaderKey::Pass::TileClear:
+    case scene::ShaderKey::Pass::TileClear:
         return {tiles_defines, tiles, std::string(black_fragment)};
-    case ShaderKey::Pass::TileAverage:
+    case scene::ShaderKey::Pass::TileAverage:
         return {tiles_defines, tiles, std::string(average_fragment)};
-    case ShaderKey::Pass::TileAverageMany:
+    case scene::ShaderKey::Pass::TileAverageMany:
         return {tiles_defines + "#define MANY\n", tiles, std::string(average_fragment)};
     }
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

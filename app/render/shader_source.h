@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 /// Cells along each side of a quadrilateral that is bent. Between a cell's corners its edges are straight:
 /// over a face that fills half of the picture, behind a lens of k1 = 0.1, they are at most 0.02 pixels off.
@@ -21,6 +21,6 @@ struct ShaderSource {
 };
 /// `bends`: draws are distorted like the projector's lens, and quadrilaterals are drawn in cells
 /// (Shader::draw_quad).
-[[nodiscard]] ShaderSource source_of(const ShaderKey& key, bool bends = false);
+[[nodiscard]] ShaderSource source_of(const scene::ShaderKey& key, bool bends = false);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

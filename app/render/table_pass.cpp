@@ -3,9 +3,9 @@
 #include <GLES2/gl2ext.h>
 #include <glm/gtc/type_ptr.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
-int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
+int TablePass::draw(const scene::FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
                     const ShaderCache& shaders, const Raster& raster) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_STENCIL_TEST);
@@ -16,16 +16,16 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
     glActiveTexture(GL_TEXTURE0);
     glBindVertexArray(no_attributes_.get());
     int calls = 0;
-    for (const Draw& draw : plan.draws) {
+    for (const scene::Draw& draw : plan.draws) {
         const PixelRectangle part = intersected(draw.bounds, within);
-        const TextureId picture = draw.drawable.material.texture;
+        const scene::TextureId picture = draw.drawable.material.texture;
         const GpuStore::Texture* const texture = store.find(picture);
         const Shader* const shader = shaders.find(draw.shader);
-        if (draw.face != Draw::on_table || part.empty() || shader == nullptr ||
-            (texture == nullptr && picture != TextureId::None)) {
+        if (draw.face != scene::Draw::on_table || part.empty() || shader == nullptr ||
+            (texture == nullptr && picture != scene::TextureId::None)) {
             continue;
         }
-        (picture != TextureId::None ? glEnable : glDisable)(GL_BLEND);
+        (picture != scene::TextureId::None ? glEnable : glDisable)(GL_BLEND);
         shader->use();
         // Black uses no texture: a driver would compile for the format of whichever was bound before.
         glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->texels.get() : 0);
@@ -43,4 +43,4 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
     return calls;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

@@ -14,17 +14,17 @@
 #include "app/scene/frame_plan.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::render {
 
 class TablePass {
 public:
     /// Returns the number of draw calls. `within`: nothing outside it is drawn. It skips draws whose shader
     /// was not prepared, or whose texture is not in the store.
-    int draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
+    int draw(const scene::FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
              const ShaderCache& shaders, const Raster& raster = {}) const;
 
 private:
-    GlVertexArray no_attributes_ = GlVertexArray::generate();
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::render

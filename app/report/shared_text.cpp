@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::string faults_in_order(std::string_view ring) {
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::report

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 
 /// A journal's lines, as journalctl prints them: the newest, at most `max_bytes`, without those that have the serial
 /// number of a USB device or the label of a disk.
@@ -17,4 +17,4 @@ namespace frustumscreen {
 /// numbers, without the blanks that pad them.
 [[nodiscard]] std::string faults_in_order(std::string_view ring);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::report

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 
 namespace {
 
@@ -24,19 +24,20 @@ std::uint64_t bytes_on_stick(std::span<const ReportFile> files) {
     return bytes;
 }
 
-tl::unexpected<ImportFailure> failed(ImportRefusal refusal, std::string reason) {
-    return tl::unexpected<ImportFailure>(ImportFailure{refusal, std::move(reason), false});
+tl::unexpected<library::ImportFailure> failed(library::ImportRefusal refusal, std::string reason) {
+    return tl::unexpected<library::ImportFailure>(
+        library::ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = false});
 }
 
-tl::unexpected<ImportFailure> no_room_on_stick(std::uint64_t needed) {
+tl::unexpected<library::ImportFailure> no_room_on_stick(std::uint64_t needed) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
     return failed(
-        ImportRefusal::NoRoom,
+        library::ImportRefusal::NoRoom,
         fmt::format("the stick is full; the report needs {} MB on it: make room, or take another stick",
                     needed / bytes_per_mb + 1));
 }
 
-tl::unexpected<ImportFailure> stick_refuses(FileFault fault, std::uint64_t needed) {
+tl::unexpected<library::ImportFailure> stick_refuses(FileFault fault, std::uint64_t needed) {
     switch (fault.number) {
     case ENOSPC:
     case EDQUOT:
@@ -44,11 +45,11 @@ tl::unexpected<ImportFailure> stick_refuses(FileFault fault, std::uint64_t neede
     case EROFS:
     case EACCES:
     case EPERM:
-        return failed(ImportRefusal::Unwritable,
+        return failed(library::ImportRefusal::Unwritable,
                       "the stick cannot be written; take another one, with FAT32 or exFAT");
     default:
         return failed(
-            ImportRefusal::Unreadable,
+            library::ImportRefusal::Unreadable,
             fmt::format("the stick was pulled out or cannot be written ({}); put it in again, and if "
                         "this is said again, take another one",
                         std::strerror(fault.number)));
@@ -82,7 +83,8 @@ void take_back(WritableTree& folder, std::span<const ReportFile> files) {
 
 } // namespace
 
-tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<const ReportFile> files) {
+tl::expected<void, library::ImportFailure> write_report(WritableTree& folder,
+                                                        std::span<const ReportFile> files) {
     const std::uint64_t needed = bytes_on_stick(files);
     const FileResult<bool> empty = is_empty(folder);
     const FileResult<std::uint64_t> free = folder.free_bytes();
@@ -90,7 +92,7 @@ tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<c
         return stick_refuses(empty ? free.error() : empty.error(), needed);
     }
     if (!*empty) {
-        return failed(ImportRefusal::Unwritable,
+        return failed(library::ImportRefusal::Unwritable,
                       "the folder for the report has files in it; a report goes into an empty one");
     }
     if (*free < needed) {
@@ -104,4 +106,4 @@ tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<c
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::report

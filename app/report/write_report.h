@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 
 struct ReportFile {
     std::string name;
@@ -21,7 +21,7 @@ struct ReportFile {
 };
 
 /// `folder`: empty. If something fails, what was written is removed where that is possible.
-[[nodiscard]] tl::expected<void, ImportFailure> write_report(WritableTree& folder,
-                                                             std::span<const ReportFile> files);
+[[nodiscard]] tl::expected<void, library::ImportFailure> write_report(WritableTree& folder,
+                                                                      std::span<const ReportFile> files);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::report

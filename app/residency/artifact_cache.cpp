@@ -11,15 +11,15 @@
 #include <thread>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
 /// Mean size of an artifact's level textures.
 std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
     std::uint64_t bytes = 0;
-    for (const LevelData& level : artifact.data) {
-        for (const Image8& mip : level.mips) {
+    for (const scene::LevelData& level : artifact.data) {
+        for (const image::Image8& mip : level.mips) {
             bytes += mip.texels.size() * sizeof(glm::u8vec4);
         }
     }
@@ -29,8 +29,8 @@ std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
 } // namespace
 
 ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
-    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), ArtifactState::Away),
-      left_out_(std::make_shared<const std::vector<PackLeftOut>>(set_up_.left_out)) {
+    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), exhibit::ArtifactState::Away),
+      left_out_(std::make_shared<const std::vector<library::PackLeftOut>>(set_up_.left_out)) {
     const std::uint64_t texture_bytes = texture_bytes_of(first);
     for (std::size_t artifact = 0; artifact < size(); ++artifact) {
         const KnownArtifact& of = known(artifact);
@@ -48,7 +48,7 @@ ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
     receive(0, std::move(first));
 }
 
-Result<void> ArtifactCache::upload_first(GpuStore& store) {
+Result<void> ArtifactCache::upload_first(render::GpuStore& store) {
     Queue seen_first;
     seen_first.add(levels_item(0));
     add_text(seen_first, 0, TextPart::Caption, set_up_.language);
@@ -82,7 +82,7 @@ void ArtifactCache::add_text(Queue& queue, std::size_t artifact, TextPart part,
     if (languages.empty()) {
         return;
     }
-    const std::size_t item = text_item(artifact, part, caption_for(language, languages));
+    const std::size_t item = text_item(artifact, part, exhibit::caption_for(language, languages));
     if (records_[item].bytes > 0) {
         queue.add(item);
     }
@@ -130,8 +130,8 @@ Result<ArtifactReader::Prepared> ArtifactCache::prepare(std::size_t item,
     return prepare_artifact(known(of.artifact), set_up_.technique, set_up_.deadline_ms, given_up);
 }
 
-void ArtifactCache::start(const FrameCost& cost, const PropShape& prop, const PlanView& view,
-                          const glm::dvec3& eye_m) {
+void ArtifactCache::start(const scene::FrameCost& cost, const geometry::PropShape& prop,
+                          const scene::PlanView& view, const glm::dvec3& eye_m) {
     if (std::none_of(records_.begin(), records_.end(),
                      [](const ResidentItem& item) { return !item.loaded && item.bytes > 0; })) {
         return;
@@ -144,7 +144,7 @@ void ArtifactCache::start(const FrameCost& cost, const PropShape& prop, const Pl
             }
             if (PreparedArtifact* const levels =
                     prepared ? std::get_if<PreparedArtifact>(&*prepared) : nullptr) {
-                PlanView seen = view;
+                scene::PlanView seen = view;
                 seen.eyes_m = std::span(&eye_m, 1);
                 seen.light = known(items_[item].artifact).plan.light;
                 levels->levels.start(cost, prop, seen);
@@ -153,7 +153,7 @@ void ArtifactCache::start(const FrameCost& cost, const PropShape& prop, const Pl
         });
 }
 
-void ArtifactCache::step(GpuStore& store, const CacheRequest& request) {
+void ArtifactCache::step(render::GpuStore& store, const CacheRequest& request) {
     step_once(store, request);
     while (set_up_.waits && !steady_) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -161,7 +161,7 @@ void ArtifactCache::step(GpuStore& store, const CacheRequest& request) {
     }
 }
 
-void ArtifactCache::step_once(GpuStore& store, const CacheRequest& request) {
+void ArtifactCache::step_once(render::GpuStore& store, const CacheRequest& request) {
     note_shown(request);
     if (const std::unique_ptr<ArtifactReader::Answer> answer = reader_ ? reader_->take() : nullptr) {
         receive(answer->item, std::move(answer->prepared));
@@ -189,7 +189,7 @@ bool ArtifactCache::has(const CacheRequest& request) const {
     });
 }
 
-bool ArtifactCache::release_some(GpuStore& store) {
+bool ArtifactCache::release_some(render::GpuStore& store) {
     if (reader_) {
         reader_->request(std::nullopt);
     }
@@ -242,7 +242,7 @@ bool ArtifactCache::arrives(std::size_t item) const {
 }
 
 /// Uploads the most urgent item that is prepared but not ready; unwanted items come last.
-void ArtifactCache::upload(GpuStore& store, std::span<const std::size_t> needed,
+void ArtifactCache::upload(render::GpuStore& store, std::span<const std::size_t> needed,
                            std::span<const std::size_t> wanted) {
     const auto first_of = [&](std::span<const std::size_t> items) {
         const auto found =
@@ -265,23 +265,23 @@ void ArtifactCache::upload(GpuStore& store, std::span<const std::size_t> needed,
     }
 }
 
-Result<void> ArtifactCache::upload(GpuStore& store, std::size_t item, std::uint64_t max_bytes) {
+Result<void> ArtifactCache::upload(render::GpuStore& store, std::size_t item, std::uint64_t max_bytes) {
     TRY_VOID(std::visit([&](auto& each) { return each.upload(store, max_bytes); }, *loaded_[item]));
     if (!items_[item].part && !arrives(item)) {
-        states_[items_[item].artifact] = ArtifactState::Ready;
+        states_[items_[item].artifact] = exhibit::ArtifactState::Ready;
     }
     return {};
 }
 
 /// Releasing an artifact's levels also releases its texts.
-void ArtifactCache::release(GpuStore& store, std::size_t item) {
+void ArtifactCache::release(render::GpuStore& store, std::size_t item) {
     const std::size_t artifact = items_[item].artifact;
     std::size_t end = item + 1;
     if (const LoadedLevels* const gone = items_[item].part ? nullptr : levels(artifact)) {
         const LevelState state = gone->artifact.levels.state();
         past_switches_ += state.switches;
         past_ignored_times_ += state.ignored_times;
-        states_[artifact] = ArtifactState::Away;
+        states_[artifact] = exhibit::ArtifactState::Away;
         end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
     }
     for (std::size_t each = item; each < end; ++each) {
@@ -297,9 +297,9 @@ void ArtifactCache::leave_out(std::size_t item, const std::string& reason) {
     records_[item].left_out = true;
     if (!items_[item].part) {
         const std::size_t artifact = items_[item].artifact;
-        states_[artifact] = ArtifactState::LeftOut;
-        auto more = std::make_shared<std::vector<PackLeftOut>>(*left_out_);
-        more->push_back(pack_left_out(known(artifact).file.string(), reason));
+        states_[artifact] = exhibit::ArtifactState::LeftOut;
+        auto more = std::make_shared<std::vector<library::PackLeftOut>>(*left_out_);
+        more->push_back(library::pack_left_out(known(artifact).file.string(), reason));
         left_out_ = std::move(more);
     }
 }
@@ -314,7 +314,7 @@ LoadedLevels* ArtifactCache::levels(std::size_t artifact) const {
 }
 
 RunLevels* ArtifactCache::find(std::size_t artifact) {
-    return states_[artifact] == ArtifactState::Ready ? &levels(artifact)->artifact.levels : nullptr;
+    return states_[artifact] == exhibit::ArtifactState::Ready ? &levels(artifact)->artifact.levels : nullptr;
 }
 
 const RunLevels* ArtifactCache::find(std::size_t artifact) const {
@@ -326,8 +326,8 @@ double ArtifactCache::exposure(std::size_t artifact) const {
     return loaded != nullptr ? loaded->artifact.exposure : 1.0;
 }
 
-ArtifactTriangles ArtifactCache::triangles(std::size_t artifact) const {
-    return find(artifact) != nullptr ? levels(artifact)->artifact.triangles : ArtifactTriangles{};
+exhibit::ArtifactTriangles ArtifactCache::triangles(std::size_t artifact) const {
+    return find(artifact) != nullptr ? levels(artifact)->artifact.triangles : exhibit::ArtifactTriangles{};
 }
 
 const LoadedTexts* ArtifactCache::texts(std::size_t artifact, TextPart part, std::size_t language) const {
@@ -335,7 +335,8 @@ const LoadedTexts* ArtifactCache::texts(std::size_t artifact, TextPart part, std
 }
 
 std::size_t ArtifactCache::ready() const {
-    return static_cast<std::size_t>(std::count(states_.begin(), states_.end(), ArtifactState::Ready));
+    return static_cast<std::size_t>(
+        std::count(states_.begin(), states_.end(), exhibit::ArtifactState::Ready));
 }
 
 std::uint64_t ArtifactCache::bytes() const {
@@ -373,4 +374,4 @@ std::uint64_t ArtifactCache::ignored_times() const {
     return ignored;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -36,7 +36,7 @@
 #include <variant>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 struct ArtifactCacheSetUp {
     std::vector<KnownArtifact> artifacts; ///< at least one
@@ -47,8 +47,8 @@ struct ArtifactCacheSetUp {
     std::string language = "en"; ///< of the first caption, BCP 47
     bool waits = false; ///< `step` returns once loading is complete, so that a run of simulated time is
                         ///< repeatable
-    std::string_view program = "frustumscreen"; ///< prefix of its lines on standard error
-    std::vector<PackLeftOut> left_out = {};     ///< left out before
+    std::string_view program = "frustumscreen";      ///< prefix of its lines on standard error
+    std::vector<library::PackLeftOut> left_out = {}; ///< left out before
 };
 
 /// The cache request: the shown artifact, and those that may be shown next.
@@ -74,33 +74,34 @@ public:
     ArtifactCache& operator=(const ArtifactCache&) = delete;
 
     /// Uploads the first artifact and its caption at once. On failure nothing stays in the store.
-    [[nodiscard]] Result<void> upload_first(GpuStore& store);
+    [[nodiscard]] Result<void> upload_first(render::GpuStore& store);
     /// Starts loading the other artifacts; needs no context. `cost`: of frames on this GPU; `prop`, `view`,
     /// `eye_m`: the pose and eye for the expected times of quality levels.
-    void start(const FrameCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
+    void start(const scene::FrameCost& cost, const geometry::PropShape& prop, const scene::PlanView& view,
+               const glm::dvec3& eye_m);
     /// Once a frame.
-    void step(GpuStore& store, const CacheRequest& request);
+    void step(render::GpuStore& store, const CacheRequest& request);
     /// True if everything shown and waited for is in memory, except for items that were left out.
     [[nodiscard]] bool has(const CacheRequest& request) const;
     /// Releases one more artifact or text from the store and stops requesting; false: nothing was left.
-    bool release_some(GpuStore& store);
+    bool release_some(render::GpuStore& store);
 
     /// Null if the artifact is not ready.
     [[nodiscard]] RunLevels* find(std::size_t artifact);
     [[nodiscard]] const RunLevels* find(std::size_t artifact) const;
     [[nodiscard]] double exposure(std::size_t artifact) const;
     /// None if the artifact is not ready, or has no hotspots.
-    [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const;
+    [[nodiscard]] exhibit::ArtifactTriangles triangles(std::size_t artifact) const;
     /// Null if none of the part is loaded.
     [[nodiscard]] const LoadedTexts* texts(std::size_t artifact, TextPart part, std::size_t language) const;
     [[nodiscard]] const KnownArtifact& known(std::size_t artifact) const {
         return set_up_.artifacts[artifact];
     }
     [[nodiscard]] std::size_t size() const { return set_up_.artifacts.size(); }
-    [[nodiscard]] std::span<const ArtifactState> states() const { return states_; }
+    [[nodiscard]] std::span<const exhibit::ArtifactState> states() const { return states_; }
     /// Includes those of the set-up. A list is immutable, so that another thread can report it; a change
     /// makes a new list.
-    [[nodiscard]] const PacksLeftOut& left_out() const { return left_out_; }
+    [[nodiscard]] const library::PacksLeftOut& left_out() const { return left_out_; }
 
     [[nodiscard]] std::size_t ready() const;                 ///< artifacts that can be drawn at once
     [[nodiscard]] std::uint64_t bytes() const;               ///< of everything loaded or being uploaded
@@ -124,7 +125,7 @@ private:
         [[nodiscard]] std::span<const std::size_t> items() const { return std::span(items_).first(count_); }
 
     private:
-        std::array<std::size_t, 8 + pack_format::max_languages> items_{};
+        std::array<std::size_t, 8 + pack::max_languages> items_{};
         std::size_t count_ = 0;
     };
 
@@ -137,13 +138,14 @@ private:
     [[nodiscard]] Result<ArtifactReader::Prepared> prepare(std::size_t item,
                                                            const ArtifactReader::GivenUp& given_up) const;
 
-    void step_once(GpuStore& store, const CacheRequest& request);
+    void step_once(render::GpuStore& store, const CacheRequest& request);
     void note_shown(const CacheRequest& request);
     void receive(std::size_t item, Result<ArtifactReader::Prepared> prepared);
     [[nodiscard]] bool arrives(std::size_t item) const;
-    void upload(GpuStore& store, std::span<const std::size_t> needed, std::span<const std::size_t> wanted);
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::size_t item, std::uint64_t max_bytes);
-    void release(GpuStore& store, std::size_t item);
+    void upload(render::GpuStore& store, std::span<const std::size_t> needed,
+                std::span<const std::size_t> wanted);
+    [[nodiscard]] Result<void> upload(render::GpuStore& store, std::size_t item, std::uint64_t max_bytes);
+    void release(render::GpuStore& store, std::size_t item);
     void leave_out(std::size_t item, const std::string& reason);
     void say_left_out(std::size_t item, const std::string& reason) const;
     /// Null if they are not loaded.
@@ -154,8 +156,8 @@ private:
     std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts follow
     std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; null: not loaded
     std::vector<ResidentItem> records_;           ///< by item
-    std::vector<ArtifactState> states_;
-    PacksLeftOut left_out_;
+    std::vector<exhibit::ArtifactState> states_;
+    library::PacksLeftOut left_out_;
     std::optional<std::size_t> shown_;
     std::uint64_t shows_ = 0; ///< number of changes of the shown artifact
     bool steady_ = false;     ///< the latest step left nothing to do
@@ -163,4 +165,4 @@ private:
     std::unique_ptr<ArtifactReader> reader_; ///< last: its thread uses `set_up_`
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -14,52 +14,56 @@
 #include <iterator>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
-SceneRequest request_of(const Settings& settings, const OpenerOptions& options, const PackOutline& outline) {
-    SceneRequest request;
+scene::SceneRequest request_of(const settings::Settings& settings, const OpenerOptions& options,
+                               const pack::PackOutline& outline) {
+    scene::SceneRequest request;
     request.technique = options.technique;
     request.room = options.samples;
     request.cull_kinds = options.cull_kinds;
     request.max_blocks_on_gpu = options.max_blocks_on_gpu;
-    request.visibility = visibility_of(settings);
+    request.visibility = scene::visibility_of(settings);
     request.table_pictures = options.table_pictures;
     std::vector<std::string> languages;
-    for (const PackCaption& caption : outline.description.captions) {
+    for (const pack::PackCaption& caption : outline.description.captions) {
         request.captions.push_back(languages.size());
         languages.push_back(caption.language);
     }
     if (!options.other_languages && !languages.empty()) {
-        request.captions = {caption_for(settings.exhibit.language, languages)};
+        request.captions = {exhibit::caption_for(settings.exhibit.language, languages)};
     }
     return request;
 }
 
 /// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
-Result<void> find_whole_zone(const Settings& settings, KnownArtifact& artifact) {
+Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& artifact) {
     // As many corners as a frame has time for; 64 hold a ball with 3 % to spare.
     constexpr std::size_t max_corners = 64;
-    CatalogueEntry& entry = artifact.texts.entry;
-    TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), max_corners));
-    if (!shows_zone_frame(settings)) {
+    exhibit::CatalogueEntry& entry = artifact.texts.entry;
+    TRY(entry.hull,
+        pack::hull_in(artifact.outline.description, settings::make_prop(settings.prop), max_corners));
+    if (!settings::shows_zone_frame(settings)) {
         return {};
     }
-    const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), entry.hull).rectangle;
+    const settings::Rectangle zone =
+        settings::whole_zone(settings, settings::all_eyes(settings.eye), entry.hull).rectangle;
     if (zone.half_m.x > 0.0 && zone.half_m.y > 0.0) {
-        entry.zone =
-            ZoneFrame(zone, 0.5 * settings.prop.base_m, {settings.table.width_m, settings.table.depth_m});
+        entry.zone = exhibit::ZoneFrame(zone, 0.5 * settings.prop.base_m,
+                                        {settings.table.width_m, settings.table.depth_m});
     }
     return {};
 }
 
-Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& options,
+Result<KnownArtifact> open_pack(const settings::Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
-    KnownArtifact opened{file, {}, {}, {}};
-    const Result<VerifiedPack> pack =
-        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            TRY(ScenePlan plan, plan_scene(settings, outline, request_of(settings, options, outline)));
+    KnownArtifact opened{.file = file, .outline = {}, .plan = {}, .texts = {}};
+    const Result<pack::VerifiedPack> pack =
+        pack::load_pack(file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            TRY(scene::ScenePlan plan,
+                scene::plan_scene(settings, outline, request_of(settings, options, outline)));
             opened.outline = outline;
             opened.plan = std::move(plan);
             return std::vector<std::uint32_t>{};
@@ -67,15 +71,15 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
     TRY_VOID(pack);
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
-                      text_style(settings), settings.sound.kind != SoundKind::None));
+                      text_style(settings), settings.sound.kind != settings::SoundKind::None));
     TRY_VOID(find_whole_zone(settings, opened));
     return opened;
 }
 
 /// Cut-out texels are only known once the textures are read, and by then the shaders must exist.
-RenderNeeds with_cut_outs(RenderNeeds needs) {
-    for (ShaderKey key : RenderNeeds(needs).draws) {
-        key.cut_out = key.pass == ShaderKey::Pass::Surface && !key.blocks;
+scene::RenderNeeds with_cut_outs(scene::RenderNeeds needs) {
+    for (scene::ShaderKey key : scene::RenderNeeds(needs).draws) {
+        key.cut_out = key.pass == scene::ShaderKey::Pass::Surface && !key.blocks;
         needs.draws.insert(key);
     }
     return needs;
@@ -86,7 +90,7 @@ Result<PreparedArtifact> prepare_first(KnownArtifact& known, const OpenerOptions
     Result<PreparedArtifact> first =
         prepare_artifact(known, options.technique, options.deadline_ms, [] { return false; });
     if (first) {
-        ScenePlan& plan = known.plan;
+        scene::ScenePlan& plan = known.plan;
         plan.needs = first->levels.needs();
         plan.left_out.insert(plan.left_out.end(), first->levels.left_out().begin(),
                              first->levels.left_out().end());
@@ -100,7 +104,7 @@ std::string after(const std::string& place, const std::string& what) {
 }
 
 /// The message must be complete by itself: the lines on standard error may not be visible to its reader.
-tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
+tl::unexpected<Error> nothing_to_show(const std::vector<library::PackLeftOut>& left_out,
                                       const std::string& packs_key) {
     if (left_out.empty()) {
         return fail(ErrorKind::BadConfiguration, "show.no_pack_named",
@@ -117,20 +121,21 @@ tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
 
 } // namespace
 
-Catalogue catalogue_of(std::span<const KnownArtifact> artifacts) {
-    Catalogue catalogue;
+exhibit::Catalogue catalogue_of(std::span<const KnownArtifact> artifacts) {
+    exhibit::Catalogue catalogue;
     std::transform(artifacts.begin(), artifacts.end(), std::back_inserter(catalogue),
                    [](const KnownArtifact& artifact) { return artifact.texts.entry; });
     return catalogue;
 }
 
-Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const std::filesystem::path> packs,
+Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
+                                       std::span<const std::filesystem::path> packs,
                                        const OpenerOptions& options) {
     OpenedArtifacts all;
     all.left_out.reserve(packs.size());
     const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
         say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
-        all.left_out.push_back(pack_left_out(file.string(), error.message));
+        all.left_out.push_back(library::pack_left_out(file.string(), error.message));
     };
     for (const std::filesystem::path& file : packs) {
         if (!all.known.empty() && !options.other_packs) {
@@ -144,11 +149,12 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
             leave_out(file, opened.error());
             continue;
         }
-        const PackDescription& pack = opened->outline.description;
-        for (const PackCaption& caption : pack.captions) {
-            add_language(all.languages, caption.language);
+        const pack::PackDescription& pack = opened->outline.description;
+        for (const pack::PackCaption& caption : pack.captions) {
+            exhibit::add_language(all.languages, caption.language);
         }
-        if (const auto note = note_other_prop(file.string(), pack, name_of(settings.prop.kind))) {
+        if (const auto note =
+                pack::note_other_prop(file.string(), pack, settings::name_of(settings.prop.kind))) {
             all.notes.push_back(*note);
         }
         if (!all.first) {
@@ -161,7 +167,7 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
         } else {
             opened->plan.needs = with_cut_outs(opened->plan.needs);
         }
-        all.needs = united(all.needs, opened->plan.needs);
+        all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));
     }
     if (!all.first) {
@@ -170,31 +176,32 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
     return all;
 }
 
-RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu) {
-    RenderNeeds needs;
+scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int samples, bool reliefs_on_gpu) {
+    scene::RenderNeeds needs;
     needs.samples = samples;
-    needs.outline = largest_outline(settings, settings.projector.pinhole, visibility_of(settings));
-    needs.bent_by = if_it_bends(settings.projector.pinhole);
+    needs.outline =
+        scene::largest_outline(settings, settings.projector.pinhole, scene::visibility_of(settings));
+    needs.bent_by = scene::if_it_bends(settings.projector.pinhole);
     for (const bool dithered : {false, true}) {
-        ShaderKey key;
+        scene::ShaderKey key;
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        needs.draws.insert(raster_shader(dithered));
+        needs.draws.insert(scene::raster_shader(dithered));
         if (reliefs_on_gpu) {
             key.blocks = true;
             needs.draws.insert(key);
         }
     }
     needs.relief_draws = 2; // in a fade
-    needs.draws.insert({ShaderKey::Pass::EdgeFeather});
-    needs.draws.insert({ShaderKey::Pass::TablePicture});
+    needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
+    needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
     return with_cut_outs(needs);
 }
 
-TextStyle text_style(const Settings& settings) {
+TextStyle text_style(const settings::Settings& settings) {
     return {settings.exhibit.caption_height_m,
             settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -20,14 +20,14 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
-[[nodiscard]] Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
+[[nodiscard]] exhibit::Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
 
 struct OpenerOptions {
     std::string technique = "auto"; ///< `technique`, `samples`, `cull_kinds`: as ArtifactShowOptions
     int samples = 1;
-    unsigned cull_kinds = AllCullKinds;
+    unsigned cull_kinds = scene::AllCullKinds;
     bool other_languages = false; ///< a visitor can change the language
     bool other_packs = false;     ///< a visitor can change the artifact
     bool table_pictures = false;  ///< `table_pictures`, `max_blocks_on_gpu`: as SceneRequest
@@ -42,19 +42,20 @@ struct OpenerOptions {
 struct OpenedArtifacts {
     std::vector<KnownArtifact> known;
     std::optional<PreparedArtifact> first; ///< levels of the first of `known`; set on success
-    std::vector<PackLeftOut> left_out;
-    RenderNeeds needs;
+    std::vector<library::PackLeftOut> left_out;
+    scene::RenderNeeds needs;
     std::vector<std::string> languages; ///< of all captions of the packs opened, shown or not
     std::vector<std::string> notes;     ///< sentences about settings that may be unintended
 };
-[[nodiscard]] Result<OpenedArtifacts> open_artifacts(const Settings& settings,
+[[nodiscard]] Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
                                                      std::span<const std::filesystem::path> packs,
                                                      const OpenerOptions& options);
 /// The needs of any pack that may come later, for a renderer that holds `samples` samples a pixel.
 /// `reliefs_on_gpu`: the GPU may draw reliefs.
-[[nodiscard]] RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu);
+[[nodiscard]] scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int samples,
+                                                   bool reliefs_on_gpu);
 
 /// Size and resolution of texts on the settings' table.
-[[nodiscard]] TextStyle text_style(const Settings& settings);
+[[nodiscard]] TextStyle text_style(const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

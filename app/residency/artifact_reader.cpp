@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 ArtifactReader::ArtifactReader(Prepare prepare) : prepare_(std::move(prepare)), thread_([this] { work(); }) {}
 
@@ -51,4 +51,4 @@ void ArtifactReader::work() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

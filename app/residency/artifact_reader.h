@@ -21,7 +21,7 @@
 #include <thread>
 #include <variant>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 class ArtifactReader {
 public:
@@ -60,4 +60,4 @@ private:
     std::jthread thread_;                  ///< last: it uses the others
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

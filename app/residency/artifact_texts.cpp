@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
@@ -20,20 +20,21 @@ constexpr std::string_view description_key = "description";
 constexpr double label_width_m = 0.15;
 
 Nanoseconds reading_time(std::string_view text) {
-    return Nanoseconds(std::llround(1e9 * reading_time_s(text)));
+    return Nanoseconds(std::llround(1e9 * pack::reading_time_s(text)));
 }
 
 /// The portions of a description; empty if it is too long to be narrated.
-std::vector<std::string> told_portions(const PackCaption& caption) {
-    std::vector<std::string> portions = portions_of(caption.description);
-    return portions.size() <= max_text_portions ? portions : std::vector<std::string>();
+std::vector<std::string> told_portions(const pack::PackCaption& caption) {
+    std::vector<std::string> portions = pack::portions_of(caption.description);
+    return portions.size() <= pack::max_text_portions ? portions : std::vector<std::string>();
 }
 
 /// The caption with the attribution below it, and without, for places where both do not fit.
-std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption& caption,
-                                     std::span<const SetLanguage> set) {
+std::vector<TableText> caption_texts(const pack::ScanRights& rights, const pack::PackCaption& caption,
+                                     std::span<const pack::SetLanguage> set) {
     const TableText bare = caption_text(caption);
-    const std::vector<TextPiece> attribution = attribution_pieces(caption, rights, set, CaptionRole::Small);
+    const std::vector<TextPiece> attribution =
+        attribution_pieces(caption, rights, set, typography::CaptionRole::Small);
     if (attribution.empty()) {
         return {bare};
     }
@@ -47,12 +48,14 @@ struct ToldTexts {
     std::vector<TableText> portions;
     bool ends_with_attribution = false;
 };
-ToldTexts told_texts(const ScanRights& rights, const PackCaption& caption, std::span<const SetLanguage> set) {
+ToldTexts told_texts(const pack::ScanRights& rights, const pack::PackCaption& caption,
+                     std::span<const pack::SetLanguage> set) {
     ToldTexts told;
     for (const std::string& portion : told_portions(caption)) {
         told.portions.push_back(portion_text(caption, told.portions.size(), portion));
     }
-    std::vector<TextPiece> attribution = attribution_pieces(caption, rights, set, CaptionRole::Text);
+    std::vector<TextPiece> attribution =
+        attribution_pieces(caption, rights, set, typography::CaptionRole::Text);
     told.ends_with_attribution = !attribution.empty();
     if (told.ends_with_attribution) {
         told.portions.push_back({caption.language, std::move(attribution)});
@@ -69,57 +72,61 @@ Nanoseconds reading_time(const TableText& text) {
 }
 
 /// True if the text's lines begin at the right.
-bool is_flush_right(const TableText& text, const SetLanguage* set) {
+bool is_flush_right(const TableText& text, const pack::SetLanguage* set) {
     return set != nullptr && std::any_of(text.pieces.begin(), text.pieces.end(), [&](const TextPiece& piece) {
-               const GlyphText* const glyphs = set->runs.find(piece.key);
-               return glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft;
+               const pack::GlyphText* const glyphs = set->runs.find(piece.key);
+               return glyphs != nullptr && glyphs->direction == pack::TextDirection::RightToLeft;
            });
 }
 
 /// Null if the bake could not set it in this language.
-const GlyphText* label_in(const SetLanguage* set, std::size_t hotspot) {
+const pack::GlyphText* label_in(const pack::SetLanguage* set, std::size_t hotspot) {
     return set != nullptr ? set->runs.find(fmt::format("label.{}", hotspot)) : nullptr;
 }
 
 /// Reading times of the hotspots' labels in the nearest language.
-std::vector<Nanoseconds> label_times(const PackDescription& pack, const std::string& language) {
+std::vector<Nanoseconds> label_times(const pack::PackDescription& pack, const std::string& language) {
     std::vector<Nanoseconds> times;
-    for (const PackHotspot& hotspot : pack.hotspots) {
+    for (const pack::PackHotspot& hotspot : pack.hotspots) {
         std::vector<std::string> languages;
-        for (const PackLabel& label : hotspot.labels) {
+        for (const pack::PackLabel& label : hotspot.labels) {
             languages.push_back(label.language);
         }
         times.push_back(languages.empty()
                             ? Nanoseconds(0)
-                            : reading_time(hotspot.labels[caption_for(language, languages)].text));
+                            : reading_time(hotspot.labels[exhibit::caption_for(language, languages)].text));
     }
     return times;
 }
 
 /// Null if the pack has no sound of the description.
-SharedRecording recording_of(const TextSource& source, std::span<const SpokenText> sounds,
+SharedRecording recording_of(const TextSource& source, std::span<const pack::SpokenText> sounds,
                              const std::string& language, const std::vector<Nanoseconds>& portions) {
-    const SpokenText wanted{language, std::string(description_key)};
+    const pack::SpokenText wanted{language, std::string(description_key)};
     if (portions.empty() || std::find(sounds.begin(), sounds.end(), wanted) == sounds.end()) {
         return nullptr;
     }
     return std::make_shared<const PromptRecording>(
-        PromptRecording{fmt::format("{}: the description in '{}'", source.file.string(), language), Bytes(),
-                        source.file, language, std::string(description_key), portions});
+        PromptRecording{.name = fmt::format("{}: the description in '{}'", source.file.string(), language),
+                        .opus = Bytes(),
+                        .pack = source.file,
+                        .language = language,
+                        .key = std::string(description_key),
+                        .portions = portions});
 }
 
-Result<void> add_language(const TextSource& source, const PackCaption& caption,
-                          std::span<const SetLanguage> set, std::span<const SpokenText> sounds,
+Result<void> add_language(const TextSource& source, const pack::PackCaption& caption,
+                          std::span<const pack::SetLanguage> set, std::span<const pack::SpokenText> sounds,
                           CaptionSetter& setter, ArtifactTexts& made) {
-    TRY(const ScanRights rights, scan_rights(source.pack));
+    TRY(const pack::ScanRights rights, pack::scan_rights(source.pack));
     std::vector<glm::dvec2>& captions = made.entry.caption_sizes_m.emplace_back();
     for (const TableText& text : caption_texts(rights, caption, set)) {
         TRY(const std::vector<glm::dvec2> sizes, setter.sizes_m(text, set));
         captions.insert(captions.end(), sizes.begin(), sizes.end());
     }
-    Tellable& tellable = made.entry.tellables.emplace_back();
+    exhibit::Tellable& tellable = made.entry.tellables.emplace_back();
     tellable.hotspots = label_times(source.pack, caption.language);
-    DescriptionShape& shape = made.entry.descriptions.emplace_back();
+    exhibit::DescriptionShape& shape = made.entry.descriptions.emplace_back();
     const ToldTexts told = told_texts(rights, caption, set);
     for (const TableText& text : told.portions) {
         TRY(const std::vector<glm::dvec2> portion, setter.sizes_m(text, set));
@@ -127,7 +134,7 @@ Result<void> add_language(const TextSource& source, const PackCaption& caption,
         shape.flush_right = shape.flush_right || is_flush_right(text, find_language(set, caption.language));
         tellable.portions.push_back(reading_time(text));
     }
-    shape.largest_m = largest_sizes(shape.sizes_m);
+    shape.largest_m = exhibit::largest_sizes(shape.sizes_m);
     tellable.ends_unspoken = told.ends_with_attribution;
     std::vector<Nanoseconds> spoken = tellable.portions;
     spoken.resize(spoken.size() - (tellable.ends_unspoken ? 1 : 0));
@@ -135,28 +142,31 @@ Result<void> add_language(const TextSource& source, const PackCaption& caption,
     return {};
 }
 
-HotspotSet lay_out_hotspots(const PackDescription& pack, std::span<const std::string> languages,
-                            std::span<const SetLanguage> set, double metres_per_box, const TextStyle& style) {
-    HotspotSet made;
+exhibit::HotspotSet lay_out_hotspots(const pack::PackDescription& pack,
+                                     std::span<const std::string> languages,
+                                     std::span<const pack::SetLanguage> set, double metres_per_box,
+                                     const TextStyle& style) {
+    exhibit::HotspotSet made;
     made.metres_per_box = metres_per_box;
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
-        const PackHotspot& hotspot = pack.hotspots[k];
-        LabelledHotspot& labelled = made.hotspots.emplace_back();
+        const pack::PackHotspot& hotspot = pack.hotspots[k];
+        exhibit::LabelledHotspot& labelled = made.hotspots.emplace_back();
         labelled.at = {metres_per_box * hotspot.point, hotspot.normal};
         for (const std::string& language : languages) {
-            const SetLanguage* const texts = find_language(set, language);
-            const GlyphPart text{CaptionRole::Text, label_in(texts, k)};
+            const pack::SetLanguage* const texts = find_language(set, language);
+            const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, k)};
             labelled.label_sizes_m.push_back(
-                text.text != nullptr ? caption_size_m(texts->runs, std::span(&text, 1), style.em_m,
-                                                      label_width_m, style.texels_per_m)
-                                     : glm::dvec2(0.0));
+                text.text != nullptr
+                    ? typography::caption_size_m(texts->runs, std::span(&text, 1), style.em_m, label_width_m,
+                                                 style.texels_per_m)
+                    : glm::dvec2(0.0));
         }
     }
     return made;
 }
 
 /// Sizes of the part's pictures in their order; 0 for a missing picture.
-std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std::size_t language,
+std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,
                                  const TextStyle& style) {
     std::vector<glm::ivec2> sizes;
     const auto add = [&](std::span<const glm::dvec2> sizes_m) {
@@ -171,7 +181,7 @@ std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std
     for (const std::vector<glm::dvec2>& portion : entry.descriptions[language].sizes_m) {
         add(portion);
     }
-    for (const LabelledHotspot& hotspot : entry.hotspots.hotspots) {
+    for (const exhibit::LabelledHotspot& hotspot : entry.hotspots.hotspots) {
         add(std::span(&hotspot.label_sizes_m[language], 1));
     }
     return sizes;
@@ -180,41 +190,42 @@ std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std
 /// Draws pictures in order.
 class Drawing {
 public:
-    Drawing(const TextStyle& style, std::span<const SetLanguage> set, const std::function<bool()>& given_up)
+    Drawing(const TextStyle& style, std::span<const pack::SetLanguage> set,
+            const std::function<bool()>& given_up)
         : style_(style), set_(set), given_up_(given_up), setter_(style) {}
 
     [[nodiscard]] Result<void> add(const TableText& text) {
         if (given_up_()) {
             return bad_input("show.texts_not_wanted", "not wanted any more");
         }
-        TRY(std::vector<CaptionImage> images, setter_.set(text, set_));
-        for (CaptionImage& image : images) {
+        TRY(std::vector<typography::CaptionImage> images, setter_.set(text, set_));
+        for (typography::CaptionImage& image : images) {
             pictures.push_back(std::move(image.coverage));
         }
         return {};
     }
     void add_label(const std::string& language, std::size_t hotspot) {
-        const SetLanguage* const texts = find_language(set_, language);
-        const GlyphPart text{CaptionRole::Text, label_in(texts, hotspot)};
+        const pack::SetLanguage* const texts = find_language(set_, language);
+        const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, hotspot)};
         pictures.push_back(text.text != nullptr
-                               ? make_caption(texts->runs, texts->atlas, std::span(&text, 1), style_.em_m,
-                                              label_width_m, style_.texels_per_m)
+                               ? typography::make_caption(texts->runs, texts->atlas, std::span(&text, 1),
+                                                          style_.em_m, label_width_m, style_.texels_per_m)
                                      .coverage
-                               : Image<std::uint8_t>());
+                               : image::Image<std::uint8_t>());
     }
 
     TextPictures pictures;
 
 private:
     TextStyle style_;
-    std::span<const SetLanguage> set_;
+    std::span<const pack::SetLanguage> set_;
     const std::function<bool()>& given_up_;
     CaptionSetter setter_;
 };
 
-Result<void> draw(const PackDescription& pack, const PackCaption& caption, std::span<const SetLanguage> set,
-                  TextPart part, Drawing& drawing) {
-    TRY(const ScanRights rights, scan_rights(pack));
+Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& caption,
+                  std::span<const pack::SetLanguage> set, TextPart part, Drawing& drawing) {
+    TRY(const pack::ScanRights rights, pack::scan_rights(pack));
     const bool is_caption = part == TextPart::Caption;
     for (const TableText& text :
          is_caption ? caption_texts(rights, caption, set) : told_texts(rights, caption, set).portions) {
@@ -238,34 +249,34 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
         made.entry.languages.push_back(source.pack.captions[each].language);
     }
     const std::vector<std::string>& languages = made.entry.languages;
-    TRY(const std::vector<SetLanguage> set, languages.empty()
-                                                ? std::vector<SetLanguage>()
-                                                : load_set_texts(source.file, languages, Atlases::LeftOut));
-    const Result<std::vector<SpokenText>> sounds =
-        spoken ? list_sounds(source.pack) : std::vector<SpokenText>();
+    TRY(const std::vector<pack::SetLanguage> set,
+        languages.empty() ? std::vector<pack::SetLanguage>()
+                          : pack::load_set_texts(source.file, languages, pack::Atlases::LeftOut));
+    const Result<std::vector<pack::SpokenText>> sounds =
+        spoken ? pack::list_sounds(source.pack) : std::vector<pack::SpokenText>();
     CaptionSetter setter(style);
     for (const std::size_t each : source.captions) {
-        TRY_VOID(
-            at(source.file.string(), add_language(source, source.pack.captions[each], set,
-                                                  sounds.value_or(std::vector<SpokenText>()), setter, made)));
+        TRY_VOID(at(source.file.string(),
+                    add_language(source, source.pack.captions[each], set,
+                                 sounds.value_or(std::vector<pack::SpokenText>()), setter, made)));
     }
     made.entry.hotspots = lay_out_hotspots(source.pack, languages, set, metres_per_box, style);
     return made;
 }
 
 std::size_t portion_picture(std::size_t portion, std::size_t shape) {
-    return caption_widths_m.size() * portion + shape;
+    return typography::caption_widths_m.size() * portion + shape;
 }
 
-std::size_t label_picture(const CatalogueEntry& entry, std::size_t language, std::size_t hotspot) {
+std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language, std::size_t hotspot) {
     return portion_picture(entry.descriptions[language].sizes_m.size(), hotspot);
 }
 
-std::uint64_t text_bytes(const CatalogueEntry& entry, TextPart part, std::size_t language,
+std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,
                          const TextStyle& style) {
     std::uint64_t bytes = 0;
     for (const glm::ivec2& size : sizes_px(entry, part, language, style)) {
-        bytes += caption_gpu_bytes(size.x, size.y);
+        bytes += scene::caption_gpu_bytes(size.x, size.y);
     }
     return bytes;
 }
@@ -273,12 +284,13 @@ std::uint64_t text_bytes(const CatalogueEntry& entry, TextPart part, std::size_t
 Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& texts, TextPart part,
                                 std::size_t language, const TextStyle& style,
                                 const std::function<bool()>& given_up) {
-    const PackCaption& caption = source.pack.captions[source.captions[language]];
-    TRY(const std::vector<SetLanguage> set, load_set_texts(source.file, std::span(&caption.language, 1)));
+    const pack::PackCaption& caption = source.pack.captions[source.captions[language]];
+    TRY(const std::vector<pack::SetLanguage> set,
+        pack::load_set_texts(source.file, std::span(&caption.language, 1)));
     Drawing drawing(style, set, given_up);
     TRY_VOID(at(source.file.string(), draw(source.pack, caption, set, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
-    const auto as_laid_out = [](const Image<std::uint8_t>& picture, const glm::ivec2& size) {
+    const auto as_laid_out = [](const image::Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;
     };
     if (!std::equal(drawing.pictures.begin(), drawing.pictures.end(), sizes.begin(), sizes.end(),
@@ -290,4 +302,4 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     return std::move(drawing.pictures);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

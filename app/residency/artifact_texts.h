@@ -21,18 +21,18 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// The source of an artifact's texts.
 struct TextSource {
     const std::filesystem::path& file;
-    const PackDescription& pack;
+    const pack::PackDescription& pack;
     std::span<const std::size_t> captions; ///< of the pack, one per language that is shown
 };
 
 /// The layout of an artifact's texts.
 struct ArtifactTexts {
-    CatalogueEntry entry;
+    exhibit::CatalogueEntry entry;
     std::vector<SharedRecording> recordings{}; ///< of the descriptions, by language; null: silent
 };
 /// `spoken`: sound is on.
@@ -47,16 +47,16 @@ inline constexpr std::size_t text_parts = 2;
 /// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one; of the
 /// narration, by portion and width, with the attribution as the last portion, then the hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
-[[nodiscard]] std::size_t label_picture(const CatalogueEntry& entry, std::size_t language,
+[[nodiscard]] std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);
 /// GPU memory of a part's pictures.
-[[nodiscard]] std::uint64_t text_bytes(const CatalogueEntry& entry, TextPart part, std::size_t language,
-                                       const TextStyle& style);
+[[nodiscard]] std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part,
+                                       std::size_t language, const TextStyle& style);
 
-using TextPictures = std::vector<Image<std::uint8_t>>;
+using TextPictures = std::vector<image::Image<std::uint8_t>>;
 /// `texts`: laid out in this style. `given_up`: asked between two pictures; true cancels the drawing.
 [[nodiscard]] Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& texts,
                                               TextPart part, std::size_t language, const TextStyle& style,
                                               const std::function<bool()>& given_up);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

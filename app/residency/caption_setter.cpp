@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
 /// Null if the bake could not set a part of the text: then the whole text is set in the kiosk's typeface.
-const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& text) {
-    const SetLanguage* const found = find_language(set, text.language);
+const pack::SetLanguage* whole_in(std::span<const pack::SetLanguage> set, const TableText& text) {
+    const pack::SetLanguage* const found = find_language(set, text.language);
     if (found == nullptr) {
         return nullptr;
     }
@@ -21,16 +21,16 @@ const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& t
     return is_whole ? found : nullptr;
 }
 
-std::vector<GlyphPart> glyph_parts(const TableText& text, const GlyphRuns& runs) {
-    std::vector<GlyphPart> parts;
+std::vector<typography::GlyphPart> glyph_parts(const TableText& text, const pack::GlyphRuns& runs) {
+    std::vector<typography::GlyphPart> parts;
     for (const TextPiece& piece : text.pieces) {
         parts.push_back({piece.role, runs.find(piece.key)});
     }
     return parts;
 }
 
-std::vector<PlainPart> plain_parts(const TableText& text) {
-    std::vector<PlainPart> parts;
+std::vector<typography::PlainPart> plain_parts(const TableText& text) {
+    std::vector<typography::PlainPart> parts;
     for (const TextPiece& piece : text.pieces) {
         parts.push_back({piece.role, piece.text});
     }
@@ -39,25 +39,27 @@ std::vector<PlainPart> plain_parts(const TableText& text) {
 
 } // namespace
 
-TableText caption_text(const PackCaption& caption) {
+TableText caption_text(const pack::PackCaption& caption) {
     return {caption.language,
-            {{CaptionRole::Title, "title", caption.title}, {CaptionRole::Text, "text", caption.text}}};
+            {{typography::CaptionRole::Title, "title", caption.title},
+             {typography::CaptionRole::Text, "text", caption.text}}};
 }
 
-TableText portion_text(const PackCaption& caption, std::size_t portion, const std::string& text) {
-    return {caption.language, {{CaptionRole::Text, portion_key(portion), text}}};
+TableText portion_text(const pack::PackCaption& caption, std::size_t portion, const std::string& text) {
+    return {caption.language, {{typography::CaptionRole::Text, pack::portion_key(portion), text}}};
 }
 
-std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const ScanRights& rights,
-                                          std::span<const SetLanguage> set, CaptionRole role) {
+std::vector<TextPiece> attribution_pieces(const pack::PackCaption& caption, const pack::ScanRights& rights,
+                                          std::span<const pack::SetLanguage> set,
+                                          typography::CaptionRole role) {
     std::vector<TextPiece> pieces;
-    const std::string whole = attribution_of(caption, rights);
+    const std::string whole = pack::attribution_of(caption, rights);
     if (whole.empty()) {
         return pieces;
     }
-    const SetLanguage* const language = find_language(set, caption.language);
-    if (language == nullptr || language->runs.find(attribution_key) != nullptr) {
-        return {{role, std::string(attribution_key), whole}};
+    const pack::SetLanguage* const language = find_language(set, caption.language);
+    if (language == nullptr || language->runs.find(pack::attribution_key) != nullptr) {
+        return {{role, std::string(pack::attribution_key), whole}};
     }
     for (const auto& [key, text] : {std::pair("maker", &caption.maker),
                                     {"place", &caption.place},
@@ -70,47 +72,48 @@ std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const Scan
     return pieces;
 }
 
-const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language) {
+const pack::SetLanguage* find_language(std::span<const pack::SetLanguage> set, const std::string& language) {
     const auto found = std::find_if(set.begin(), set.end(),
-                                    [&](const SetLanguage& each) { return each.language == language; });
+                                    [&](const pack::SetLanguage& each) { return each.language == language; });
     return found != set.end() ? &*found : nullptr;
 }
 
-Result<std::vector<CaptionImage>> CaptionSetter::set(const TableText& text,
-                                                     std::span<const SetLanguage> set) {
-    const SetLanguage* const language = whole_in(set, text);
+Result<std::vector<typography::CaptionImage>> CaptionSetter::set(const TableText& text,
+                                                                 std::span<const pack::SetLanguage> set) {
+    const pack::SetLanguage* const language = whole_in(set, text);
     TRY_VOID(language == nullptr ? open_typesetter() : Result<void>());
-    std::vector<CaptionImage> images;
-    for (const double width_m : caption_widths_m) {
-        images.push_back(
-            language != nullptr
-                ? make_caption(language->runs, language->atlas, glyph_parts(text, language->runs),
-                               style_.em_m, width_m, style_.texels_per_m)
-                : make_caption(*typesetter_, plain_parts(text), style_.em_m, width_m, style_.texels_per_m));
+    std::vector<typography::CaptionImage> images;
+    for (const double width_m : typography::caption_widths_m) {
+        images.push_back(language != nullptr
+                             ? typography::make_caption(language->runs, language->atlas,
+                                                        glyph_parts(text, language->runs), style_.em_m,
+                                                        width_m, style_.texels_per_m)
+                             : typography::make_caption(*typesetter_, plain_parts(text), style_.em_m, width_m,
+                                                        style_.texels_per_m));
     }
     return images;
 }
 
 Result<std::vector<glm::dvec2>> CaptionSetter::sizes_m(const TableText& text,
-                                                       std::span<const SetLanguage> set) {
-    const SetLanguage* const language = whole_in(set, text);
+                                                       std::span<const pack::SetLanguage> set) {
+    const pack::SetLanguage* const language = whole_in(set, text);
     TRY_VOID(language == nullptr ? open_typesetter() : Result<void>());
     std::vector<glm::dvec2> sizes;
-    for (const double width_m : caption_widths_m) {
-        sizes.push_back(
-            language != nullptr
-                ? caption_size_m(language->runs, glyph_parts(text, language->runs), style_.em_m, width_m,
-                                 style_.texels_per_m)
-                : caption_size_m(*typesetter_, plain_parts(text), style_.em_m, width_m, style_.texels_per_m));
+    for (const double width_m : typography::caption_widths_m) {
+        sizes.push_back(language != nullptr
+                            ? typography::caption_size_m(language->runs, glyph_parts(text, language->runs),
+                                                         style_.em_m, width_m, style_.texels_per_m)
+                            : typography::caption_size_m(*typesetter_, plain_parts(text), style_.em_m,
+                                                         width_m, style_.texels_per_m));
     }
     return sizes;
 }
 
 Result<void> CaptionSetter::open_typesetter() {
     if (!typesetter_) {
-        TRY(typesetter_, Typesetter::open());
+        TRY(typesetter_, typography::Typesetter::open());
     }
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// Size and resolution of texts on this table.
 struct TextStyle {
@@ -27,7 +27,7 @@ struct TextStyle {
 
 /// A part of a text that is set as one picture.
 struct TextPiece {
-    CaptionRole role = CaptionRole::Text;
+    typography::CaptionRole role = typography::CaptionRole::Text;
     std::string key; ///< among the glyph runs (pack_texts.h)
     std::string text;
 };
@@ -37,17 +37,20 @@ struct TableText {
     std::vector<TextPiece> pieces;
 };
 /// The title and the short text.
-[[nodiscard]] TableText caption_text(const PackCaption& caption);
-[[nodiscard]] TableText portion_text(const PackCaption& caption, std::size_t portion,
+[[nodiscard]] TableText caption_text(const pack::PackCaption& caption);
+[[nodiscard]] TableText portion_text(const pack::PackCaption& caption, std::size_t portion,
                                      const std::string& text);
 
 /// The attribution of the artifact and its scan (attribution.h); empty: nothing is known. Packs baked before the
 /// attribution was one text have its lines separately, in `set`.
-[[nodiscard]] std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const ScanRights& rights,
-                                                        std::span<const SetLanguage> set, CaptionRole role);
+[[nodiscard]] std::vector<TextPiece> attribution_pieces(const pack::PackCaption& caption,
+                                                        const pack::ScanRights& rights,
+                                                        std::span<const pack::SetLanguage> set,
+                                                        typography::CaptionRole role);
 
 /// Null if the language is missing.
-[[nodiscard]] const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language);
+[[nodiscard]] const pack::SetLanguage* find_language(std::span<const pack::SetLanguage> set,
+                                                     const std::string& language);
 
 class CaptionSetter {
 public:
@@ -55,17 +58,17 @@ public:
 
     /// One picture for each of `caption_widths_m`. `set`: the pack's own, which need not contain the text's
     /// language.
-    [[nodiscard]] Result<std::vector<CaptionImage>> set(const TableText& text,
-                                                        std::span<const SetLanguage> set);
+    [[nodiscard]] Result<std::vector<typography::CaptionImage>> set(const TableText& text,
+                                                                    std::span<const pack::SetLanguage> set);
     /// The sizes of these pictures, without drawing them; the atlases of `set` are not used.
     [[nodiscard]] Result<std::vector<glm::dvec2>> sizes_m(const TableText& text,
-                                                          std::span<const SetLanguage> set);
+                                                          std::span<const pack::SetLanguage> set);
 
 private:
     [[nodiscard]] Result<void> open_typesetter();
 
     TextStyle style_;
-    std::optional<Typesetter> typesetter_; ///< opened for the first text without glyph runs
+    std::optional<typography::Typesetter> typesetter_; ///< opened for the first text without glyph runs
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

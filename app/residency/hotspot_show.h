@@ -13,26 +13,27 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// The triangles that decide which points a level hides, in the box frame.
-[[nodiscard]] ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box_size,
-                                                 double metres_per_box);
+[[nodiscard]] exhibit::ArtifactTriangles hiding_triangles(const pack::PackLevel& level,
+                                                          const glm::dvec3& box_size, double metres_per_box);
 
 /// Lays labels and lines on the table.
 class HotspotShow {
 public:
     HotspotShow() = default; ///< draws no lines
-    [[nodiscard]] static Result<HotspotShow> create(GpuStore& store);
+    [[nodiscard]] static Result<HotspotShow> create(render::GpuStore& store);
 
     /// `label`: the label's picture. `brightness`: of the texts.
-    void place(const PresentedHotspot& hotspot, TextureId label, double brightness, const Pinhole& projector,
-               const RigidTransform& table_from_projector, OnTable& on_table) const;
+    void place(const exhibit::PresentedHotspot& hotspot, scene::TextureId label, double brightness,
+               const geometry::Pinhole& projector, const geometry::RigidTransform& table_from_projector,
+               OnTable& on_table) const;
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const { return planned_gpu_bytes_; }
 
 private:
-    TextureId line_ = TextureId::None; ///< transparent towards its edges
+    scene::TextureId line_ = scene::TextureId::None; ///< transparent towards its edges
     std::uint64_t planned_gpu_bytes_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

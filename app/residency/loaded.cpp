@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 LoadedLevels::LoadedLevels(PreparedArtifact prepared) : artifact(std::move(prepared)) {
     uploads_.reserve(artifact.data.size());
-    for (LevelData& data : artifact.data) {
+    for (scene::LevelData& data : artifact.data) {
         uploads_.emplace_back(std::move(data));
     }
     artifact.data.clear();
 }
 
-Result<void> LoadedLevels::upload(GpuStore& store, std::uint64_t max_bytes) {
-    LevelUpload& level = uploads_[uploaded_];
+Result<void> LoadedLevels::upload(render::GpuStore& store, std::uint64_t max_bytes) {
+    render::LevelUpload& level = uploads_[uploaded_];
     TRY_VOID(level.go_on(max_bytes));
     if (level.done()) {
         artifact.levels.give(uploaded_, store.keep(std::move(level)), store);
@@ -29,17 +29,17 @@ std::uint64_t LoadedLevels::bytes() const {
 
 LoadedTexts::LoadedTexts(TextPictures pictures) : pictures_(std::move(pictures)) {
     textures_.reserve(pictures_.size());
-    for (const Image<std::uint8_t>& picture : pictures_) {
-        bytes_ += caption_gpu_bytes(picture.width, picture.height);
+    for (const image::Image<std::uint8_t>& picture : pictures_) {
+        bytes_ += scene::caption_gpu_bytes(picture.width, picture.height);
     }
 }
 
-Result<void> LoadedTexts::upload(GpuStore& store, std::uint64_t max_bytes) {
+Result<void> LoadedTexts::upload(render::GpuStore& store, std::uint64_t max_bytes) {
     const std::uint64_t before = uploaded_bytes_;
     while (!ready() && uploaded_bytes_ - before < max_bytes) {
-        Image<std::uint8_t>& picture = pictures_[textures_.size()];
-        const std::uint64_t bytes = caption_gpu_bytes(picture.width, picture.height);
-        TRY(const TextureId texture, bytes > 0 ? store.upload(picture) : TextureId::None);
+        image::Image<std::uint8_t>& picture = pictures_[textures_.size()];
+        const std::uint64_t bytes = scene::caption_gpu_bytes(picture.width, picture.height);
+        TRY(const scene::TextureId texture, bytes > 0 ? store.upload(picture) : scene::TextureId::None);
         textures_.push_back(texture);
         uploaded_bytes_ += bytes;
         picture = {};
@@ -47,10 +47,10 @@ Result<void> LoadedTexts::upload(GpuStore& store, std::uint64_t max_bytes) {
     return {};
 }
 
-void LoadedTexts::release(GpuStore& store) {
-    for (const TextureId texture : textures_) {
+void LoadedTexts::release(render::GpuStore& store) {
+    for (const scene::TextureId texture : textures_) {
         store.release(texture);
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -13,24 +13,24 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 class LoadedLevels {
 public:
     explicit LoadedLevels(PreparedArtifact prepared);
 
     /// Uploads about `max_bytes` more; it may exceed them slightly.
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t max_bytes);
+    [[nodiscard]] Result<void> upload(render::GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == uploads_.size(); }
     /// Removes all of it from the store.
-    void release(GpuStore& store) { artifact.levels.release(store); }
+    void release(render::GpuStore& store) { artifact.levels.release(store); }
     /// GPU memory and main memory.
     [[nodiscard]] std::uint64_t bytes() const;
 
     PreparedArtifact artifact;
 
 private:
-    std::vector<LevelUpload> uploads_;
+    std::vector<render::LevelUpload> uploads_;
     std::size_t uploaded_ = 0; ///< levels that are in the store
 };
 
@@ -40,23 +40,23 @@ public:
     explicit LoadedTexts(TextPictures pictures);
 
     /// As above, but pictures are uploaded whole.
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t max_bytes);
+    [[nodiscard]] Result<void> upload(render::GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return textures_.size() == pictures_.size(); }
-    void release(GpuStore& store);
+    void release(render::GpuStore& store);
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     /// The part of `bytes` for pictures that are in the store.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
     /// None if the picture is not in the store.
-    [[nodiscard]] TextureId texture(std::size_t picture) const {
-        return picture < textures_.size() ? textures_[picture] : TextureId::None;
+    [[nodiscard]] scene::TextureId texture(std::size_t picture) const {
+        return picture < textures_.size() ? textures_[picture] : scene::TextureId::None;
     }
 
 private:
     TextPictures pictures_; ///< emptied as they go into the store
-    std::vector<TextureId> textures_;
+    std::vector<scene::TextureId> textures_;
     std::uint64_t bytes_ = 0;
     std::uint64_t uploaded_bytes_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -2,16 +2,16 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
-void OnTable::add(const TablePicture& picture) {
+void OnTable::add(const scene::TablePicture& picture) {
     if (picture.brightness > 0.0 && count_ < pictures_.size()) {
         pictures_[count_++] = picture;
     }
 }
 
-TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
-                         const RigidTransform& table_from_projector) {
+typography::TableRectangle on_pixels(typography::TableRectangle rectangle, const geometry::Pinhole& projector,
+                                     const geometry::RigidTransform& table_from_projector) {
     const glm::dvec3 corner(rectangle.corners()[3], 0.0);
     const std::optional<glm::dvec2> pixel = projector.pixel(table_from_projector.inverse().point(corner));
     if (!pixel) {
@@ -25,7 +25,7 @@ TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
     return rectangle;
 }
 
-std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle) {
+std::array<glm::dvec3, 4> picture_corners(const typography::TableRectangle& rectangle) {
     const std::array<glm::dvec2, 4> c = rectangle.corners(); // from the bottom left, counter-clockwise
     return flat_corners({c[3], c[2], c[1], c[0]});
 }
@@ -38,4 +38,4 @@ std::array<glm::dvec3, 4> flat_corners(const std::array<glm::dvec2, 4>& corners_
     return corners;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

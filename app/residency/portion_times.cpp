@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
@@ -18,14 +18,14 @@ constexpr double min_uncertain_s = 1.2;
 constexpr double pause_is_worth = 4.0;
 
 double seconds_of(std::uint32_t sample) {
-    return static_cast<double>(sample) / sample_rate_hz;
+    return static_cast<double>(sample) / sound::sample_rate_hz;
 }
 
 /// The middle of the best pause near `expected_s`; `expected_s` if there is none.
-double nearest_pause(const Prompt& prompt, double expected_s, double begin_s, double uncertain_s) {
+double nearest_pause(const sound::Prompt& prompt, double expected_s, double begin_s, double uncertain_s) {
     double best = expected_s;
     double min_cost = std::numeric_limits<double>::infinity();
-    for (const Mark& mark : prompt.marks) {
+    for (const sound::Mark& mark : prompt.marks) {
         const double middle_s = 0.5 * (seconds_of(mark.begin) + seconds_of(mark.end));
         const double off_s = std::abs(middle_s - expected_s);
         const double cost = off_s - pause_is_worth * (seconds_of(mark.end) - seconds_of(mark.begin));
@@ -39,8 +39,8 @@ double nearest_pause(const Prompt& prompt, double expected_s, double begin_s, do
 
 } // namespace
 
-std::vector<Nanoseconds> portion_times(std::span<const Nanoseconds> shares, const Prompt& prompt) {
-    const double length_s = to_seconds(duration_of(prompt.samples.size()));
+std::vector<Nanoseconds> portion_times(std::span<const Nanoseconds> shares, const sound::Prompt& prompt) {
+    const double length_s = to_seconds(sound::duration_of(prompt.samples.size()));
     double left = to_seconds(std::accumulate(shares.begin(), shares.end(), Nanoseconds(0)));
     double begin_s = 0.0;
     std::vector<Nanoseconds> times;
@@ -55,4 +55,4 @@ std::vector<Nanoseconds> portion_times(std::span<const Nanoseconds> shares, cons
     return times;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// `shares`: the portions' lengths, in any unit. Ascending; the first is 0.
 [[nodiscard]] std::vector<Nanoseconds> portion_times(std::span<const Nanoseconds> shares,
-                                                     const Prompt& prompt);
+                                                     const sound::Prompt& prompt);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

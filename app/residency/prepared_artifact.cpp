@@ -9,30 +9,31 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
 /// Reads one level, and fails if the pack has changed since it was opened.
-Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
-    return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-        if (outline != known.outline) {
-            return bad_input("show.pack_changed",
-                             "the pack has changed since the exhibit was started; start it again");
-        }
-        return std::vector<std::uint32_t>{level};
-    });
+Result<pack::VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
+    return pack::load_pack(
+        known.file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            if (outline != known.outline) {
+                return bad_input("show.pack_changed",
+                                 "the pack has changed since the exhibit was started; start it again");
+            }
+            return std::vector<std::uint32_t>{level};
+        });
 }
 
 /// The mesh level that decides which hotspots are hidden, also when only reliefs are drawn.
-std::uint32_t coarsest_of(const ScenePlan& plan) {
+std::uint32_t coarsest_of(const scene::ScenePlan& plan) {
     return plan.levels.empty() ? 0 : *std::min_element(plan.levels.begin(), plan.levels.end());
 }
 
 /// The levels to read without drawing them, when only reliefs are drawn: for the exposure and for the
 /// visibility of hotspots.
 std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
-    const ScenePlan& plan = known.plan;
+    const scene::ScenePlan& plan = known.plan;
     if (!plan.levels.empty()) {
         return {};
     }
@@ -47,16 +48,16 @@ std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
 
 Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
                                           double deadline_ms, const std::function<bool()>& given_up) {
-    const ScenePlan& plan = known.plan;
+    const scene::ScenePlan& plan = known.plan;
     std::vector<PreparedLevel> levels;
     double exposure = 1.0;
-    ArtifactTriangles triangles;
+    exhibit::ArtifactTriangles triangles;
     const auto read = [&](std::uint32_t number) {
-        Result<VerifiedPack> pack = read_level(known, number);
+        Result<pack::VerifiedPack> pack = read_level(known, number);
         if (pack && number == plan.exposure_level) {
-            const PackLevel& level = (*pack)->levels[number];
-            exposure =
-                exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
+            const pack::PackLevel& level = (*pack)->levels[number];
+            exposure = scene::exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture],
+                                          plan.highlight_code);
         }
         if (pack && number == coarsest_of(plan) && !(*pack)->hotspots.empty()) {
             triangles = hiding_triangles((*pack)->levels[number], (*pack)->box_size, plan.metres_per_box);
@@ -67,7 +68,7 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (given_up()) {
             return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
-        TRY(const VerifiedPack pack, read(number));
+        TRY(const pack::VerifiedPack pack, read(number));
         levels.push_back(prepare_level(*pack, number, plan));
     }
     for (const std::uint32_t number : read_beside(known)) {
@@ -80,16 +81,18 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (given_up()) {
             return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
-        TRY(BlockRelief relief, load_relief(known.file, plan.reliefs[place]));
-        const auto shared = std::make_shared<const BlockRelief>(std::move(relief));
+        TRY(relief::BlockRelief relief, pack::load_relief(known.file, plan.reliefs[place]));
+        const auto shared = std::make_shared<const relief::BlockRelief>(std::move(relief));
         for (const bool on_gpu : {false, true}) {
             if (draws_relief(plan, place, on_gpu)) {
                 levels.push_back(prepare_relief(known.outline.description, place, shared, on_gpu, plan));
             }
         }
     }
-    PreparedArtifact made{
-        RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};
+    PreparedArtifact made{.levels = RunLevels(technique, plan, deadline_ms, levels),
+                          .data = {},
+                          .exposure = exposure,
+                          .triangles = std::move(triangles)};
     for (PreparedLevel& level : levels) {
         made.data.push_back(std::move(level.data));
     }
@@ -103,11 +106,11 @@ Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, st
 }
 
 std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
-    constexpr std::uint64_t per_vertex = sizeof(PackVertex) + sizeof(glm::vec3);
+    constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
     constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
     std::uint64_t bytes = 0;
     for (const std::uint32_t number : known.plan.levels) {
-        const LevelOutline& level = known.outline.levels[number];
+        const pack::LevelOutline& level = known.outline.levels[number];
         bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
     }
     for (std::size_t place = 0; place < known.plan.reliefs.size(); ++place) {
@@ -116,9 +119,9 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
         bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
     }
     if (!known.outline.description.hotspots.empty()) {
-        bytes += TriangleTree::max_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
+        bytes += geometry::TriangleTree::max_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
     }
     return bytes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

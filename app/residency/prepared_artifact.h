@@ -20,21 +20,21 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// Data of an artifact that stay in memory while the exhibit runs.
 struct KnownArtifact {
     std::filesystem::path file;
-    PackOutline outline;
-    ScenePlan plan;
+    pack::PackOutline outline;
+    scene::ScenePlan plan;
     ArtifactTexts texts{};
 };
 
 struct PreparedArtifact {
     RunLevels levels;
-    std::vector<LevelData> data; ///< of the levels, to upload
-    double exposure = 1.0;       ///< factor of linear light
-    ArtifactTriangles triangles; ///< none without hotspots
+    std::vector<scene::LevelData> data;   ///< of the levels, to upload
+    double exposure = 1.0;                ///< factor of linear light
+    exhibit::ArtifactTriangles triangles; ///< none without hotspots
 };
 
 /// `given_up`: asked between two levels; true cancels the preparation.
@@ -51,4 +51,4 @@ struct PreparedArtifact {
 /// one level's texture, estimated from other artifacts.
 [[nodiscard]] std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

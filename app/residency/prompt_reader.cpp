@@ -13,23 +13,23 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
-Result<Prompt> decode(const PromptRecording& recording) {
+Result<sound::Prompt> decode(const PromptRecording& recording) {
     if (!recording.opus.empty()) {
-        return read_opus(recording.opus);
+        return sound::read_opus(recording.opus);
     }
-    TRY(const Bytes opus, load_sound(recording.pack, recording.language, recording.key));
+    TRY(const Bytes opus, pack::load_sound(recording.pack, recording.language, recording.key));
     if (opus.empty()) {
         return bad_input("show.no_sound", "{} no longer has its sound; bake the pack again",
                          recording.pack.string());
     }
-    return read_opus(opus);
+    return sound::read_opus(opus);
 }
 
-void soften(Prompt& prompt, double gain_db) {
+void soften(sound::Prompt& prompt, double gain_db) {
     if (gain_db < 0.0) {
         const double gain = std::pow(10.0, gain_db / 20.0);
         for (std::int16_t& sample : prompt.samples) {
@@ -101,7 +101,7 @@ void PromptReader::keep(const SharedRecording& recording, SharedReading reading)
 
 SharedReading PromptReader::read(const PromptRecording& recording) {
     auto reading = std::make_shared<Reading>();
-    Result<Prompt> prompt = decode(recording);
+    Result<sound::Prompt> prompt = decode(recording);
     if (!prompt) {
         if (silent_.insert(recording.name).second) {
             say_line("frustumscreen",
@@ -110,9 +110,9 @@ SharedReading PromptReader::read(const PromptRecording& recording) {
         return reading;
     }
     soften(*prompt, recording.gain_db);
-    prompt->marks = find_pauses(prompt->samples);
+    prompt->marks = sound::find_pauses(prompt->samples);
     reading->portions = portion_times(recording.portions, *prompt);
-    reading->prompt = std::make_shared<const Prompt>(*std::move(prompt));
+    reading->prompt = std::make_shared<const sound::Prompt>(*std::move(prompt));
     return reading;
 }
 
@@ -139,4 +139,4 @@ void PromptReader::work(const std::stop_token& stop) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

@@ -27,7 +27,7 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 /// A text that can be spoken: Ogg Opus in memory, or in a pack's file. Its address identifies it.
 struct PromptRecording {
@@ -43,7 +43,7 @@ using SharedRecording = std::shared_ptr<const PromptRecording>;
 
 /// A decoded recording.
 struct Reading {
-    SharedPrompt prompt;               ///< null: it is silent
+    sound::SharedPrompt prompt;        ///< null: it is silent
     std::vector<Nanoseconds> portions; ///< start times
 };
 using SharedReading = std::shared_ptr<const Reading>;
@@ -87,4 +87,4 @@ private:
     std::jthread worker_;          ///< last, so that it is joined first
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

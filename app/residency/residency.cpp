@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
@@ -90,4 +90,4 @@ ResidencyStep next_step(std::span<const ResidentItem> items, std::span<const std
     return Decision(items, needed, wanted, budget).step();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

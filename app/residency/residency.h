@@ -15,7 +15,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 struct ResidentItem {
     std::uint64_t bytes = 0;      ///< bytes that it takes, or would take
@@ -36,4 +36,4 @@ struct ResidencyStep {
                                       std::span<const std::size_t> needed,
                                       std::span<const std::size_t> wanted, std::uint64_t budget);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

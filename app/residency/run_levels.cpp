@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 namespace {
 
@@ -37,7 +37,7 @@ constexpr std::array relief_names{
     ReliefName{384, "relief384", "relief384-gpu"},    ReliefName{768, "relief768", "relief768-gpu"},
     ReliefName{1536, "relief1536", "relief1536-gpu"}, ReliefName{3072, "relief3072", "relief3072-gpu"}};
 
-std::string_view literal_of(const QualityLevel& quality_level) {
+std::string_view literal_of(const scene::QualityLevel& quality_level) {
     if (!quality_level.relief) {
         return level_names.at(quality_level.level);
     }
@@ -52,41 +52,45 @@ std::string_view literal_of(const QualityLevel& quality_level) {
 
 } // namespace
 
-PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan) {
-    const SceneLevel kept = scene_level(pack, level, plan);
-    const Image8& texture = pack.textures[kept.mesh.texture];
+PreparedLevel prepare_level(const pack::Pack& pack, std::uint32_t level, const scene::ScenePlan& plan) {
+    const scene::SceneLevel kept = scene::scene_level(pack, level, plan);
+    const image::Image8& texture = pack.textures[kept.mesh.texture];
     PreparedLevel made;
-    made.use = {level,
-                kept.mesh.indices.size() / 3,
-                kept.unseen_triangles,
-                kept.unseen_clusters,
-                glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
-                kept.finest_mip,
-                gpu_bytes(kept, texture),
-                0};
+    made.use = {.level = level,
+                .triangles = kept.mesh.indices.size() / 3,
+                .unseen_triangles = kept.unseen_triangles,
+                .unseen_clusters = kept.unseen_clusters,
+                .texture =
+                    glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
+                .finest_mip = kept.finest_mip,
+                .planned_gpu_bytes = scene::gpu_bytes(kept, texture),
+                .gpu_bytes = 0};
     made.seen = plan.seen[level];
     made.box_size = pack.box_size;
     made.samples = pack.samples;
-    made.triangles = std::make_shared<LevelTriangles>(triangles_of(kept.mesh, pack.box_size));
-    made.needs = needs_of(plan, kept);
-    made.left_out = left_out_of(plan, kept, texture);
-    made.data = level_data(kept, texture);
+    made.triangles = std::make_shared<scene::LevelTriangles>(scene::triangles_of(kept.mesh, pack.box_size));
+    made.needs = scene::needs_of(plan, kept);
+    made.left_out = scene::left_out_of(plan, kept, texture);
+    made.data = scene::level_data(kept, texture);
     return made;
 }
 
-bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu) {
-    const QualityLevel shown{plan.reliefs[place].texels, 1, false, true, on_gpu};
-    return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
-                       [&](const QualityLevel& quality_level) { return quality_level.shows_as(shown); });
+bool draws_relief(const scene::ScenePlan& plan, std::size_t place, bool on_gpu) {
+    const scene::QualityLevel shown{
+        .level = plan.reliefs[place].texels, .samples = 1, .enough = false, .relief = true, .on_gpu = on_gpu};
+    return std::any_of(
+        plan.quality_levels.begin(), plan.quality_levels.end(),
+        [&](const scene::QualityLevel& quality_level) { return quality_level.shows_as(shown); });
 }
 
-PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
-                             std::shared_ptr<const BlockRelief> relief, bool on_gpu, const ScenePlan& plan) {
+PreparedLevel prepare_relief(const pack::PackDescription& pack, std::size_t place,
+                             std::shared_ptr<const relief::BlockRelief> relief, bool on_gpu,
+                             const scene::ScenePlan& plan) {
     PreparedLevel made;
     made.use.level = plan.reliefs[place].texels;
     made.use.blocks = relief->blocks.size();
     made.use.on_gpu = on_gpu;
-    made.use.planned_gpu_bytes = on_gpu ? gpu_bytes(*relief) : 0;
+    made.use.planned_gpu_bytes = on_gpu ? render::gpu_bytes(*relief) : 0;
     made.seen = plan.seen_reliefs[place];
     made.box_size = pack.box_size;
     made.samples = pack.samples;
@@ -96,45 +100,48 @@ PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
     return made;
 }
 
-RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
+RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double deadline_ms,
                      std::span<const PreparedLevel> levels)
     : technique_(std::move(technique)), quality_levels_(plan.quality_levels), deadline_ms_(deadline_ms),
-      governor_(quality_levels_, std::vector<QualityLevelTime>(quality_levels_.size()), deadline_ms) {
+      governor_(quality_levels_, std::vector<scene::QualityLevelTime>(quality_levels_.size()), deadline_ms) {
     std::size_t indices = 0;
     for (const PreparedLevel& level : levels) {
         uses_.push_back(level.use);
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
-        needs_ = united(needs_, level.needs);
+        needs_ = scene::united(needs_, level.needs);
         indices += level.triangles ? level.triangles->indices.size() : 0;
-        levels_.push_back(
-            {QualityLevel{level.use.level, 1, false, level.data.relief != nullptr, level.data.on_gpu},
-             level.seen,
-             PlacedLevel{level.triangles,
-                         level.box_size,
-                         plan.metres_per_box,
-                         {},
-                         level.samples,
-                         plan.faces,
-                         level.data.relief,
-                         level.data.on_gpu}});
+        levels_.push_back({scene::QualityLevel{.level = level.use.level,
+                                               .samples = 1,
+                                               .enough = false,
+                                               .relief = level.data.relief != nullptr,
+                                               .on_gpu = level.data.on_gpu},
+                           level.seen,
+                           scene::PlacedLevel{.triangles = level.triangles,
+                                              .box_size = level.box_size,
+                                              .metres_per_box = plan.metres_per_box,
+                                              .drawable = {},
+                                              .samples = level.samples,
+                                              .faces = plan.faces,
+                                              .relief = level.data.relief,
+                                              .on_gpu = level.data.on_gpu}});
     }
-    plan_ = make_plan(plan.prop, indices, 2);
+    plan_ = scene::make_plan(plan.prop, indices, 2);
 }
 
-void RunLevels::give(std::size_t place, const Drawable& drawable, const GpuStore& store) {
+void RunLevels::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
     levels_[place].placed.drawable = drawable;
     uses_[place].gpu_bytes = store.bytes(drawable);
 }
 
-Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std::string technique,
-                                    double deadline_ms, GpuStore& store) {
+Result<RunLevels> RunLevels::upload(const pack::Pack& pack, const scene::ScenePlan& plan,
+                                    std::string technique, double deadline_ms, render::GpuStore& store) {
     std::vector<PreparedLevel> prepared;
     for (const std::uint32_t level : plan.levels) {
         prepared.push_back(prepare_level(pack, level, plan));
     }
     RunLevels made(std::move(technique), plan, deadline_ms, prepared);
     for (std::size_t place = 0; place < prepared.size(); ++place) {
-        LevelUpload upload(std::move(prepared[place].data));
+        render::LevelUpload upload(std::move(prepared[place].data));
         if (Result<void> done = upload.go_on(); !done) {
             made.release(store);
             return tl::unexpected<Error>(done.error());
@@ -144,7 +151,7 @@ Result<RunLevels> RunLevels::upload(const Pack& pack, const ScenePlan& plan, std
     return made;
 }
 
-void RunLevels::release(GpuStore& store) {
+void RunLevels::release(render::GpuStore& store) {
     for (const Level& level : levels_) {
         store.release(level.placed.drawable);
     }
@@ -154,34 +161,34 @@ std::uint64_t RunLevels::bytes() const {
     std::uint64_t bytes = 0;
     std::uint64_t max_indices = 0;
     for (std::size_t place = 0; place < levels_.size(); ++place) {
-        const PlacedLevel& placed = levels_[place].placed;
+        const scene::PlacedLevel& placed = levels_[place].placed;
         bytes += uses_[place].planned_gpu_bytes;
         if (placed.relief) {
             const bool counted = place > 0 && levels_[place - 1].placed.relief == placed.relief;
-            bytes += counted ? 0 : bytes_of(*placed.relief); // both ways of drawing share the relief
+            bytes += counted ? 0 : relief::bytes_of(*placed.relief); // both ways of drawing share the relief
             continue;
         }
-        bytes += bytes_of(*placed.triangles);
+        bytes += scene::bytes_of(*placed.triangles);
         max_indices = std::max<std::uint64_t>(max_indices, placed.triangles->indices.size());
     }
     // The plan of a frame lists the triangles that face the eye, and those that a face shows.
     return bytes + 2 * sizeof(std::uint32_t) * max_indices;
 }
 
-std::size_t RunLevels::slot_of(const QualityLevel& quality_level) const {
+std::size_t RunLevels::slot_of(const scene::QualityLevel& quality_level) const {
     return static_cast<std::size_t>(
         std::find_if(levels_.begin(), levels_.end(),
                      [&](const Level& l) { return l.shows.shows_as(quality_level); }) -
         levels_.begin());
 }
 
-FrameWork RunLevels::work(const QualityLevel& quality_level) const {
+scene::FrameWork RunLevels::work(const scene::QualityLevel& quality_level) const {
     const auto pixels = static_cast<double>(plan_.lit.pixels());
     const auto more = [&](int samples) {
         return pixels * samples / quality_level.samples;
     }; // a slanting view takes more samples
     if (quality_level.relief) {
-        const BlockRelief& relief = *levels_[slot_of(quality_level)].placed.relief;
+        const relief::BlockRelief& relief = *levels_[slot_of(quality_level)].placed.relief;
         return {static_cast<double>(relief.blocks.size()), quality_level.on_gpu ? more(plan_.samples)
                                                            : plan_.relief_draw_count > 0
                                                                ? more(plan_.relief_draws[0].samples)
@@ -190,19 +197,20 @@ FrameWork RunLevels::work(const QualityLevel& quality_level) const {
     return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
 }
 
-double RunLevels::median_ms(const QualityLevel& quality_level, const PropShape& prop, const PlanView& view,
-                            Renderer& renderer, const RenderTarget& target) {
+double RunLevels::median_ms(const scene::QualityLevel& quality_level, const geometry::PropShape& prop,
+                            const scene::PlanView& view, render::Renderer& renderer,
+                            const render::RenderTarget& target) {
     const Level& level = levels_[slot_of(quality_level)];
-    PlacedLevel placed = level.placed;
+    scene::PlacedLevel placed = level.placed;
     placed.samples = quality_level.samples;
     std::array<double, 7> ms{};
     std::size_t drawn = 0;
     double spent_ms = 0.0;
     while (drawn < 2 || (drawn < ms.size() && spent_ms < longest_measurement_ms)) {
         const auto start = std::chrono::steady_clock::now();
-        plan_frame(prop, placed, view, plan_);
-        renderer.draw(plan_, target, Redraw::Everything);
-        wait_until_drawn();
+        scene::plan_frame(prop, placed, view, plan_);
+        renderer.draw(plan_, target, render::Redraw::Everything);
+        render::wait_until_drawn();
         ms[drawn] =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         spent_ms += ms[drawn++];
@@ -212,13 +220,16 @@ double RunLevels::median_ms(const QualityLevel& quality_level, const PropShape& 
     return quantile_in(std::span(ms).first(drawn).subspan(std::min<std::size_t>(2, drawn - 1)), 0.5);
 }
 
-void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& renderer,
-                        const RenderTarget& target) {
-    std::vector<QualityLevelTime> times(quality_levels_.size());
+void RunLevels::measure(const geometry::PropShape& prop, const scene::PlanView& view,
+                        render::Renderer& renderer, const render::RenderTarget& target) {
+    std::vector<scene::QualityLevelTime> times(quality_levels_.size());
     for (std::size_t k = 0; k < quality_levels_.size(); ++k) {
         const double ms = median_ms(quality_levels_[k], prop, view, renderer, target);
-        times[k] = {quality_levels_[k].samples, work(quality_levels_[k]), ms, quality_levels_[k].relief,
-                    quality_levels_[k].on_gpu};
+        times[k] = {.samples = quality_levels_[k].samples,
+                    .work = work(quality_levels_[k]),
+                    .ms = ms,
+                    .relief = quality_levels_[k].relief,
+                    .on_gpu = quality_levels_[k].on_gpu};
     }
     // Repeat in reverse order: other load on the machine may have slowed some levels and not others. Levels
     // whose frames are slow are not measured again, to keep the start short.
@@ -229,43 +240,47 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     }
     // The driver compiles its own programs at the first draw with a shader. Draw with each now, rather than
     // in the middle of a fade or at the first artifact with cut-out texels.
-    for (const ShaderKey& key : renderer.shaders()) {
-        const bool is_raster = key.pass == ShaderKey::Pass::Raster;
+    for (const scene::ShaderKey& key : renderer.shaders()) {
+        const bool is_raster = key.pass == scene::ShaderKey::Pass::Raster;
         const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& one) {
             return one.shows.relief == (is_raster || key.blocks) && one.shows.on_gpu == key.blocks;
         });
-        if ((is_raster || key.pass == ShaderKey::Pass::Surface) && !key.places &&
+        if ((is_raster || key.pass == scene::ShaderKey::Pass::Surface) && !key.places &&
             (is_raster || key.even_light == view.light.has_value()) && level != levels_.end()) {
-            PlacedLevel placed = level->placed;
+            scene::PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {
-                plan_frame(prop, fade(placed, placed, 0.5), view, plan_);
+                scene::plan_frame(prop, scene::fade(placed, placed, 0.5), view, plan_);
             } else {
-                plan_frame(prop, placed, view, plan_);
+                scene::plan_frame(prop, placed, view, plan_);
             }
-            renderer.draw(plan_, target, Redraw::Everything);
+            renderer.draw(plan_, target, render::Redraw::Everything);
         }
     }
-    wait_until_drawn();
+    render::wait_until_drawn();
     start(times);
 }
 
-void RunLevels::start(const FrameCost& cost, const PropShape& prop, const PlanView& view) {
-    std::vector<QualityLevelTime> times;
-    for (const QualityLevel& quality_level : quality_levels_) {
-        PlacedLevel placed = levels_[slot_of(quality_level)].placed;
+void RunLevels::start(const scene::FrameCost& cost, const geometry::PropShape& prop,
+                      const scene::PlanView& view) {
+    std::vector<scene::QualityLevelTime> times;
+    for (const scene::QualityLevel& quality_level : quality_levels_) {
+        scene::PlacedLevel placed = levels_[slot_of(quality_level)].placed;
         placed.samples = quality_level.samples;
-        plan_frame(prop, placed, view, plan_);
-        times.push_back(
-            {quality_level.samples, work(quality_level), 0.0, quality_level.relief, quality_level.on_gpu});
+        scene::plan_frame(prop, placed, view, plan_);
+        times.push_back({.samples = quality_level.samples,
+                         .work = work(quality_level),
+                         .ms = 0.0,
+                         .relief = quality_level.relief,
+                         .on_gpu = quality_level.on_gpu});
         times.back().ms = cost.ms(times.back());
     }
     start(times);
 }
 
-void RunLevels::start(const std::vector<QualityLevelTime>& times) {
+void RunLevels::start(const std::vector<scene::QualityLevelTime>& times) {
     times_ = times;
-    governor_ = Governor(quality_levels_, times, deadline_ms_);
+    governor_ = scene::Governor(quality_levels_, times, deadline_ms_);
     shown_ = slot_of(governor_.quality_level());
 }
 
@@ -275,36 +290,38 @@ void RunLevels::enter(MonotonicTime now, double load) {
     coming_.reset();
 }
 
-PlacedLevel RunLevels::placed(std::size_t slot) const {
-    PlacedLevel placed = levels_[slot].placed;
+scene::PlacedLevel RunLevels::placed(std::size_t slot) const {
+    scene::PlacedLevel placed = levels_[slot].placed;
     placed.samples = governor_.quality_level().samples;
     return placed;
 }
 
-std::optional<ErrorEstimate> RunLevels::estimate(const PropShape& prop, const PlanView& view) const {
+std::optional<scene::ErrorEstimate> RunLevels::estimate(const geometry::PropShape& prop,
+                                                        const scene::PlanView& view) const {
     const auto of = [&](std::size_t slot) {
-        return estimate_error(levels_[slot].seen, prop, levels_[slot].placed, view, plan_);
+        return scene::estimate_error(levels_[slot].seen, prop, levels_[slot].placed, view, plan_);
     };
-    const std::optional<ErrorEstimate> shown = of(shown_);
-    const std::optional<ErrorEstimate> coming = coming_ ? of(*coming_) : shown;
-    return shown ? std::optional(ErrorEstimate{std::fmax(shown->mean_mm, coming->mean_mm),
-                                               std::fmax(shown->p95_mm, coming->p95_mm)})
+    const std::optional<scene::ErrorEstimate> shown = of(shown_);
+    const std::optional<scene::ErrorEstimate> coming = coming_ ? of(*coming_) : shown;
+    return shown ? std::optional(scene::ErrorEstimate{std::fmax(shown->mean_mm, coming->mean_mm),
+                                                      std::fmax(shown->p95_mm, coming->p95_mm)})
                  : std::nullopt;
 }
 
-DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanView& view, Renderer& renderer,
-                           const RenderTarget& target, Redraw redraw) {
-    const double share = coming_ ? ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
+render::DrawResult RunLevels::draw(MonotonicTime now, const geometry::PropShape& prop,
+                                   const scene::PlanView& view, render::Renderer& renderer,
+                                   const render::RenderTarget& target, render::Redraw redraw) {
+    const double share = coming_ ? geometry::ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
     if (share >= 1.0) {
         shown_ = *coming_;
         coming_.reset();
     }
     if (coming_) {
-        plan_frame(prop, fade(placed(shown_), placed(*coming_), share), view, plan_);
+        scene::plan_frame(prop, scene::fade(placed(shown_), placed(*coming_), share), view, plan_);
     } else {
-        plan_frame(prop, placed(shown_), view, plan_);
+        scene::plan_frame(prop, placed(shown_), view, plan_);
     }
-    const DrawResult result = renderer.draw(plan_, target, redraw);
+    const render::DrawResult result = renderer.draw(plan_, target, redraw);
     if (result.drawn) { // otherwise the earlier picture and its error stay
         error_ = estimate(prop, view);
     }
@@ -324,8 +341,12 @@ void RunLevels::record_time(MonotonicTime now, double ms) {
 
 LevelState RunLevels::state() const {
     const Level& to = levels_[coming_.value_or(shown_)];
-    return {technique_, literal_of(to.shows), governor_.quality_level().samples,
-            error_,     governor_.switches(), governor_.ignored()};
+    return {.technique = technique_,
+            .level = literal_of(to.shows),
+            .samples = governor_.quality_level().samples,
+            .error = error_,
+            .switches = governor_.switches(),
+            .ignored_times = governor_.ignored()};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

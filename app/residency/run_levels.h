@@ -28,7 +28,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::residency {
 
 inline constexpr double level_fade_s = 0.4;
 
@@ -54,7 +54,7 @@ struct LevelState {
     int samples = 0;
     /// Error of the last frame drawn; during a fade the larger of the two levels' errors. nullopt: the
     /// artifact does not show.
-    std::optional<ErrorEstimate> error;
+    std::optional<scene::ErrorEstimate> error;
     std::uint64_t switches = 0;
     std::uint64_t ignored_times = 0;
 };
@@ -62,55 +62,58 @@ struct LevelState {
 /// A level after reading and culling, and its data to upload.
 struct PreparedLevel {
     LevelUse use; ///< `gpu_bytes` is not known yet
-    SeenLevel seen;
+    scene::SeenLevel seen;
     glm::dvec3 box_size{1.0};
-    int samples = 0;                                 ///< Pack::samples
-    std::shared_ptr<const LevelTriangles> triangles; ///< null for a relief, which is in `data`
-    RenderNeeds needs;
-    std::vector<LeftOut> left_out;
-    LevelData data;
+    int samples = 0;                                        ///< Pack::samples
+    std::shared_ptr<const scene::LevelTriangles> triangles; ///< null for a relief, which is in `data`
+    scene::RenderNeeds needs;
+    std::vector<scene::LeftOut> left_out;
+    scene::LevelData data;
 };
 /// `level`: one of the plan's. Pure; slow.
-[[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
+[[nodiscard]] PreparedLevel prepare_level(const pack::Pack& pack, std::uint32_t level,
+                                          const scene::ScenePlan& plan);
 /// True if a quality level of the plan draws the relief with index `place` in this way.
-[[nodiscard]] bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu);
+[[nodiscard]] bool draws_relief(const scene::ScenePlan& plan, std::size_t place, bool on_gpu);
 /// `place`: index into the plan's reliefs; `relief`: its data; `on_gpu`: the GPU draws it.
-[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
-                                           std::shared_ptr<const BlockRelief> relief, bool on_gpu,
-                                           const ScenePlan& plan);
+[[nodiscard]] PreparedLevel prepare_relief(const pack::PackDescription& pack, std::size_t place,
+                                           std::shared_ptr<const relief::BlockRelief> relief, bool on_gpu,
+                                           const scene::ScenePlan& plan);
 
 class RunLevels {
 public:
     /// The plan's levels in its order, then its reliefs, once for each way that a quality level draws them.
     /// Drawing requires a drawable for each. Needs no context.
-    RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
+    RunLevels(std::string technique, const scene::ScenePlan& plan, double deadline_ms,
               std::span<const PreparedLevel> levels);
     /// Sets the drawable of the level with index `place`, which is in the store.
-    void give(std::size_t place, const Drawable& drawable, const GpuStore& store);
+    void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
 
     /// Prepares and uploads all levels at once. `technique`: as requested. `pack` need not outlive the call.
     /// On failure nothing stays in the store.
-    [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
-                                                  std::string technique, double deadline_ms, GpuStore& store);
+    [[nodiscard]] static Result<RunLevels> upload(const pack::Pack& pack, const scene::ScenePlan& plan,
+                                                  std::string technique, double deadline_ms,
+                                                  render::GpuStore& store);
     /// Removes all given levels from the store; drawing is then impossible.
-    void release(GpuStore& store);
+    void release(render::GpuStore& store);
 
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
-    [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
+    [[nodiscard]] const std::vector<scene::LeftOut>& left_out() const { return left_out_; }
     /// The needs of a renderer for this artifact.
-    [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
+    [[nodiscard]] const scene::RenderNeeds& needs() const { return needs_; }
 
     /// Draws every quality level two to seven times for the view, fewer if a frame takes long; if frames are
     /// quick, repeats this, and starts the governor with the smaller of the two medians. Afterwards `target`
     /// holds an arbitrary picture, which must not be presented.
-    void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
+    void measure(const geometry::PropShape& prop, const scene::PlanView& view, render::Renderer& renderer,
+                 const render::RenderTarget& target);
 
     /// Starts the governor with measured times: one for each quality level, best first.
-    void start(const std::vector<QualityLevelTime>& times);
+    void start(const std::vector<scene::QualityLevelTime>& times);
     /// Starts the governor with predicted times for the view. Needs no context.
-    void start(const FrameCost& cost, const PropShape& prop, const PlanView& view);
+    void start(const scene::FrameCost& cost, const geometry::PropShape& prop, const scene::PlanView& view);
     /// The times at the start; empty before.
-    [[nodiscard]] const std::vector<QualityLevelTime>& times() const { return times_; }
+    [[nodiscard]] const std::vector<scene::QualityLevelTime>& times() const { return times_; }
 
     /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -119,8 +122,9 @@ public:
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
-                                  Renderer& renderer, const RenderTarget& target, Redraw redraw);
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const geometry::PropShape& prop,
+                                          const scene::PlanView& view, render::Renderer& renderer,
+                                          const render::RenderTarget& target, render::Redraw redraw);
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 
@@ -128,34 +132,36 @@ public:
 
 private:
     struct Level {
-        QualityLevel shows; ///< without samples
-        SeenLevel seen;
-        PlacedLevel placed;
+        scene::QualityLevel shows; ///< without samples
+        scene::SeenLevel seen;
+        scene::PlacedLevel placed;
     };
     /// The level with the samples that the governor chose.
-    [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
+    [[nodiscard]] scene::PlacedLevel placed(std::size_t slot) const;
     /// Error of the planned frame.
-    [[nodiscard]] std::optional<ErrorEstimate> estimate(const PropShape& prop, const PlanView& view) const;
-    [[nodiscard]] std::size_t slot_of(const QualityLevel& quality_level) const;
+    [[nodiscard]] std::optional<scene::ErrorEstimate> estimate(const geometry::PropShape& prop,
+                                                               const scene::PlanView& view) const;
+    [[nodiscard]] std::size_t slot_of(const scene::QualityLevel& quality_level) const;
     /// The planned frame's work, at this quality level.
-    [[nodiscard]] FrameWork work(const QualityLevel& quality_level) const;
-    [[nodiscard]] double median_ms(const QualityLevel& quality_level, const PropShape& prop,
-                                   const PlanView& view, Renderer& renderer, const RenderTarget& target);
+    [[nodiscard]] scene::FrameWork work(const scene::QualityLevel& quality_level) const;
+    [[nodiscard]] double median_ms(const scene::QualityLevel& quality_level, const geometry::PropShape& prop,
+                                   const scene::PlanView& view, render::Renderer& renderer,
+                                   const render::RenderTarget& target);
 
     std::string technique_;
     std::vector<LevelUse> uses_;
-    std::vector<LeftOut> left_out_;
-    RenderNeeds needs_;
+    std::vector<scene::LeftOut> left_out_;
+    scene::RenderNeeds needs_;
     std::vector<Level> levels_;
-    std::vector<QualityLevel> quality_levels_;
-    std::vector<QualityLevelTime> times_;
+    std::vector<scene::QualityLevel> quality_levels_;
+    std::vector<scene::QualityLevelTime> times_;
     double deadline_ms_;
-    Governor governor_;
-    FramePlan plan_;
+    scene::Governor governor_;
+    scene::FramePlan plan_;
     std::size_t shown_ = 0; ///< index into `levels_`
     std::optional<std::size_t> coming_;
-    std::optional<ErrorEstimate> error_;
+    std::optional<scene::ErrorEstimate> error_;
     MonotonicTime fade_start_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::residency

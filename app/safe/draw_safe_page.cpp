@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 
 namespace {
 
@@ -23,8 +23,10 @@ struct Area {
 Area area_of(const PlacedLetter& letter, const SafeWords& words) {
     const BakedBox& box = words.boxes[letter.box];
     const float scale = letter.em_px / static_cast<float>(words.texels_per_em);
-    return {letter.x + static_cast<float>(box.left) * scale, letter.y - static_cast<float>(box.top) * scale,
-            scale, &box};
+    return {.left = letter.x + static_cast<float>(box.left) * scale,
+            .top = letter.y - static_cast<float>(box.top) * scale,
+            .px_of_texel = scale,
+            .box = &box};
 }
 
 /// The distance at (u, v) in the box, in texels from its top left; bilinear interpolation.
@@ -64,10 +66,10 @@ float cover(const SafeWords& words, const Area& area, int x, int y) {
 
 /// The sRGB code of each share of a grey's light, for shares of 1/255.
 std::array<std::uint8_t, 256> shares_of(std::uint8_t grey) {
-    const double light = linear_from_srgb(grey / 255.0);
+    const double light = image::linear_from_srgb(grey / 255.0);
     std::array<std::uint8_t, 256> codes{};
     for (std::size_t k = 0; k < codes.size(); ++k) {
-        codes[k] = srgb8_from_linear(light * static_cast<double>(k) / 255.0);
+        codes[k] = image::srgb8_from_linear(light * static_cast<double>(k) / 255.0);
     }
     return codes;
 }
@@ -109,4 +111,4 @@ void draw_safe_rows(const SafePage& page, int first_row, std::span<std::uint8_t>
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 
 /// Draws the rows from `first_row` that fit `greys`, whose size is a multiple of the page's width.
 void draw_safe_rows(const SafePage& page, int first_row, std::span<std::uint8_t> greys);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

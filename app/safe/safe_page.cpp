@@ -9,7 +9,7 @@
 #include <iterator>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 
 namespace {
 
@@ -129,8 +129,11 @@ public:
 
 private:
     void place(std::uint16_t box, double x, double y, double em_px, std::uint8_t grey) {
-        page_.letters.push_back(
-            {box, static_cast<float>(x), static_cast<float>(y), static_cast<float>(em_px), grey});
+        page_.letters.push_back({.box = box,
+                                 .x = static_cast<float>(x),
+                                 .y = static_cast<float>(y),
+                                 .em_px = static_cast<float>(em_px),
+                                 .grey = grey});
     }
     SafePage& page_;
     double y_px_;
@@ -257,4 +260,4 @@ std::string in_hours(std::chrono::minutes time) {
                         : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 
 /// The variable texts of a safe picture.
 struct SafeText {
@@ -51,4 +51,4 @@ inline constexpr std::size_t longest_reason = 300;
 /// "3 h 12 min".
 [[nodiscard]] std::string in_hours(std::chrono::minutes time);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 
 inline constexpr std::int32_t baked_em_units = 1024;
 inline constexpr int baked_outline_code = 128; ///< distance code of the outline; larger inside
@@ -65,4 +65,4 @@ struct SafeWords {
 
 [[nodiscard]] const SafeWords& safe_words();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -30,29 +30,29 @@ std::string camera_uses(const DevicePlan& plan) {
 
 } // namespace
 
-DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
-    const std::vector<ScriptedPress>& script = settings.panel.script;
-    const bool real = settings.panel.kind != PanelKind::Scripted;
-    const auto asks = [&](Command command) {
-        const int button = button_of(command);
+DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool status_file) {
+    const std::vector<settings::ScriptedPress>& script = settings.panel.script;
+    const bool real = settings.panel.kind != settings::PanelKind::Scripted;
+    const auto asks = [&](settings::Command command) {
+        const int button = settings::button_of(command);
         if (real) {
             return static_cast<std::size_t>(button) < settings.panel.buttons();
         }
         return std::any_of(script.begin(), script.end(),
-                           [button](const ScriptedPress& press) { return press.button == button; });
+                           [button](const settings::ScriptedPress& press) { return press.button == button; });
     };
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
-    plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
+    plan.head = settings.eye.tracked && plan.tracker != settings::TrackerKind::None;
     plan.tags = settings.camera.tags;
     plan.visitor = settings.camera.visitor;
     plan.drift = settings.camera.drift && settings.calibration.used;
     plan.panel = pressed || real || !script.empty();
-    plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
-                       chooses_on_table(settings);
-    plan.language = !pressed && asks(Command::NextLanguage);
+    plan.other_packs = pressed || asks(settings::Command::PreviousArtifact) ||
+                       asks(settings::Command::NextArtifact) || settings::chooses_on_table(settings);
+    plan.language = !pressed && asks(settings::Command::NextLanguage);
     plan.threads = {"the exhibit"};
-    if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
+    if (plan.tracker == settings::TrackerKind::Usb || plan.tracker == settings::TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
     }
     if (const std::string uses = camera_uses(plan); !uses.empty()) {
@@ -61,13 +61,13 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");
     }
-    if (tells_of_sticks(settings)) {
+    if (settings::tells_of_sticks(settings)) {
         plan.threads.emplace_back("the reader of what the importer says");
     }
     if (status_file) {
         plan.threads.emplace_back("the status file's writer");
     }
-    if (plan.tracker == TrackerKind::None) {
+    if (plan.tracker == settings::TrackerKind::None) {
         plan.left_out.emplace_back(plan.tags
                                        ? "No tracker is opened: the prop is followed by its tags alone."
                                        : "No tracker is opened: the prop stands at the table's centre.");
@@ -88,4 +88,4 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     return plan;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// The exhibit's devices and threads.
 struct DevicePlan {
-    TrackerKind tracker = TrackerKind::None;
+    settings::TrackerKind tracker = settings::TrackerKind::None;
     bool head = false;        ///< the tracker's head samples are used
     bool tags = false;        ///< a camera follows the prop's tags
     bool visitor = false;     ///< a camera sees who stands at the table
@@ -25,6 +25,6 @@ struct DevicePlan {
     std::vector<std::string> left_out; ///< sentences
 };
 /// `pressed`: another source than the panel presses "next artifact". `status_file`: a status file is written.
-[[nodiscard]] DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file);
+[[nodiscard]] DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool status_file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// Numbers of one renderer, which never reuses a number.
 enum class MeshId : std::uint32_t { None };
@@ -22,4 +22,4 @@ struct Drawable {
     Material material;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

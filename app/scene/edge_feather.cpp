@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -23,7 +23,7 @@ struct PictureEdge {
     glm::dvec2 inward{0.0}; ///< unit
 };
 
-std::optional<glm::dvec2> pixel_of(const glm::vec4& clip, const Pinhole& pinhole) {
+std::optional<glm::dvec2> pixel_of(const glm::vec4& clip, const geometry::Pinhole& pinhole) {
     if (!(clip.w > 0.0F)) {
         return std::nullopt;
     }
@@ -31,12 +31,12 @@ std::optional<glm::dvec2> pixel_of(const glm::vec4& clip, const Pinhole& pinhole
            glm::dvec2(pinhole.width, pinhole.height);
 }
 
-glm::vec4 clip_of(const glm::dvec2& pixel, const Pinhole& pinhole) {
+glm::vec4 clip_of(const glm::dvec2& pixel, const geometry::Pinhole& pinhole) {
     return {glm::vec2(2.0 * pixel / glm::dvec2(pinhole.width, pinhole.height) - 1.0), 0.0F, 1.0F};
 }
 
 /// The edge from corner `k` to the next; nullopt if it is not in front of the projector or has no length.
-std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const Pinhole& pinhole) {
+std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const geometry::Pinhole& pinhole) {
     const std::optional<glm::dvec2> a = pixel_of(face.corners_clip.at(k), pinhole);
     const std::optional<glm::dvec2> b = pixel_of(face.corners_clip.at((k + 1) % 4), pinhole);
     const std::optional<glm::dvec2> inside = pixel_of(face.corners_clip.at((k + 2) % 4), pinhole);
@@ -56,7 +56,8 @@ bool touches(const PictureEdge& edge, const PixelRectangle& bounds, double width
     return glm::dot(edge.inward, nearest - edge.ends_px[0]) < width_px;
 }
 
-const FacePlan* plan_of(const PropShape& prop, const PropFace& face, const FramePlan& plan) {
+const FacePlan* plan_of(const geometry::PropShape& prop, const geometry::PropFace& face,
+                        const FramePlan& plan) {
     for (const FacePlan& planned : plan.faces) {
         if (&prop.faces[static_cast<std::size_t>(planned.face)] == &face) {
             return &planned;
@@ -67,7 +68,7 @@ const FacePlan* plan_of(const PropShape& prop, const PropFace& face, const Frame
 
 /// The neighbour's gain over the face's own at the edge's ends; 1 where the neighbour is not dimmer.
 glm::vec2 share_between(const FaceLight& own, const FaceLight& neighbour, const PictureEdge& edge,
-                        const Pinhole& pinhole) {
+                        const geometry::Pinhole& pinhole) {
     const auto share_at = [&](const glm::dvec2& pixel) {
         const double dimmer = gain(neighbour, pinhole, pixel);
         const double brighter = gain(own, pinhole, pixel);
@@ -77,7 +78,7 @@ glm::vec2 share_between(const FaceLight& own, const FaceLight& neighbour, const 
 }
 
 EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, const glm::vec2& share,
-                  const Pinhole& pinhole) {
+                  const geometry::Pinhole& pinhole) {
     const auto& [a, b] = edge.ends_px;
     const glm::dvec2 aside = width_px * edge.inward;
     return {
@@ -88,12 +89,12 @@ EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, co
 
 } // namespace
 
-void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
+void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
     plan.feathers.clear();
-    const Pinhole ideal = plan.projector.ideal(); // the lens bends the draws later
+    const geometry::Pinhole ideal = plan.projector.ideal(); // the lens bends the draws later
     for (std::size_t face = 0; face < plan.faces.size(); ++face) {
         const FacePlan& own = plan.faces[face];
-        const PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
+        const geometry::PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::optional<PictureEdge> edge = edge_of(own, k, ideal);
             // Bounds are in bent pixels, edges in ideal ones. Behind a lens only the scissor clips the
@@ -101,7 +102,7 @@ void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan
             if (!edge || (plan.projector.lens.is_plain() && !touches(*edge, own.bounds, outer_px))) {
                 continue;
             }
-            const PropFace* const neighbour = neighbour_of(prop, shape, k);
+            const geometry::PropFace* const neighbour = geometry::neighbour_of(prop, shape, k);
             if (neighbour == nullptr || !(neighbour->plane.distance(projector) > 0.0)) {
                 plan.feathers.push_back(strip(face, *edge, outer_px, glm::vec2(outer_share), ideal));
             } else if (const FacePlan* const planned = plan_of(prop, *neighbour, plan)) {
@@ -114,4 +115,4 @@ void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

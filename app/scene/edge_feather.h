@@ -21,7 +21,7 @@
 #include <array>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct FramePlan;
 
@@ -35,6 +35,6 @@ struct EdgeFeather {
 };
 
 /// Fills `plan.feathers` from its faces, whose light must be set. `projector`: prop frame.
-void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan& plan);
+void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector, FramePlan& plan);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

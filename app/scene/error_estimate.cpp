@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr double rounding_px = 0.00015;
 constexpr double p95_of_rounding = 1.95;
 
 /// The face of the plan through which the eye sees a point in the prop; null if that face is dark.
-const FacePlan* seen_through(const PropShape& prop, const FramePlan& plan, const glm::dvec3& eye,
+const FacePlan* seen_through(const geometry::PropShape& prop, const FramePlan& plan, const glm::dvec3& eye,
                              const glm::dvec3& point) {
     double farthest = -std::numeric_limits<double>::infinity();
     std::size_t through = prop.faces.size();
@@ -45,13 +45,13 @@ struct Seen {
     double pixel_mm = 0.0;  ///< size of a pixel where it lands on the artifact
 };
 
-Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, double metres_per_box,
-           const glm::dvec3& eye, const FramePlan& plan) {
+Seen shown(const pack::SeenEye& seen, const pack::SeenError& error, const geometry::PropShape& prop,
+           double metres_per_box, const glm::dvec3& eye, const FramePlan& plan) {
     double pixels = 0.0;
     double even_box = 0.0;
     Seen sum;
-    for (std::size_t k = 0; k < seen_patches; ++k) {
-        const SeenPatch& patch = seen.patches[k];
+    for (std::size_t k = 0; k < pack::seen_patches; ++k) {
+        const pack::SeenPatch& patch = seen.patches[k];
         const auto error_box = static_cast<double>(error.patches_box[k]);
         even_box += patch.share * error_box;
         const FacePlan* const face =
@@ -74,19 +74,23 @@ Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, d
 
 } // namespace
 
-SeenLevel derived(const LevelError& error, const glm::dvec3& box_size) {
+SeenLevel derived(const pack::LevelError& error, const glm::dvec3& box_size) {
     constexpr float along_the_ray = 2.0F;
-    SeenEye eye;
+    pack::SeenEye eye;
     eye.steepness = 1.5F; // about that of a ball
     eye.patches[0] = {{0.0, 0.0, 0.5 * box_size.z}, 1.0};
-    SeenError seen{along_the_ray * error.mean_box, along_the_ray * error.p95_box, error.mean_box, 0.0F, {}};
+    pack::SeenError seen{.mean_box = along_the_ray * error.mean_box,
+                         .p95_box = along_the_ray * error.p95_box,
+                         .outline_shift_box = error.mean_box,
+                         .silhouette_share = 0.0F,
+                         .patches_box = {}};
     seen.patches_box.fill(seen.mean_box);
     return {{eye}, {seen}};
 }
 
-Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
-    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
-    TRY(const SeenErrors seen, seen_errors_of(pack.description, pack.levels.size()));
+Result<SeenByEyes> seen_by_eyes(const pack::PackOutline& pack) {
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack.description));
+    TRY(const pack::SeenErrors seen, pack::seen_errors_of(pack.description, pack.levels.size()));
     if (!seen.reliefs.empty() && seen.reliefs.size() != reliefs.size()) {
         return bad_input("scene.seen_reliefs",
                          "sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
@@ -104,21 +108,21 @@ Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
     return surfaces;
 }
 
-SeenError worst_of(const SeenLevel& seen) {
-    SeenError worst;
-    for (const SeenError& each : seen.errors) { // keeps NaN if there is only one eye
+pack::SeenError worst_of(const SeenLevel& seen) {
+    pack::SeenError worst;
+    for (const pack::SeenError& each : seen.errors) { // keeps NaN if there is only one eye
         worst.mean_box = std::max(each.mean_box, worst.mean_box);
         worst.p95_box = std::max(each.p95_box, worst.p95_box);
         worst.outline_shift_box = std::max(each.outline_shift_box, worst.outline_shift_box);
         worst.silhouette_share = std::max(each.silhouette_share, worst.silhouette_share);
-        for (std::size_t k = 0; k < seen_patches; ++k) {
+        for (std::size_t k = 0; k < pack::seen_patches; ++k) {
             worst.patches_box[k] = std::max(each.patches_box[k], worst.patches_box[k]);
         }
     }
     return worst;
 }
 
-std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const PropShape& prop,
+std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const geometry::PropShape& prop,
                                             const PlacedLevel& level, const PlanView& view,
                                             const FramePlan& plan) {
     if (plan.faces.empty()) {
@@ -143,4 +147,4 @@ std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const PropSha
     return ErrorEstimate{sum.mean_mm / weights, sum.p95_mm / weights};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

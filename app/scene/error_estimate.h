@@ -48,7 +48,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct ErrorEstimate {
     double mean_mm = 0.0;
@@ -57,24 +57,25 @@ struct ErrorEstimate {
 
 /// One level as seen by eyes all around it.
 struct SeenLevel {
-    std::vector<SeenEye> eyes; ///< as SeenErrors; one at least
-    std::vector<SeenError> errors;
+    std::vector<pack::SeenEye> eyes; ///< as SeenErrors; one at least
+    std::vector<pack::SeenError> errors;
 };
 /// Estimate for a pack without SeenErrors, with one nominal eye.
-[[nodiscard]] SeenLevel derived(const LevelError& error, const glm::dvec3& box_size);
+[[nodiscard]] SeenLevel derived(const pack::LevelError& error, const glm::dvec3& box_size);
 /// For a whole pack: one for each level, and one for each relief, in the order of `reliefs_of`.
 struct SeenByEyes {
     std::vector<SeenLevel> levels, reliefs;
 };
 /// Uses `derived` where the pack has no SeenErrors. Errors: those of seen_errors_of.
-[[nodiscard]] Result<SeenByEyes> seen_by_eyes(const PackOutline& pack);
+[[nodiscard]] Result<SeenByEyes> seen_by_eyes(const pack::PackOutline& pack);
 
 /// The maximum of each figure over all eyes.
-[[nodiscard]] SeenError worst_of(const SeenLevel& seen);
+[[nodiscard]] pack::SeenError worst_of(const SeenLevel& seen);
 
 /// `plan`: must contain only `level`, for `view`; only the first eye counts.
-[[nodiscard]] std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const PropShape& prop,
+[[nodiscard]] std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen,
+                                                          const geometry::PropShape& prop,
                                                           const PlacedLevel& level, const PlanView& view,
                                                           const FramePlan& plan);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -10,7 +10,7 @@
 #include "app/image/image.h"
 #include "app/pack/pack.h"
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// Limit for artifacts so dark that noise hides their brightest places.
 inline constexpr double max_exposure = 8.0;
@@ -18,7 +18,7 @@ inline constexpr double max_exposure = 8.0;
 /// The factor that brings the level's brightest places to `highlight_code` where the compensation's gain is
 /// 1: 98 % of its surface, by area, have no channel above that code. 1 if `highlight_code` is 0. `box_size`:
 /// as Pack::box_size.
-[[nodiscard]] double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Image8& texture,
-                                 int highlight_code);
+[[nodiscard]] double exposure_of(const pack::PackLevel& level, const glm::dvec3& box_size,
+                                 const image::Image8& texture, int highlight_code);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -16,7 +16,7 @@ glm::dvec4 row(const glm::dmat4& m, int r) {
 /// Pixels around points of the box seen through a face.
 template <std::size_t count>
 PixelRectangle pixels_of(const std::array<glm::vec3, count>& points, const glm::mat4& clip_from_box,
-                         const Pinhole& pinhole) {
+                         const geometry::Pinhole& pinhole) {
     std::array<glm::dvec4, count> clip;
     for (std::size_t k = 0; k < count; ++k) {
         clip[k] = glm::dvec4(clip_from_box * glm::vec4(points[k], 1.0F));
@@ -35,7 +35,7 @@ std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
 }
 
 /// Clip coordinates around everything that the lens maps into the picture; -1 and 1 without distortion.
-std::pair<glm::dvec2, glm::dvec2> ideal_edges(const Pinhole& pinhole) {
+std::pair<glm::dvec2, glm::dvec2> ideal_edges(const geometry::Pinhole& pinhole) {
     glm::dvec2 low(-1.0);
     glm::dvec2 high(1.0);
     if (!pinhole.lens.is_plain()) {
@@ -50,13 +50,13 @@ std::pair<glm::dvec2, glm::dvec2> ideal_edges(const Pinhole& pinhole) {
 
 } // namespace
 
-PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
+PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const geometry::Pinhole& pinhole) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     const glm::dvec2 size(pinhole.width, pinhole.height);
     for (const glm::dvec4& p : clip) {
         if (!(p.w > 0.0)) {
-            return {0, 0, pinhole.width, pinhole.height};
+            return {.x = 0, .y = 0, .width = pinhole.width, .height = pinhole.height};
         }
         const glm::dvec2 pixel = (glm::dvec2(p) / p.w * 0.5 + 0.5) * size;
         low = glm::min(low, pixel);
@@ -65,12 +65,15 @@ PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pi
     pinhole.bend_around(low, high);
     low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
     high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
-    return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
-            static_cast<int>(high.y - low.y)};
+    return {.x = static_cast<int>(low.x),
+            .y = static_cast<int>(low.y),
+            .width = static_cast<int>(high.x - low.x),
+            .height = static_cast<int>(high.y - low.y)};
 }
 
-PixelRectangle face_bounds(const PropFace& face, const Box& box, const glm::dmat4& clip_from_prop,
-                           const glm::dmat4& clip_through_face, const Pinhole& pinhole) {
+PixelRectangle face_bounds(const geometry::PropFace& face, const geometry::Box& box,
+                           const glm::dmat4& clip_from_prop, const glm::dmat4& clip_through_face,
+                           const geometry::Pinhole& pinhole) {
     std::array<glm::dvec4, 4> outline;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         outline[k] = clip_from_prop * glm::dvec4(face.corners[k], 1.0);
@@ -94,8 +97,8 @@ std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corner
     return result;
 }
 
-FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
-                     const glm::dmat4& clip_from_box, const Pinhole& pinhole) {
+FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
+                     const glm::dmat4& clip_from_box, const geometry::Pinhole& pinhole) {
     FaceVolume volume;
     const glm::dvec3 eye = eye_in_prop / metres_per_box;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
@@ -116,7 +119,7 @@ FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double
 
 PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
                            std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
-                           const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
+                           const PixelRectangle& face, const geometry::Pinhole& pinhole, LitTiles& tiles) {
     constexpr int pixels_per_triangle = 100; // below this a test per triangle costs more than it saves
     const PixelRectangle box =
         intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
@@ -137,7 +140,8 @@ PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
     return bounds;
 }
 
-double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point, const Pinhole& pinhole) {
+double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
+                       const geometry::Pinhole& pinhole) {
     const glm::dvec4 clip = clip_from_box * glm::dvec4(point, 1.0);
     if (!(clip.w > 0.0)) {
         return 0.0;
@@ -150,4 +154,4 @@ double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
     return std::sqrt(glm::length(glm::cross(across, down)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct FaceView {
     glm::dvec3 eye_in_prop{0.0};
@@ -29,13 +29,15 @@ struct FaceView {
 
 /// Pixels around points in clip coordinates of the ideal pinhole, after distortion by its lens, with a margin
 /// of one pixel on each side; the whole picture if a point is not in front.
-[[nodiscard]] PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole);
+[[nodiscard]] PixelRectangle pixels_around(std::span<const glm::dvec4> clip,
+                                           const geometry::Pinhole& pinhole);
 
 /// The pixels where a box may show on a face: the intersection of the box seen through the face and the face
 /// itself.
-[[nodiscard]] PixelRectangle face_bounds(const PropFace& face, const Box& box,
+[[nodiscard]] PixelRectangle face_bounds(const geometry::PropFace& face, const geometry::Box& box,
                                          const glm::dmat4& clip_from_prop,
-                                         const glm::dmat4& clip_through_face, const Pinhole& pinhole);
+                                         const glm::dmat4& clip_through_face,
+                                         const geometry::Pinhole& pinhole);
 
 /// Depth 0 keeps points in front of the projector (w > 0) and clips the others.
 [[nodiscard]] std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners,
@@ -43,19 +45,20 @@ struct FaceView {
 
 /// The pyramid from the eye through the face, and the picture's edges seen through the face's collineation;
 /// edges bent by a lens are replaced by straight ones around them. Box frame.
-[[nodiscard]] FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
-                                   const glm::dmat4& clip_from_box, const Pinhole& pinhole);
+[[nodiscard]] FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop,
+                                   double metres_per_box, const glm::dmat4& clip_from_box,
+                                   const geometry::Pinhole& pinhole);
 
 /// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
 /// a large box holds few triangles. Returns the pixels around all marked tiles.
 [[nodiscard]] PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
                                          std::span<const std::uint32_t> visible,
                                          const glm::mat4& clip_from_box, const PixelRectangle& face,
-                                         const Pinhole& pinhole, LitTiles& tiles);
+                                         const geometry::Pinhole& pinhole, LitTiles& tiles);
 
 /// Geometric mean of the two singular values of pixel(point) at a point: the magnification of the picture on
 /// the face.
 [[nodiscard]] double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
-                                     const Pinhole& pinhole);
+                                     const geometry::Pinhole& pinhole);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

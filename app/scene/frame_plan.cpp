@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -18,13 +18,13 @@ constexpr std::size_t max_faces = 16;
 
 /// Values of one frame that faces and parts share.
 struct Shared {
-    const PropShape& prop;
+    const geometry::PropShape& prop;
     const PlanView& view;
     glm::dmat4 projector_from_prop{1.0};
     glm::dmat4 clip_from_prop{1.0};
     glm::dvec3 projector_in_prop{0.0};
-    RigidTransform prop_from_table = {};
-    Box box = {}; ///< around all parts, prop frame
+    geometry::RigidTransform prop_from_table = {};
+    geometry::Box box = {}; ///< around all parts, prop frame
 
     [[nodiscard]] glm::dvec3 eye(std::size_t face) const {
         const std::size_t which = view.eyes_m.size() == 1 ? 0 : std::min(face, view.eyes_m.size() - 1);
@@ -33,36 +33,39 @@ struct Shared {
 };
 
 /// The level's box in the prop frame.
-Box box_of(const PlacedLevel& level) {
+geometry::Box box_of(const PlacedLevel& level) {
     const glm::dvec3 extent = level.box_size * level.metres_per_box;
     return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
 }
 
-Shared shared_by_all(const PropShape& prop, std::span<const Part> parts, const PlanView& view) {
-    const RigidTransform projector_from_prop = view.table_from_projector.inverse() * view.table_from_prop;
+Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view) {
+    const geometry::RigidTransform projector_from_prop =
+        view.table_from_projector.inverse() * view.table_from_prop;
     Shared shared{prop, view};
     shared.projector_from_prop = projector_from_prop.matrix();
     shared.clip_from_prop = view.projector.clip_from_point() * shared.projector_from_prop;
     shared.projector_in_prop = projector_from_prop.inverse().translation;
     shared.prop_from_table = view.table_from_prop.inverse();
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Box box = box_of(parts[k].level);
+        const geometry::Box box = box_of(parts[k].level);
         shared.box =
-            k == 0 ? box : Box{glm::min(shared.box.low, box.low), glm::max(shared.box.high, box.high)};
+            k == 0 ? box
+                   : geometry::Box{glm::min(shared.box.low, box.low), glm::max(shared.box.high, box.high)};
     }
     return shared;
 }
 
 /// nullopt if no eye looks through the face, or no light meets it.
 std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
-    const PropFace& face = shared.prop.faces[index];
+    const geometry::PropFace& face = shared.prop.faces[index];
     const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
     if (!(face.plane.distance(shared.projector_in_prop) >
-          min_sine * glm::distance(shared.projector_in_prop, middle))) {
+          geometry::min_sine * glm::distance(shared.projector_in_prop, middle))) {
         return std::nullopt;
     }
     const glm::dvec3 eye = shared.eye(index);
-    const std::optional<glm::dmat4> clip = collineation(face.plane, eye, shared.clip_from_prop, shared.box);
+    const std::optional<glm::dmat4> clip =
+        geometry::collineation(face.plane, eye, shared.clip_from_prop, shared.box);
     if (!clip) {
         return std::nullopt;
     }
@@ -92,7 +95,7 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
 Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& clip_from_box,
                 const Shared& shared) {
     const PlacedLevel& level = part.level;
-    const Box box = box_of(level);
+    const geometry::Box box = box_of(level);
     glm::dmat4 clip_from_unit = through.clip_from_prop;
     for (int axis = 0; axis < 3; ++axis) {
         clip_from_unit[axis] *= (box.high - box.low)[axis];
@@ -112,7 +115,7 @@ Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& cli
 }
 
 /// The draw of a part on a face; nullopt if the face shows nothing of it.
-std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
+std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, const FaceView& through,
                               const Shared& shared, FramePlan& plan) {
     const PlacedLevel& level = part.level;
     const double scale = level.metres_per_box;
@@ -152,7 +155,7 @@ bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan&
     relief_draw.metres_per_box = level.metres_per_box;
     relief_draw.samples = level.samples;
     relief_draw.even_light = shared.view.light.has_value();
-    RasterScene scene;
+    relief::RasterScene scene;
     for (int axis = 0; axis < 3; ++axis) {
         scene.prop_from_box[axis][axis] = level.metres_per_box;
     }
@@ -161,7 +164,7 @@ bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan&
     scene.prop_from_projector =
         (shared.view.table_from_projector.inverse() * shared.view.table_from_prop).inverse();
     scene.eye_m = shared.eye(0);
-    set_up(relief_draw.view, shared.prop, scene);
+    relief::set_up(relief_draw.view, shared.prop, scene);
     return true;
 }
 
@@ -187,11 +190,12 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
             }
             if (!planned[face]) {
                 planned[face] = plan.faces.size();
-                plan.faces.push_back({static_cast<int>(face),
-                                      corners_in_clip(shared.prop.faces[face].corners, shared.clip_from_prop),
-                                      {},
-                                      {},
-                                      draw->pixels_per_box / part.level.metres_per_box});
+                plan.faces.push_back(
+                    {.face = static_cast<int>(face),
+                     .corners_clip = corners_in_clip(shared.prop.faces[face].corners, shared.clip_from_prop),
+                     .light = {},
+                     .bounds = {},
+                     .pixels_per_m = draw->pixels_per_box / part.level.metres_per_box});
             }
             FacePlan& on = plan.faces[*planned[face]];
             on.bounds = united(on.bounds, draw->bounds);
@@ -259,7 +263,7 @@ void plan_table(const Shared& shared, FramePlan& plan) {
     if (shared.view.caption) {
         add(*shared.view.caption);
     }
-    for (const PropFace& face : shared.prop.faces) {
+    for (const geometry::PropFace& face : shared.prop.faces) {
         if (face.plane.distance(shared.projector_in_prop) > 0.0) {
             const PixelRectangle own = intersected(bounds, bounds_of(face.corners, shared.clip_from_prop));
             if (!own.empty()) {
@@ -297,16 +301,24 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
 
 } // namespace
 
-PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief, double metres_per_box,
-                   const Drawable& drawable) {
-    PlacedLevel level{nullptr, pack.box_size, metres_per_box, drawable, pack.samples};
+PlacedLevel placed(const pack::Pack& pack, std::shared_ptr<const relief::BlockRelief> relief,
+                   double metres_per_box, const Drawable& drawable) {
+    PlacedLevel level{.triangles = nullptr,
+                      .box_size = pack.box_size,
+                      .metres_per_box = metres_per_box,
+                      .drawable = drawable,
+                      .samples = pack.samples};
     level.relief = std::move(relief);
     return level;
 }
 
-PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box, const Drawable& drawable) {
-    return {std::make_shared<LevelTriangles>(triangles_of(pack.levels[level], pack.box_size)), pack.box_size,
-            metres_per_box, drawable, pack.samples};
+PlacedLevel placed(const pack::Pack& pack, std::uint32_t level, double metres_per_box,
+                   const Drawable& drawable) {
+    return {.triangles = std::make_shared<LevelTriangles>(triangles_of(pack.levels[level], pack.box_size)),
+            .box_size = pack.box_size,
+            .metres_per_box = metres_per_box,
+            .drawable = drawable,
+            .samples = pack.samples};
 }
 
 std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share) {
@@ -314,11 +326,11 @@ std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double 
     return {Part{from, Dither{arrived, true}}, Part{to, Dither{arrived, false}}};
 }
 
-FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact) {
+FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact) {
     return make_plan(prop, artifact.triangles ? artifact.triangles->indices.size() : 0, 1);
 }
 
-FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts) {
+FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts) {
     FramePlan plan;
     const std::size_t faces = prop.faces.size();
     plan.faces.reserve(faces);
@@ -334,7 +346,8 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     return plan;
 }
 
-void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan) {
+void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
+                FramePlan& plan) {
     const Shared shared = shared_by_all(prop, parts, view);
     plan.projector = view.projector;
     plan.faces.clear();
@@ -362,7 +375,8 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     plan.hash = hash_of(plan);
 }
 
-void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan) {
+void plan_frame(const geometry::PropShape& prop, const PlacedLevel& artifact, const PlanView& view,
+                FramePlan& plan) {
     const Part whole{artifact, std::nullopt};
     plan_frame(prop, std::span(&whole, 1), view, plan);
 }
@@ -383,4 +397,4 @@ PixelRectangle bounds_in_prop(const FramePlan& plan) {
     return bounds;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

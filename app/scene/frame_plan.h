@@ -33,7 +33,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// An artifact at one quality level, or a part of one, placed in the configured prop.
 struct PlacedLevel {
@@ -42,18 +42,19 @@ struct PlacedLevel {
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
     Drawable drawable;
     int samples = 0; ///< Pack::samples, or the governor's choice; 0 = as many as the renderer takes
-    std::uint32_t faces = ~std::uint32_t{0};     ///< of the prop, bits: the faces that it may show on
-    std::shared_ptr<const BlockRelief> relief{}; ///< drawn instead of the triangles; `drawable` names it
-    bool on_gpu = false;                         ///< the GPU draws the relief; otherwise it is rasterized on
-                                                 ///< the processor
+    std::uint32_t faces = ~std::uint32_t{0}; ///< of the prop, bits: the faces that it may show on
+    std::shared_ptr<const relief::BlockRelief>
+        relief{};        ///< drawn instead of the triangles; `drawable` names it
+    bool on_gpu = false; ///< the GPU draws the relief; otherwise it is rasterized on
+                         ///< the processor
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
 };
-[[nodiscard]] PlacedLevel placed(const Pack& pack, std::uint32_t level, double metres_per_box,
+[[nodiscard]] PlacedLevel placed(const pack::Pack& pack, std::uint32_t level, double metres_per_box,
                                  const Drawable& drawable = {});
 
 /// A relief at one resolution, in the renderer's store under `drawable`.
-[[nodiscard]] PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief,
+[[nodiscard]] PlacedLevel placed(const pack::Pack& pack, std::shared_ptr<const relief::BlockRelief> relief,
                                  double metres_per_box, const Drawable& drawable);
 
 /// The picture's pixels that a draw takes, with all their samples: an ordered pattern. A draw with a share
@@ -81,9 +82,9 @@ struct TablePicture {
 
 /// The poses of projector and prop, the eyes, and the light of one frame.
 struct PlanView {
-    Pinhole projector;
-    RigidTransform table_from_projector;
-    RigidTransform table_from_prop;
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector;
+    geometry::RigidTransform table_from_prop;
     /// Table frame. One eye for all faces, or one per face.
     std::span<const glm::dvec3> eyes_m;
     /// nullopt: colours stay as they are in the texture.
@@ -118,7 +119,7 @@ struct FacePlan {
 struct ReliefDraw {
     MeshId relief = MeshId::None; ///< in the renderer's store
     bool on_gpu = false;
-    RasterView view;
+    relief::RasterView view;
     double metres_per_box = 1.0;
     int samples = 1;         ///< a pixel
     bool even_light = false; ///< evens out the projector's light
@@ -146,7 +147,7 @@ struct Draw {
 };
 
 struct FramePlan {
-    Pinhole projector;
+    geometry::Pinhole projector;
     /// Samples a pixel of the GPU's draws in the prop, 1 without any; 0 = as many as the renderer takes.
     /// Where a face is seen or lit so slantingly that few pixels show much of the artifact, each pixel takes
     /// more samples than the level asked for, so that each place of the artifact keeps its samples.
@@ -166,18 +167,20 @@ struct FramePlan {
 };
 
 /// A plan with room for every face of `parts` parts that have `indices` indices together.
-[[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
-[[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
+[[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
+[[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 
 /// The first part that the GPU draws sets the samples a pixel; a relief rasterized on the processor has its
 /// own. With one eye per face a relief is drawn for the first eye.
-void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
+void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
+                FramePlan& plan);
 /// As above, for one part; without triangles the prop stays dark.
-void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);
+void plan_frame(const geometry::PropShape& prop, const PlacedLevel& artifact, const PlanView& view,
+                FramePlan& plan);
 
 /// Every pixel that the plan can light.
 [[nodiscard]] PixelRectangle lit_bounds(const FramePlan& plan);
 /// Every pixel that the draws in the prop can light.
 [[nodiscard]] PixelRectangle bounds_in_prop(const FramePlan& plan);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

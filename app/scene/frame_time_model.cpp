@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -138,7 +138,7 @@ bool FrameTimeModel::observe(std::size_t quality_level, const FrameWork& work, d
     last_time_ = now;
     const double triangles = relative(work.triangles, r.start.work.triangles);
     const double pixels = relative(work.pixels, r.start.work.pixels);
-    const double weight = follow_share(dt, time_constant_s);
+    const double weight = geometry::follow_share(dt, time_constant_s);
     triangles_ += weight * (triangles - triangles_);
     pixels_ += weight * (pixels - pixels_);
     if (!std::isfinite(r.start.ms)) { // never measured before: this is its start time
@@ -150,7 +150,7 @@ bool FrameTimeModel::observe(std::size_t quality_level, const FrameWork& work, d
     if (learned_s_ < learning_s) {
         r.log_own = bounded(r.log_own + weight * surprise);
     } else {
-        const double forgotten = follow_share(dt, forgetting_s) * r.log_own;
+        const double forgotten = geometry::follow_share(dt, forgetting_s) * r.log_own;
         r.log_own -= forgotten;
         log_load_ = bounded(log_load_ + forgotten + weight * surprise);
     }
@@ -167,4 +167,4 @@ void FrameTimeModel::set_load(double load) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -29,7 +29,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// The work of one frame for the artifact.
 struct FrameWork {
@@ -116,4 +116,4 @@ private:
     double learned_s_ = 0.0; ///< time of frames since the last change of level
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

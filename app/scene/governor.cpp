@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -13,10 +13,10 @@ constexpr double worth_saving = 0.85;
 
 } // namespace
 
-double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
-                       const RigidTransform& projector_from_prop) {
+double pixel_on_prop_m(const geometry::PropShape& prop, const geometry::Pinhole& projector,
+                       const geometry::RigidTransform& projector_from_prop) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         for (const glm::dvec3& corner : face.corners) {
             nearest = std::fmin(nearest, projector_from_prop.point(corner).z);
         }
@@ -24,7 +24,7 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
     return std::fmax(nearest, 0.0) / std::fmax(projector.fx, projector.fy);
 }
 
-bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
+bool within_tolerance(const pack::LevelError& error, const pack::SeenError& worst, double mm_per_box,
                       double tolerance_mm) {
     constexpr double outline_share = 0.5;
     constexpr double max_over_mean = 4.0;                      // two pixels for half a pixel
@@ -36,8 +36,9 @@ bool within_tolerance(const LevelError& error, const SeenError& worst, double mm
            within(error.max_box, max_over_mean * tolerance_mm);
 }
 
-std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough,
-                                 int samples, const std::optional<ReliefOutline>& relief, bool also_on_gpu) {
+std::vector<QualityLevel> ladder(std::span<const pack::LevelOutline> levels, const std::vector<bool>& enough,
+                                 int samples, const std::optional<pack::ReliefOutline>& relief,
+                                 bool also_on_gpu) {
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (enough[k] && (!enough[best] || levels[k].triangles <= levels[best].triangles)) {
@@ -55,8 +56,9 @@ std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels, const std
         }
         last_triangles = triangles;
         for (int s = std::max(samples, 1); s >= 1; s /= 2) {
-            quality_levels.push_back(
-                {static_cast<std::uint32_t>(k), s, k == best && s == std::max(samples, 1) && enough[k]});
+            quality_levels.push_back({.level = static_cast<std::uint32_t>(k),
+                                      .samples = s,
+                                      .enough = k == best && s == std::max(samples, 1) && enough[k]});
         }
     }
     if (relief) {
@@ -66,9 +68,14 @@ std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels, const std
             if (on_gpu && !also_on_gpu) {
                 continue;
             }
-            of_relief.push_back({relief->texels, full, true, true, on_gpu});
+            of_relief.push_back(
+                {.level = relief->texels, .samples = full, .enough = true, .relief = true, .on_gpu = on_gpu});
             if (full > 1) {
-                of_relief.push_back({relief->texels, 1, false, true, on_gpu});
+                of_relief.push_back({.level = relief->texels,
+                                     .samples = 1,
+                                     .enough = false,
+                                     .relief = true,
+                                     .on_gpu = on_gpu});
             }
         }
         quality_levels.insert(std::find_if(quality_levels.begin(), quality_levels.end(),
@@ -188,4 +195,4 @@ void Governor::enter(MonotonicTime now, double load) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -50,12 +50,12 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// The smallest width of a pixel on the prop's faces, metres: where the prop is nearest to the projector. On
 /// a tilted face a pixel is longer in the other direction.
-[[nodiscard]] double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
-                                     const RigidTransform& projector_from_prop);
+[[nodiscard]] double pixel_on_prop_m(const geometry::PropShape& prop, const geometry::Pinhole& projector,
+                                     const geometry::RigidTransform& projector_from_prop);
 
 /// One quality level: one way to draw an artifact.
 struct QualityLevel {
@@ -71,8 +71,8 @@ struct QualityLevel {
 };
 
 /// `worst`: the level's error for the eyes that see the most of it (worst_of).
-[[nodiscard]] bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
-                                    double tolerance_mm);
+[[nodiscard]] bool within_tolerance(const pack::LevelError& error, const pack::SeenError& worst,
+                                    double mm_per_box, double tolerance_mm);
 
 /// The quality levels for a governor, best first; nothing else must be loaded. They are the mesh level that
 /// is good enough with the fewest triangles (the finest if none is), and coarser ones that each save at least
@@ -80,10 +80,9 @@ struct QualityLevel {
 /// mesh level, whether it is good enough. `relief`, which must be good enough, comes before the less exact
 /// mesh levels, with `samples` and with 1: rasterized on the processor and, if `also_on_gpu`, drawn by the
 /// GPU.
-[[nodiscard]] std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels,
-                                               const std::vector<bool>& enough, int samples,
-                                               const std::optional<ReliefOutline>& relief = std::nullopt,
-                                               bool also_on_gpu = false);
+[[nodiscard]] std::vector<QualityLevel>
+ladder(std::span<const pack::LevelOutline> levels, const std::vector<bool>& enough, int samples,
+       const std::optional<pack::ReliefOutline>& relief = std::nullopt, bool also_on_gpu = false);
 
 class Governor {
 public:
@@ -142,4 +141,4 @@ private:
     std::uint64_t ignored_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -4,13 +4,19 @@
 #include <bit>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
-LevelData level_data(const SceneLevel& level, const Image8& texture) {
-    LevelData data{level.mesh.vertices, {}, level.finest_mip, level.texels_per_box, level.cut_out, {}, false};
-    Image8 mip = level.finest_mip > 0 ? half_size(texture) : texture;
+LevelData level_data(const SceneLevel& level, const image::Image8& texture) {
+    LevelData data{.vertices = level.mesh.vertices,
+                   .mips = {},
+                   .finest_mip = level.finest_mip,
+                   .texels_per_box = level.texels_per_box,
+                   .cut_out = level.cut_out,
+                   .relief = {},
+                   .on_gpu = false};
+    image::Image8 mip = level.finest_mip > 0 ? image::half_size(texture) : texture;
     for (int k = 1; k < level.finest_mip; ++k) {
-        mip = half_size(mip);
+        mip = image::half_size(mip);
     }
     const auto longest = static_cast<unsigned>(std::max(mip.width, mip.height));
     const int levels =
@@ -18,9 +24,9 @@ LevelData level_data(const SceneLevel& level, const Image8& texture) {
     data.mips.reserve(static_cast<std::size_t>(std::max(levels, 1)));
     data.mips.push_back(std::move(mip));
     for (int k = 1; k < levels; ++k) {
-        data.mips.push_back(half_size(data.mips.back()));
+        data.mips.push_back(image::half_size(data.mips.back()));
     }
     return data;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -15,19 +15,19 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct LevelData {
-    std::vector<PackVertex> vertices;
-    std::vector<Image8> mips; ///< finest first; only the levels to upload
-    int finest_mip = 0;       ///< level of the whole texture that `mips` begins with
+    std::vector<pack::PackVertex> vertices;
+    std::vector<image::Image8> mips; ///< finest first; only the levels to upload
+    int finest_mip = 0;              ///< level of the whole texture that `mips` begins with
     double texels_per_box = 0.0;
     bool cut_out = false;
     /// Replaces all of the above: a relief, which stays in main memory.
-    std::shared_ptr<const BlockRelief> relief{};
+    std::shared_ptr<const relief::BlockRelief> relief{};
     bool on_gpu = false; ///< the GPU draws the relief, so it goes into the GPU's memory too
 };
 /// `texture`: the level's whole texture.
-[[nodiscard]] LevelData level_data(const SceneLevel& level, const Image8& texture);
+[[nodiscard]] LevelData level_data(const SceneLevel& level, const image::Image8& texture);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

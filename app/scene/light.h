@@ -24,7 +24,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct LightCompensation {
     /// The light that every place is dimmed to.
@@ -35,7 +35,7 @@ struct LightCompensation {
 
 /// The exhibit's compensation in this set-up. In the hand an artifact never dims as a whole, because a
 /// visitor need not correct a face that is turned away from the projector.
-[[nodiscard]] LightCompensation light_compensation(const Settings& settings);
+[[nodiscard]] LightCompensation light_compensation(const settings::Settings& settings);
 
 /// Sine of the light's elevation above a face's middle: from here on a face counts as fully lit; down to
 /// min_sine_of_light (lit_zone.h) it fades out. At 0.12, a pixel of 0.42 mm makes a stripe of 3.5 mm.
@@ -43,7 +43,7 @@ inline constexpr double full_sine_of_light = 0.3;
 
 /// A face of the prop, and the eye that its picture is for.
 struct SeenFace {
-    const PropFace* face = nullptr;
+    const geometry::PropFace* face = nullptr;
     glm::dvec3 eye{0.0};
 };
 /// The light that the faces are dimmed to. `faces` are all of the prop's faces: one that the eye does not see
@@ -62,8 +62,8 @@ struct FaceLight {
     float most = 1.0F; ///< less where the light grazes the face
 };
 /// `projector_from_prop` is rigid; the projector is above the face.
-[[nodiscard]] FaceLight face_light(const PropFace& face, const glm::dmat4& projector_from_prop,
+[[nodiscard]] FaceLight face_light(const geometry::PropFace& face, const glm::dmat4& projector_from_prop,
                                    double reference);
-[[nodiscard]] double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel);
+[[nodiscard]] double gain(const FaceLight& light, const geometry::Pinhole& pinhole, const glm::dvec2& pixel);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 void LitTiles::begin(int picture_width, int picture_height) {
     width_ = picture_width;
@@ -19,7 +19,7 @@ void LitTiles::begin(int picture_width, int picture_height) {
 }
 
 void LitTiles::light(const PixelRectangle& part) {
-    const PixelRectangle inside = intersected(part, {0, 0, width_, height_});
+    const PixelRectangle inside = intersected(part, {.x = 0, .y = 0, .width = width_, .height = height_});
     if (inside.empty()) {
         return;
     }
@@ -42,7 +42,8 @@ void LitTiles::finish() {
             while (column < max_tiles && row.test(static_cast<std::size_t>(column))) {
                 ++column;
             }
-            if (column > first && !add({first * tile_, y, (column - first) * tile_, tile_})) {
+            if (column > first &&
+                !add({.x = first * tile_, .y = y, .width = (column - first) * tile_, .height = tile_})) {
                 rectangles_[0] = bounds_;
                 count_ = 1;
                 return;
@@ -76,4 +77,4 @@ bool LitTiles::add(const PixelRectangle& run) {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

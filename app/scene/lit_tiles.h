@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 class LitTiles {
 public:
@@ -49,4 +49,4 @@ private:
     std::size_t count_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

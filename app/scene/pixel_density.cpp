@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 void PixelDensity::add(const PixelRectangle& bounds, double pixels_per_m) {
     const double area = static_cast<double>(bounds.width) * bounds.height;
@@ -10,7 +10,7 @@ void PixelDensity::add(const PixelRectangle& bounds, double pixels_per_m) {
     area_ += area;
 }
 
-double PixelDensity::share(double distance_m, const Pinhole& projector) const {
+double PixelDensity::share(double distance_m, const geometry::Pinhole& projector) const {
     return area_ > 0.0 ? pixels_ / area_ * distance_m / projector.fx : 1.0;
 }
 
@@ -24,4 +24,4 @@ int samples_at(double density, int samples) {
     return samples;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -8,7 +8,7 @@
 #include "app/geometry/pinhole.h"
 #include "firmware_host/base/pixel_rectangle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// Mean over the faces of the prop that show the artifact, weighted by area.
 class PixelDensity {
@@ -17,7 +17,7 @@ public:
     void add(const PixelRectangle& bounds, double pixels_per_m);
     /// Pixels along a metre, as a share of those on a surface that faces the projector at that distance; 1
     /// without faces.
-    [[nodiscard]] double share(double distance_m, const Pinhole& projector) const;
+    [[nodiscard]] double share(double distance_m, const geometry::Pinhole& projector) const;
 
 private:
     double pixels_ = 0.0; ///< weighted by area
@@ -29,4 +29,4 @@ private:
 /// density of 0 leaves `samples` unchanged.
 [[nodiscard]] int samples_at(double density, int samples);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::uint64_t hash_of_prop(const FramePlan& plan) {
     return hash.value();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// Equal for equal pictures of one renderer; stored in FramePlan::hash.
 [[nodiscard]] std::uint64_t hash_of(const FramePlan& plan);
@@ -17,4 +17,4 @@ namespace frustumscreen {
 /// Hash of one draw.
 [[nodiscard]] std::uint64_t hash_of(const Draw& draw);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -8,9 +8,9 @@
 #include <array>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
-PixelRectangle prop_bounds(const PropShape& prop, const Pinhole& projector,
+PixelRectangle prop_bounds(const geometry::PropShape& prop, const geometry::Pinhole& projector,
                            const glm::dmat4& clip_from_prop) {
     std::array<glm::dvec4, 16> clip{};
     const std::size_t count = std::min(prop.corners.size(), clip.size());
@@ -20,16 +20,16 @@ PixelRectangle prop_bounds(const PropShape& prop, const Pinhole& projector,
     return pixels_around(std::span(clip).first(count), projector);
 }
 
-std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole& projector,
-                                         const Visibility& visibility) {
+std::optional<PixelSize> largest_outline(const settings::Settings& settings,
+                                         const geometry::Pinhole& projector, const Visibility& visibility) {
     constexpr int places = 13; // along each side of the table, including its middle and its corners
     constexpr int yaws = 32;   // over a quarter of a turn
     constexpr int margin = 16;
-    const PropShape prop = make_prop(settings.prop);
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const glm::dmat4 clip_from_table =
         projector.clip_from_point() * settings.projector.table_from_projector.inverse().matrix();
     PixelSize largest;
-    const auto add = [&](const RigidTransform& table_from_prop) {
+    const auto add = [&](const geometry::RigidTransform& table_from_prop) {
         const PixelRectangle part = prop_bounds(prop, projector, clip_from_table * table_from_prop.matrix());
         largest = united(largest, {part.width, part.height});
     };
@@ -37,7 +37,7 @@ std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole
         for (const KnownView& view : visibility.views) {
             add(view.table_from_prop);
         }
-    } else if (settings.prop.zone == PropZone::Hand) {
+    } else if (settings.prop.zone == settings::PropZone::Hand) {
         return std::nullopt;
     } else {
         for (int place = 0; place < places * places; ++place) {
@@ -53,4 +53,4 @@ std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole
                      std::min(largest.height + margin, projector.height)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -18,9 +18,9 @@ namespace {
 constexpr float code_power = 1.0F / 2.4F;
 constexpr float code_offset = 0.055F * 255.0F;
 
-FRUSTUMSCREEN_INLINE Floats root_of(Floats values) {
-    Floats roots;
-    for (int lane = 0; lane < lanes; ++lane) {
+FRUSTUMSCREEN_INLINE relief::Floats root_of(relief::Floats values) {
+    relief::Floats roots;
+    for (int lane = 0; lane < relief::lanes; ++lane) {
         roots[lane] = std::sqrt(values[lane]);
     }
     return roots;
@@ -32,58 +32,63 @@ struct Share {
 };
 
 /// One value for eight pixels: it changes by at most a tenth of a code across them.
-FRUSTUMSCREEN_INLINE Share share_of(const PixelLens& lens, const PixelLanes& ideal) {
-    const float r2 = squared_radius(lens, ideal)[lanes / 2];
+FRUSTUMSCREEN_INLINE Share share_of(const relief::PixelLens& lens, const relief::PixelLanes& ideal) {
+    const float r2 = relief::squared_radius(lens, ideal)[relief::lanes / 2];
     const float area =
         (1.0F + r2 * (lens.k1 + lens.k2 * r2)) * (1.0F + r2 * (3.0F * lens.k1 + 5.0F * lens.k2 * r2));
     return {1.0F / area, std::pow(area, -code_power)};
 }
 
 /// Eight ideal pixels, one texel each, red in the lowest byte.
-FRUSTUMSCREEN_INLINE Ints lit(const RasterLight::Gain& gain, const PixelLanes& at, const Share& share,
-                              Ints texels) {
-    const Floats ray_x = at.x * gain.ray_per_pixel.x + gain.first_ray.x;
-    const Floats ray_y = at.y * gain.ray_per_pixel.y + gain.first_ray.y;
-    const Floats distance =
+FRUSTUMSCREEN_INLINE relief::Ints lit(const RasterLight::Gain& gain, const relief::PixelLanes& at,
+                                      const Share& share, relief::Ints texels) {
+    const relief::Floats ray_x = at.x * gain.ray_per_pixel.x + gain.first_ray.x;
+    const relief::Floats ray_y = at.y * gain.ray_per_pixel.y + gain.first_ray.y;
+    const relief::Floats distance =
         root_of(ray_x * ray_x + (ray_y * ray_y + 1.0F)) /
         (ray_x * gain.inverse_depth.x + (ray_y * gain.inverse_depth.y + gain.inverse_depth.z));
     // 3 / 2.4 is 1 + 1 / 4.
-    const Floats linear = gain.brightness * least(all(gain.most), share.linear * gain.per_cubic_metre *
-                                                                      distance * distance * distance);
-    const Floats power =
-        gain.brightness_code * least(all(gain.max_code), share.code * gain.per_cubic_metre_code * distance *
-                                                             root_of(root_of(distance)));
+    const relief::Floats linear =
+        gain.brightness * relief::least(relief::all(gain.most),
+                                        share.linear * gain.per_cubic_metre * distance * distance * distance);
+    const relief::Floats power =
+        gain.brightness_code *
+        relief::least(relief::all(gain.max_code),
+                      share.code * gain.per_cubic_metre_code * distance * root_of(root_of(distance)));
     const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
-        const Floats code = __builtin_convertvector(texels >> shift & 255, Floats);
-        const Floats straight = linear * code;
-        const Floats by_power = (code + code_offset) * power - code_offset;
-        const Floats shown = linear > 1.0F ? least(straight, by_power) : most(straight, by_power);
-        return __builtin_convertvector(least(shown, all(255.0F)) + 0.5F, Ints) << shift;
+        const relief::Floats code = __builtin_convertvector(texels >> shift & 255, relief::Floats);
+        const relief::Floats straight = linear * code;
+        const relief::Floats by_power = (code + code_offset) * power - code_offset;
+        const relief::Floats shown =
+            linear > 1.0F ? relief::least(straight, by_power) : relief::most(straight, by_power);
+        return __builtin_convertvector(relief::least(shown, relief::all(255.0F)) + 0.5F, relief::Ints)
+               << shift;
     };
     constexpr auto alpha = static_cast<std::int32_t>(0xFF000000U);
-    const Ints seen = texels & alpha;
-    return seen != 0 ? channel(0) | channel(8) | channel(16) | seen : Ints{};
+    const relief::Ints seen = texels & alpha;
+    return seen != 0 ? channel(0) | channel(8) | channel(16) | seen : relief::Ints{};
 }
 
-FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes& at) {
+FRUSTUMSCREEN_INLINE relief::Floats at_pixels(const glm::vec3& linear, const relief::PixelLanes& at) {
     return linear.x * at.x + linear.y * at.y + linear.z;
 }
 
 /// The pixels within the face, including those on an edge, which go to the first of two faces.
-FRUSTUMSCREEN_INLINE Ints inside(const std::array<glm::vec3, 4>& edges, const PixelLanes& at) {
-    Ints in = Ints{} - 1;
+FRUSTUMSCREEN_INLINE relief::Ints inside(const std::array<glm::vec3, 4>& edges,
+                                         const relief::PixelLanes& at) {
+    relief::Ints in = relief::Ints{} - 1;
     for (const glm::vec3& edge : edges) {
         in &= at_pixels(edge, at) >= 0.0F;
     }
     return in;
 }
 
-FRUSTUMSCREEN_INLINE Ints softened(const RasterLight::Feather& feather, const PixelLanes& at, Ints own,
-                                   Ints texels) {
-    const Floats along = at_pixels(feather.along, at);
-    const Floats inward = at_pixels(feather.inward, at);
+FRUSTUMSCREEN_INLINE relief::Ints softened(const RasterLight::Feather& feather, const relief::PixelLanes& at,
+                                           relief::Ints own, relief::Ints texels) {
+    const relief::Floats along = at_pixels(feather.along, at);
+    const relief::Floats inward = at_pixels(feather.inward, at);
     own &= (along >= 0.0F) & (along <= 1.0F) & (inward >= 0.0F) & (inward <= 1.0F);
-    for (unsigned lanes_left = bits_of(own); lanes_left != 0; lanes_left &= lanes_left - 1) {
+    for (unsigned lanes_left = relief::bits_of(own); lanes_left != 0; lanes_left &= lanes_left - 1) {
         const int lane = std::countr_zero(lanes_left);
         const float share =
             glm::mix(glm::mix(feather.share.x, feather.share.y, along[lane]), 1.0F, inward[lane]);
@@ -97,27 +102,27 @@ FRUSTUMSCREEN_INLINE Ints softened(const RasterLight::Feather& feather, const Pi
 
 /// True if a part may contain some of the eight pixels from `x` on.
 FRUSTUMSCREEN_INLINE bool may_have(const PixelRectangle& part, int x, int y) {
-    return y >= part.y && y < part.y + part.height && x + lanes > part.x && x < part.x + part.width;
+    return y >= part.y && y < part.y + part.height && x + relief::lanes > part.x && x < part.x + part.width;
 }
 
 /// Eight pixels of row `y`, from `x` on.
-FRUSTUMSCREEN_INLINE Ints shown(const RasterLight::Parts& parts, int x, int y, Ints texels) {
-    constexpr Floats middles = {0.5F, 1.5F, 2.5F, 3.5F, 4.5F, 5.5F, 6.5F, 7.5F};
-    PixelLanes at{static_cast<float>(x) + middles, all(static_cast<float>(y) + 0.5F)};
+FRUSTUMSCREEN_INLINE relief::Ints shown(const RasterLight::Parts& parts, int x, int y, relief::Ints texels) {
+    constexpr relief::Floats middles = {0.5F, 1.5F, 2.5F, 3.5F, 4.5F, 5.5F, 6.5F, 7.5F};
+    relief::PixelLanes at{static_cast<float>(x) + middles, relief::all(static_cast<float>(y) + 0.5F)};
     Share share;
     if (parts.lens.bends) {
-        at = unbent(parts.lens, at);
+        at = relief::unbent(parts.lens, at);
         share = share_of(parts.lens, at);
     }
-    Ints left = Ints{} - 1; // pixels that no face has taken yet
-    Ints result{};
+    relief::Ints left = relief::Ints{} - 1; // pixels that no face has taken yet
+    relief::Ints result{};
     for (const RasterLight::Face& face : parts.faces) {
-        const Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : Ints{};
-        if (!any(own)) {
+        const relief::Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : relief::Ints{};
+        if (!relief::any(own)) {
             continue;
         }
         left &= ~own;
-        Ints codes = parts.changes_codes ? lit(face.gain, at, share, texels) : texels;
+        relief::Ints codes = parts.changes_codes ? lit(face.gain, at, share, texels) : texels;
         for (const RasterLight::Feather& feather : parts.feathers) {
             if (feather.face == face.face && may_have(feather.lit, x, y)) {
                 codes = softened(feather, at, own, codes);
@@ -130,16 +135,18 @@ FRUSTUMSCREEN_INLINE Ints shown(const RasterLight::Parts& parts, int x, int y, I
 
 FRUSTUMSCREEN_INLINE void light_row(const RasterLight::Parts& parts, int y, int first,
                                     std::span<glm::u8vec4> codes) {
-    for (std::size_t k = 0; k < codes.size(); k += lanes) {
-        const std::size_t bytes = sizeof(glm::u8vec4) * std::min<std::size_t>(lanes, codes.size() - k);
-        Ints texels{};
+    for (std::size_t k = 0; k < codes.size(); k += relief::lanes) {
+        const std::size_t bytes =
+            sizeof(glm::u8vec4) * std::min<std::size_t>(relief::lanes, codes.size() - k);
+        relief::Ints texels{};
         std::memcpy(&texels, &codes[k], bytes);
         texels = shown(parts, first + static_cast<int>(k), y, texels);
         std::memcpy(static_cast<void*>(&codes[k]), &texels, bytes);
     }
 }
 
-RasterLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_light, float brightness) {
+RasterLight::Gain gain_of(const FacePlan& face, const geometry::Pinhole& pinhole, bool even_light,
+                          float brightness) {
     RasterLight::Gain gain;
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
     gain.ray_per_pixel = glm::vec2(per_pixel);
@@ -167,7 +174,7 @@ glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
 
 void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
     const ReliefDraw& planned = plan.relief_draws[relief_draw];
-    parts_.lens = PixelLens(plan.projector);
+    parts_.lens = relief::PixelLens(plan.projector);
     parts_.changes_codes = planned.even_light;
     parts_.faces.clear();
     parts_.feathers.clear();
@@ -179,13 +186,14 @@ void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
         }
         parts_.changes_codes = parts_.changes_codes || draw.brightness != 1.0F;
         const FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
-        for (const RasterFace& seen : planned.view.faces) {
+        for (const relief::RasterFace& seen : planned.view.faces) {
             if (seen.face == face.face) {
                 const auto& [a, b, c, d] = seen.edges;
-                parts_.faces.push_back({draw.face,
-                                        seen.lit,
-                                        {a, b, c, d},
-                                        gain_of(face, plan.projector, planned.even_light, draw.brightness)});
+                parts_.faces.push_back(
+                    {.face = draw.face,
+                     .lit = seen.lit,
+                     .edges = {a, b, c, d},
+                     .gain = gain_of(face, plan.projector, planned.even_light, draw.brightness)});
             }
         }
     }
@@ -196,14 +204,16 @@ void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
         const auto& [a, b, c, d] = feather.corners_clip;
         const std::array<glm::dvec4, 4> corners{a, b, c, d};
         const glm::dvec2 start = pixel(a);
-        parts_.feathers.push_back({feather.face, pixels_around(corners, plan.projector),
-                                   linear_between(start, pixel(b)), linear_between(start, pixel(d)),
-                                   feather.share});
+        parts_.feathers.push_back({.face = feather.face,
+                                   .lit = pixels_around(corners, plan.projector),
+                                   .along = linear_between(start, pixel(b)),
+                                   .inward = linear_between(start, pixel(d)),
+                                   .share = feather.share});
     }
 }
 
 void RasterLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
-    run_with<light_row>(instructions_, parts_, y, first, codes);
+    relief::run_with<light_row>(instructions_, parts_, y, first, codes);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

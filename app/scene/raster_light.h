@@ -20,11 +20,12 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
-class RasterLight final : public RowLight {
+class RasterLight final : public relief::RowLight {
 public:
-    explicit RasterLight(Instructions instructions = best_instructions()) : instructions_(instructions) {}
+    explicit RasterLight(relief::Instructions instructions = relief::best_instructions())
+        : instructions_(instructions) {}
 
     /// Prepares the light for one of the plan's reliefs.
     void begin(const FramePlan& plan, std::size_t relief_draw);
@@ -53,15 +54,15 @@ public:
         glm::vec2 share{1.0F};
     };
     struct Parts {
-        PixelLens lens;
+        relief::PixelLens lens;
         bool changes_codes = false;
         std::vector<Face> faces;
         std::vector<Feather> feathers;
     };
 
 private:
-    Instructions instructions_;
+    relief::Instructions instructions_;
     Parts parts_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

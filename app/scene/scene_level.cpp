@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -33,12 +33,17 @@ std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZon
 }
 
 /// The marked triangles, the vertices that they use and the clusters that keep some of them, in order.
-PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
-    PackLevel part{level.technique, level.error, level.texture, {}, {}, {}};
+pack::PackLevel part_of(const pack::PackLevel& level, const std::vector<bool>& marked) {
+    pack::PackLevel part{.technique = level.technique,
+                         .error = level.error,
+                         .texture = level.texture,
+                         .vertices = {},
+                         .indices = {},
+                         .clusters = {}};
     constexpr auto none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> new_name(level.vertices.size(), none);
-    for (const PackCluster& cluster : level.clusters) {
-        PackCluster kept = cluster;
+    for (const pack::PackCluster& cluster : level.clusters) {
+        pack::PackCluster kept = cluster;
         kept.first_index = static_cast<std::uint32_t>(part.indices.size());
         for (std::size_t k = cluster.first_index; k < cluster.first_index + cluster.index_count; ++k) {
             if (marked[k / 3]) {
@@ -64,23 +69,26 @@ PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
 }
 
 /// Detail that the views need of a level, planned with the most samples of any quality level.
-void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) {
-    PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)),
-                       pack.box_size,
-                       plan.metres_per_box,
-                       {},
-                       0};
+void measure_detail(const pack::Pack& pack, const ScenePlan& plan, SceneLevel& level) {
+    PlacedLevel placed{.triangles = std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)),
+                       .box_size = pack.box_size,
+                       .metres_per_box = plan.metres_per_box,
+                       .drawable = {},
+                       .samples = 0};
     for (const QualityLevel& quality_level : plan.quality_levels) {
         placed.samples = std::max(placed.samples, quality_level.samples);
     }
     FramePlan frame = make_plan(plan.prop, placed);
-    const Image8& texture = pack.textures[level.mesh.texture];
+    const image::Image8& texture = pack.textures[level.mesh.texture];
     const int mips = std::bit_width(static_cast<unsigned>(std::max(texture.width, texture.height)));
     level.finest_mip = std::min(coarsest_mip_level, mips - 1);
     level.samples = 1;
     for (const KnownView& view : plan.visibility.views) {
         plan_frame(plan.prop, placed,
-                   {plan.projector, plan.table_from_projector, view.table_from_prop, {&view.eye_m, 1}},
+                   {.projector = plan.projector,
+                    .table_from_projector = plan.table_from_projector,
+                    .table_from_prop = view.table_from_prop,
+                    .eyes_m = {&view.eye_m, 1}},
                    frame);
         level.samples = std::max(level.samples, frame.samples);
         for (const Draw& draw : frame.draws) {
@@ -93,7 +101,8 @@ void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) 
 
 } // namespace
 
-double texels_per_box(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size) {
+double texels_per_box(const pack::PackLevel& level, const image::Image8& texture,
+                      const glm::dvec3& box_size) {
     const auto position = [&](std::uint32_t vertex) {
         const auto& q = level.vertices[vertex].position;
         return glm::dvec3(q[0], q[1], q[2]) * box_size;
@@ -125,22 +134,22 @@ int mip_level(double texels_per_box, double samples_per_box) {
     return static_cast<int>(std::fmin(level, coarsest_mip_level));
 }
 
-SceneLevel whole_level(const Pack& pack, std::uint32_t level) {
-    const PackLevel& mesh = pack.levels[level];
+SceneLevel whole_level(const pack::Pack& pack, std::uint32_t level) {
+    const pack::PackLevel& mesh = pack.levels[level];
     SceneLevel whole;
     whole.level = level;
     whole.mesh = mesh;
-    const Image8& texture = pack.textures[mesh.texture];
+    const image::Image8& texture = pack.textures[mesh.texture];
     whole.texels_per_box = texels_per_box(mesh, texture, pack.box_size);
-    whole.cut_out = has_cut_texels(texture);
+    whole.cut_out = image::has_cut_texels(texture);
     return whole;
 }
 
-SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan) {
+SceneLevel scene_level(const pack::Pack& pack, std::uint32_t level, const ScenePlan& plan) {
     SceneLevel made = whole_level(pack, level);
     if ((plan.cull_kinds & UnseenTriangles) != 0 && !plan.visibility.eyes.anywhere) {
         const LevelTriangles triangles = triangles_of(made.mesh, pack.box_size);
-        PackLevel seen =
+        pack::PackLevel seen =
             part_of(made.mesh, seen_triangles(triangles, plan.visibility.eyes, plan.metres_per_box));
         made.unseen_triangles = (made.mesh.indices.size() - seen.indices.size()) / 3;
         made.unseen_clusters = made.mesh.clusters.size() - seen.clusters.size();
@@ -154,7 +163,8 @@ SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& p
     return made;
 }
 
-std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level, const Image8& texture) {
+std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
+                                 const image::Image8& texture) {
     std::vector<LeftOut> left_out;
     if (level.unseen_triangles > 0) {
         left_out.push_back(
@@ -195,9 +205,9 @@ RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {
     return needs;
 }
 
-std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture) {
+std::uint64_t gpu_bytes(const SceneLevel& level, const image::Image8& texture) {
     constexpr std::uint64_t bytes_per_texel = 4;
-    std::uint64_t bytes = level.mesh.vertices.size() * sizeof(PackVertex);
+    std::uint64_t bytes = level.mesh.vertices.size() * sizeof(pack::PackVertex);
     const int longest = std::max(texture.width, texture.height);
     for (int mip = level.finest_mip; mip <= coarsest_mip_level && (longest >> mip) > 0; ++mip) {
         bytes += bytes_per_texel * static_cast<std::uint64_t>(std::max(1, texture.width >> mip)) *
@@ -228,4 +238,4 @@ std::uint64_t caption_gpu_bytes(int width, int height) {
     return bytes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

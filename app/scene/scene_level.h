@@ -18,10 +18,10 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// Texels along one box unit: the edge of the surface's mean texel, inverted.
-[[nodiscard]] double texels_per_box(const PackLevel& level, const Image8& texture,
+[[nodiscard]] double texels_per_box(const pack::PackLevel& level, const image::Image8& texture,
                                     const glm::dvec3& box_size);
 
 /// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
@@ -32,7 +32,7 @@ inline constexpr int coarsest_mip_level = 4;
 
 struct SceneLevel {
     std::uint32_t level = 0;
-    PackLevel mesh;              ///< the triangles that may be seen
+    pack::PackLevel mesh;        ///< the triangles that may be seen
     double texels_per_box = 0.0; ///< of the whole level
     bool cut_out = false;        ///< the texture has cut-out texels (alpha below one half)
     int finest_mip = 0;          ///< finer mip levels are never sampled
@@ -42,12 +42,12 @@ struct SceneLevel {
     std::size_t unseen_vertices = 0;
 };
 /// The whole level, for every pose.
-[[nodiscard]] SceneLevel whole_level(const Pack& pack, std::uint32_t level);
-[[nodiscard]] SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
+[[nodiscard]] SceneLevel whole_level(const pack::Pack& pack, std::uint32_t level);
+[[nodiscard]] SceneLevel scene_level(const pack::Pack& pack, std::uint32_t level, const ScenePlan& plan);
 
 /// Describes the parts of the level that were left out.
 [[nodiscard]] std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
-                                               const Image8& texture);
+                                               const image::Image8& texture);
 
 /// The plan's needs, with no more samples than the level takes. They are never increased: a view that takes
 /// more samples than fit is drawn elsewhere in the larger picture and rounds differently.
@@ -55,7 +55,7 @@ struct SceneLevel {
 
 /// Bytes of GPU memory: vertices and mip levels of a level; the larger picture for several samples a pixel; a
 /// caption with its mip levels.
-[[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture);
+[[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const image::Image8& texture);
 [[nodiscard]] std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height);
 [[nodiscard]] std::uint64_t caption_gpu_bytes(int width, int height);
 /// A picture on the table with its mip levels.
@@ -63,4 +63,4 @@ struct SceneLevel {
     return 4 * caption_gpu_bytes(width, height);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -12,7 +12,7 @@
 #include <charconv>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string listed(std::string_view one, std::string_view more, const std::vecto
     return text;
 }
 
-std::vector<bool> good_levels(const PackOutline& pack, const ScenePlan& plan, double tolerance_mm) {
+std::vector<bool> good_levels(const pack::PackOutline& pack, const ScenePlan& plan, double tolerance_mm) {
     std::vector<bool> good;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
         good.push_back(within_tolerance(pack.levels[k].error, worst_of(plan.seen[k]),
@@ -40,20 +40,21 @@ std::vector<bool> good_levels(const PackOutline& pack, const ScenePlan& plan, do
 }
 
 /// Looks up a relief of the pack's description by its texels.
-std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs, std::uint32_t texels) {
-    const auto found = std::find_if(reliefs.begin(), reliefs.end(), [texels](const ReliefOutline& relief) {
-        return relief.texels == texels;
-    });
+std::optional<pack::ReliefOutline> relief_of(const std::vector<pack::ReliefOutline>& reliefs,
+                                             std::uint32_t texels) {
+    const auto found =
+        std::find_if(reliefs.begin(), reliefs.end(),
+                     [texels](const pack::ReliefOutline& relief) { return relief.texels == texels; });
     return found != reliefs.end() ? std::optional(*found) : std::nullopt;
 }
 
 /// The coarsest of the wanted reliefs whose texel is at most about a pixel; otherwise the finest of them.
 template <typename Wanted>
-std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& reliefs, double pixel_box,
-                                        const Wanted& wanted) {
+std::optional<pack::ReliefOutline> relief_for(const std::vector<pack::ReliefOutline>& reliefs,
+                                              double pixel_box, const Wanted& wanted) {
     constexpr double not_clearly = 1.25;
-    std::optional<ReliefOutline> found;
-    for (const ReliefOutline& relief : reliefs) {
+    std::optional<pack::ReliefOutline> found;
+    for (const pack::ReliefOutline& relief : reliefs) {
         if (wanted(relief)) {
             found = relief;
             if (1.0 <= not_clearly * pixel_box * relief.texels) {
@@ -66,10 +67,10 @@ std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& relief
 
 /// A pack's reliefs, and the error of each as eyes see it.
 struct PackReliefs {
-    std::vector<ReliefOutline> outlines;
+    std::vector<pack::ReliefOutline> outlines;
     std::vector<SeenLevel> seen;
 
-    [[nodiscard]] const SeenLevel& seen_of(const ReliefOutline& relief) const {
+    [[nodiscard]] const SeenLevel& seen_of(const pack::ReliefOutline& relief) const {
         const auto found = std::find(outlines.begin(), outlines.end(), relief);
         return seen[static_cast<std::size_t>(found - outlines.begin())];
     }
@@ -89,7 +90,7 @@ void choose_what_is_read(const PackReliefs& reliefs, ScenePlan& plan) {
 }
 
 /// Handles levels that no quality level draws: they are read anyway, or reported as left out.
-void leave_out_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
+void leave_out_levels(const pack::PackOutline& pack, const SceneRequest& request, double tolerance_mm,
                       bool governed, ScenePlan& plan) {
     std::vector<std::string> finer;
     std::vector<std::string> others;
@@ -124,18 +125,18 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
     }
 }
 
-void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
+void choose_levels(const pack::PackOutline& pack, const SceneRequest& request, double tolerance_mm,
                    double pixel_box, QualityLevel asked, const PackReliefs& reliefs, ScenePlan& plan) {
     const bool governed = request.live && request.technique == "auto";
     asked.samples = request.samples > 0 ? request.samples : pack.description.samples;
     asked.enough = true;
     plan.quality_levels = {asked};
     if (governed) {
-        const auto is_good = [&](const ReliefOutline& relief) {
+        const auto is_good = [&](const pack::ReliefOutline& relief) {
             return within_tolerance(relief.error, worst_of(reliefs.seen_of(relief)),
                                     1e3 * plan.metres_per_box, tolerance_mm);
         };
-        const std::optional<ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box, is_good);
+        const std::optional<pack::ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box, is_good);
         plan.quality_levels = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples,
                                      relief, relief && relief->blocks <= request.max_blocks_on_gpu);
     }
@@ -144,8 +145,8 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
     leave_out_levels(pack, request, tolerance_mm, governed, plan);
 }
 
-void choose_captions(const Settings& settings, const PackOutline& pack, const SceneRequest& request,
-                     ScenePlan& plan) {
+void choose_captions(const settings::Settings& settings, const pack::PackOutline& pack,
+                     const SceneRequest& request, ScenePlan& plan) {
     const std::size_t captions = pack.description.captions.size();
     if ((plan.cull_kinds & UnusedCaptions) == 0 && request.live) {
         for (std::size_t k = 0; k < captions; ++k) {
@@ -252,13 +253,13 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
 }
 
 void choose_faces(ScenePlan& plan) {
-    const auto above = [](const PointZone& zone, const Plane& plane) {
+    const auto above = [](const PointZone& zone, const geometry::Plane& plane) {
         return zone.reach(plane.normal) > plane.offset;
     };
     std::vector<std::string> unseen;
     std::vector<std::string> unlit;
     for (std::size_t face = 0; face < plan.prop.faces.size(); ++face) {
-        const Plane& plane = plan.prop.faces[face].plane;
+        const geometry::Plane& plane = plan.prop.faces[face].plane;
         const bool seen = above(plan.visibility.eyes, plane);
         const bool lit = above(plan.visibility.lens, plane);
         if ((seen && lit) || (plan.cull_kinds & UnseenFaces) == 0) {
@@ -298,14 +299,14 @@ std::string_view without_gpu(std::string_view name) {
 }
 
 /// "auto, finest, level0 to level6, relief, relief96 and relief192, each relief also with -gpu"
-std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutline>& reliefs) {
+std::string techniques_of(const pack::PackOutline& pack, const std::vector<pack::ReliefOutline>& reliefs) {
     const std::size_t levels = pack.levels.size();
     std::vector<std::string> names{"finest",
                                    levels > 1 ? fmt::format("level0 to level{}", levels - 1) : "level0"};
     if (!reliefs.empty()) {
         names.emplace_back(relief_prefix);
     }
-    for (const ReliefOutline& relief : reliefs) {
+    for (const pack::ReliefOutline& relief : reliefs) {
         names.push_back(fmt::format("{}{}", relief_prefix, relief.texels));
     }
     return listed("auto", "auto,", names) +
@@ -319,8 +320,9 @@ std::string name_of(const QualityLevel& quality_level) {
                        quality_level.on_gpu ? on_gpu_suffix : "");
 }
 
-Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
-    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
+Result<QualityLevel> quality_level_of(const pack::PackOutline& pack, std::string_view technique,
+                                      double pixel_box) {
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack.description));
     const auto levels = static_cast<std::uint32_t>(pack.levels.size());
     if (technique == "auto") {
         return QualityLevel{pack.description.default_level};
@@ -334,13 +336,14 @@ Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view 
     }
     const std::string_view of = without_gpu(technique);
     std::optional<std::uint32_t> texels = number_behind(relief_prefix, of);
-    if (const std::optional<ReliefOutline> relief =
-            relief_for(reliefs, pixel_box, [](const ReliefOutline&) { return true; });
+    if (const std::optional<pack::ReliefOutline> relief =
+            relief_for(reliefs, pixel_box, [](const pack::ReliefOutline&) { return true; });
         relief && of == relief_prefix) {
         texels = relief->texels;
     }
     if (texels && relief_of(reliefs, *texels)) {
-        return QualityLevel{*texels, 1, false, true, of != technique};
+        return QualityLevel{
+            .level = *texels, .samples = 1, .enough = false, .relief = true, .on_gpu = of != technique};
     }
     return bad_input("scene.no_technique", "technique '{}' is not in this pack; it has {}{}", technique,
                      techniques_of(pack, reliefs),
@@ -360,16 +363,17 @@ std::string_view name_of(CullKind cull_kind) {
     return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(cull_kind))));
 }
 
-Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
-    TRY(std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
+Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::PackOutline& pack,
+                             const SceneRequest& request) {
+    TRY(std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack.description));
     TRY(SeenByEyes seen, seen_by_eyes(pack));
     ScenePlan plan;
     plan.seen = std::move(seen.levels);
     plan.cull_kinds = request.cull_kinds;
     plan.projector = settings.projector.pinhole;
     plan.table_from_projector = settings.projector.table_from_projector;
-    plan.prop = make_prop(settings.prop);
-    plan.metres_per_box = place(pack.description, plan.prop).metres_per_box;
+    plan.prop = settings::make_prop(settings.prop);
+    plan.metres_per_box = pack::place(pack.description, plan.prop).metres_per_box;
     plan.visibility = request.visibility;
     if (request.light) {
         plan.light = light_compensation(settings);
@@ -382,8 +386,9 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
                   pixel_m / plan.metres_per_box, asked, {std::move(reliefs), std::move(seen.reliefs)}, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
-                   request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||
-                                    request.table_pictures || tells_of_sticks(settings)),
+                   request.live &&
+                       (settings::shows_zone_frame(settings) || settings::guides_visitors(settings) ||
+                        request.table_pictures || settings::tells_of_sticks(settings)),
                    plan);
     choose_faces(plan);
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
@@ -391,4 +396,4 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     return plan;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

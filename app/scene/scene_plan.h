@@ -28,7 +28,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// True for a well-formed technique name: "auto", "finest", "relief", or "level" or "relief" and a number,
 /// whether or not a pack has it; a relief's name may end in "-gpu".
@@ -40,7 +40,7 @@ inline constexpr std::string_view on_gpu_suffix = "-gpu";
 /// "level0", "level1", ...; "relief96", "relief192", ...: by texels; "relief": the coarsest relief whose
 /// texel is not clearly larger than a pixel of `pixel_box` on the prop, otherwise the finest. A relief is
 /// rasterized on the processor; "relief-gpu", "relief96-gpu", ... are drawn by the GPU.
-[[nodiscard]] Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view technique,
+[[nodiscard]] Result<QualityLevel> quality_level_of(const pack::PackOutline& pack, std::string_view technique,
                                                     double pixel_box);
 
 /// A cull kind: one kind of thing that a scene plan leaves out; bits.
@@ -83,8 +83,8 @@ struct SceneRequest {
 
 struct ScenePlan {
     std::vector<QualityLevel> quality_levels; ///< the quality levels of the artifact, best first
-    std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `quality levels` first
-    std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `quality levels`
+    std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `quality levels` first
+    std::vector<pack::ReliefOutline> reliefs; ///< of the pack, to read: those of `quality levels`
     /// Of the pack, for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
     /// default level, which is read for this purpose but not uploaded, so that meshes and reliefs of one
     /// artifact are equally bright.
@@ -96,9 +96,9 @@ struct ScenePlan {
     unsigned cull_kinds = AllCullKinds;
     std::vector<LeftOut> left_out;
     // Inputs for the rest of the plan: scene_level.h.
-    Pinhole projector;
-    RigidTransform table_from_projector;
-    PropShape prop;
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector;
+    geometry::PropShape prop;
     double metres_per_box = 0.0;
     std::vector<SeenLevel> seen;         ///< of each of the pack's levels
     std::vector<SeenLevel> seen_reliefs; ///< of each of `reliefs`
@@ -107,7 +107,7 @@ struct ScenePlan {
     int highlight_code = 0;                 ///< for exposure_of; 0 without light
 };
 
-[[nodiscard]] Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack,
+[[nodiscard]] Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::PackOutline& pack,
                                            const SceneRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -62,12 +62,14 @@ ShaderKey raster_shader(bool dithered) {
     return key;
 }
 
-std::optional<Pinhole> if_it_bends(const Pinhole& projector) {
+std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector) {
     return projector.lens.is_plain() ? std::nullopt : std::optional(projector);
 }
 
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
-    RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.relief_draws, b.relief_draws)};
+    RenderNeeds both{.samples = std::max(a.samples, b.samples),
+                     .draws = a.draws,
+                     .relief_draws = std::max(a.relief_draws, b.relief_draws)};
     if (a.samples <= 1 || b.samples <= 1) { // one sample needs no room
         both.outline = a.samples > 1 ? a.outline : b.outline;
     } else if (a.outline && b.outline) {
@@ -89,4 +91,4 @@ std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
     return shaders;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 struct ShaderKey {
     enum class Pass : std::uint8_t {
@@ -53,13 +53,13 @@ struct RenderNeeds {
     std::size_t relief_draws = 0; ///< pictures that one plan may rasterize into memory
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
-    std::optional<Pinhole> bent_by =
+    std::optional<geometry::Pinhole> bent_by =
         std::nullopt; ///< set for a projector whose lens distorts: every shader bends what it draws
 };
 /// The value of RenderNeeds::bent_by: the projector if its lens distorts, otherwise nullopt.
-[[nodiscard]] std::optional<Pinhole> if_it_bends(const Pinhole& projector);
+[[nodiscard]] std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector);
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

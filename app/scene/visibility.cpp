@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
@@ -26,7 +26,7 @@ std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_ele
 }
 
 /// A point of the table frame, relative to a prop that stands anywhere on the table at any yaw.
-PointZone seen_from_the_table(const TableSettings& table, const glm::dvec3& point) {
+PointZone seen_from_the_table(const settings::TableSettings& table, const glm::dvec3& point) {
     const glm::dvec2 half(table.width_m / 2.0, table.depth_m / 2.0);
     const glm::dvec2 farthest = glm::abs(glm::dvec2(point)) + half;
     return {false, {}, {{glm::length(farthest), point.z}}};
@@ -60,12 +60,12 @@ double PointZone::farthest() const {
     return most;
 }
 
-Visibility visibility_of(const Settings& settings, std::vector<KnownView> views) {
+Visibility visibility_of(const settings::Settings& settings, std::vector<KnownView> views) {
     Visibility visibility;
     visibility.eyes.anywhere = false;
     visibility.lens.anywhere = false;
     for (const KnownView& view : views) {
-        const RigidTransform prop_from_table = view.table_from_prop.inverse();
+        const geometry::RigidTransform prop_from_table = view.table_from_prop.inverse();
         visibility.eyes.points.push_back(prop_from_table.point(view.eye_m));
         visibility.lens.points.push_back(
             prop_from_table.point(settings.projector.table_from_projector.translation));
@@ -74,12 +74,12 @@ Visibility visibility_of(const Settings& settings, std::vector<KnownView> views)
     return visibility;
 }
 
-Visibility visibility_of(const Settings& settings) {
-    const bool fixed_prop = settings.tracker.kind == TrackerKind::None;
-    const EyeSettings& eye = settings.eye;
+Visibility visibility_of(const settings::Settings& settings) {
+    const bool fixed_prop = settings.tracker.kind == settings::TrackerKind::None;
+    const settings::EyeSettings& eye = settings.eye;
     const glm::dvec3& lens = settings.projector.table_from_projector.translation;
-    const bool upright =
-        settings.tracker.kind == TrackerKind::Simulated && settings.prop.zone == PropZone::Table;
+    const bool upright = settings.tracker.kind == settings::TrackerKind::Simulated &&
+                         settings.prop.zone == settings::PropZone::Table;
     if (!fixed_prop && !upright) { // it may be lifted and tilted
         return {};
     }
@@ -98,4 +98,4 @@ Visibility visibility_of(const Settings& settings) {
     return visibility;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -20,7 +20,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// The possible places of one point (an eye or the lens).
 struct PointZone {
@@ -36,7 +36,7 @@ struct PointZone {
 
 /// Table frame.
 struct KnownView {
-    RigidTransform table_from_prop;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
 };
 
@@ -47,8 +47,8 @@ struct Visibility {
 
 /// For the live exhibit: eyes in their zone (EyeSettings, relative to the prop's foot) or a fixed eye; the
 /// prop anywhere in its zone or fixed in the table's middle.
-[[nodiscard]] Visibility visibility_of(const Settings& settings);
+[[nodiscard]] Visibility visibility_of(const settings::Settings& settings);
 /// For a fixed list of poses.
-[[nodiscard]] Visibility visibility_of(const Settings& settings, std::vector<KnownView> views);
+[[nodiscard]] Visibility visibility_of(const settings::Settings& settings, std::vector<KnownView> views);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -4,11 +4,11 @@
 #include <limits>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 namespace {
 
-bool looks_away(const glm::dvec3& eye, const PackCluster& cluster) {
+bool looks_away(const glm::dvec3& eye, const pack::PackCluster& cluster) {
     const glm::dvec3 to_apex = glm::dvec3(cluster.cone_apex) - eye;
     // A small tolerance keeps cones that are stored as floats on the safe side.
     constexpr double hair = 1e-5;
@@ -23,7 +23,7 @@ struct Crossed {
     bool outside = false;
 };
 
-Crossed crossed_by(const PackCluster& cluster, const FaceVolume& volume, double margin_box) {
+Crossed crossed_by(const pack::PackCluster& cluster, const FaceVolume& volume, double margin_box) {
     Crossed crossed;
     const glm::dvec4 centre(glm::dvec3(cluster.centre), 1.0);
     const double reach = static_cast<double>(cluster.radius) + margin_box;
@@ -57,7 +57,7 @@ bool misses(const Crossed& crossed, const LevelTriangles& level, std::span<const
 } // namespace
 
 std::uint64_t bytes_of(const LevelTriangles& level) {
-    return level.clusters.size() * sizeof(PackCluster) +
+    return level.clusters.size() * sizeof(pack::PackCluster) +
            level.extents.size() * sizeof(LevelTriangles::Extent) +
            level.indices.size() * sizeof(std::uint32_t) + level.positions.size() * sizeof(glm::vec3) +
            4 * level.distance.size() * sizeof(float);
@@ -79,7 +79,7 @@ void find_planes(LevelTriangles& level) {
 }
 
 void find_extents(LevelTriangles& level) {
-    for (const PackCluster& cluster : level.clusters) {
+    for (const pack::PackCluster& cluster : level.clusters) {
         LevelTriangles::Extent extent{glm::vec3(std::numeric_limits<float>::infinity()),
                                       glm::vec3(-std::numeric_limits<float>::infinity())};
         for (std::uint32_t k = 0; k < cluster.index_count; ++k) {
@@ -91,12 +91,12 @@ void find_extents(LevelTriangles& level) {
     }
 }
 
-LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size) {
+LevelTriangles triangles_of(const pack::PackLevel& level, const glm::dvec3& box_size) {
     LevelTriangles result;
     result.clusters = level.clusters;
     result.indices = level.indices;
     const glm::dvec3 low(-0.5 * box_size.x, -0.5 * box_size.y, 0.0);
-    for (const PackVertex& vertex : level.vertices) {
+    for (const pack::PackVertex& vertex : level.vertices) {
         const glm::dvec3 unit =
             glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0;
         result.positions.emplace_back(low + unit * box_size);
@@ -132,7 +132,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
     indices_.resize(level.indices.size());
     first_.clear();
     std::uint32_t* out = indices_.data();
-    for (const PackCluster& cluster : level.clusters) {
+    for (const pack::PackCluster& cluster : level.clusters) {
         first_.push_back(static_cast<std::size_t>(out - indices_.data()));
         if (looks_away(eye_box, cluster)) {
             continue;
@@ -174,4 +174,4 @@ std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level
     return (indices.size() - begin) / 3;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 
 /// A triangle this close to edge-on is kept, because the planes are in single precision and the positions
 /// quantised.
@@ -29,7 +29,7 @@ struct LevelTriangles {
     struct Extent {
         glm::vec3 low{0.0F}, high{0.0F};
     };
-    std::vector<PackCluster> clusters;
+    std::vector<pack::PackCluster> clusters;
     std::vector<Extent> extents; ///< of the clusters
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positions; ///< of the vertices
@@ -43,7 +43,7 @@ struct LevelTriangles {
 void find_planes(LevelTriangles& level);
 /// Computes the extents from clusters, indices and positions.
 void find_extents(LevelTriangles& level);
-[[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
+[[nodiscard]] LevelTriangles triangles_of(const pack::PackLevel& level, const glm::dvec3& box_size);
 
 /// The volume that one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the
 /// picture's four edges.
@@ -83,4 +83,4 @@ std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level
                            std::size_t cluster, std::vector<std::uint32_t>& indices,
                            double margin_box = 1e-3);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -10,7 +10,7 @@
 #include <array>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -77,7 +77,7 @@ public:
     void vector(const char* key, const glm::dvec3& v, const Range&, std::string_view) {
         text_ += fmt::format("{} = [{}, {}, {}]\n", key, v.x, v.y, v.z);
     }
-    void rigid(const char* key, const RigidTransform& value, const Range&, std::string_view) {
+    void rigid(const char* key, const geometry::RigidTransform& value, const Range&, std::string_view) {
         const glm::dmat4 matrix = value.matrix();
         text_ += fmt::format("{} = [{}]\n", key, fmt::join(std::span(&matrix[0][0], 16), ", "));
     }
@@ -115,7 +115,7 @@ std::string calibration_text(const Calibration& calibration) {
 }
 
 Result<Calibration> parse_calibration(std::string_view text, const std::filesystem::path& file) {
-    ReadState state{printable(file.string(), 4096), {}, {}, std::nullopt};
+    ReadState state{.file = printable(file.string(), 4096), .folder = {}, .lines = {}, .error = std::nullopt};
     Calibration calibration;
     read_toml(state, text, largest_calibration_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
@@ -128,4 +128,4 @@ Result<Calibration> parse_calibration(std::string_view text, const std::filesyst
     return calibration;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

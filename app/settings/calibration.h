@@ -18,7 +18,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// Corners: the picture's corners at two heights, measured by hand. Touch: the prop laid on crosses. Auto: by a camera.
 enum class CalibrationMethod : std::uint8_t { Corners, Touch, Auto };
@@ -32,13 +32,13 @@ struct Calibration {
     int places = 0; ///< number of measured places
     /// Error at a place that was left out of the fit: on the table, and in the picture.
     double mean_mm = 0.0, worst_mm = 0.0, mean_px = 0.0;
-    Pinhole pinhole;
-    RigidTransform table_from_projector;
-    Registration registration;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform table_from_projector;
+    geometry::Registration registration;
 };
 
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);
 /// `file` names the text in messages.
 [[nodiscard]] Result<Calibration> parse_calibration(std::string_view text, const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

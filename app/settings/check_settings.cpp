@@ -13,7 +13,7 @@
 #include <limits>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -25,9 +25,9 @@ constexpr double min_downward = 0.5;
 /// press without end.
 constexpr double min_repeat_s = 0.05;
 
-bool inside(const PropShape& prop, const glm::dvec3& p) {
+bool inside(const geometry::PropShape& prop, const glm::dvec3& p) {
     return std::all_of(prop.bounds.begin(), prop.bounds.end(),
-                       [&](const Plane& bound) { return bound.distance(p) <= 0.0; });
+                       [&](const geometry::Plane& bound) { return bound.distance(p) <= 0.0; });
 }
 
 class Fitness {
@@ -72,12 +72,13 @@ std::string_view position_key(const Fitness& fitness) {
 
 /// "x 0.80 to 1.60 m, y -0.25 to 0.25 m"; nothing if a part of the picture never meets the table's plane.
 std::optional<std::string> place_of_picture(const ProjectorSettings& projector) {
-    const Pinhole& p = projector.pinhole;
+    const geometry::Pinhole& p = projector.pinhole;
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (const glm::dvec2& corner :
          {glm::dvec2(0, 0), glm::dvec2(p.width, 0), glm::dvec2(p.width, p.height), glm::dvec2(0, p.height)}) {
-        const std::optional<glm::dvec2> lit = lights_table(p, projector.table_from_projector, corner);
+        const std::optional<glm::dvec2> lit =
+            geometry::lights_table(p, projector.table_from_projector, corner);
         if (!lit) {
             return std::nullopt;
         }
@@ -106,7 +107,7 @@ void check_picture(const Settings& settings, Fitness& fitness) {
 }
 
 /// The lens must not fold the picture: up to 1.1 times the corners' r^2, each direction has a place of its own.
-void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) {
+void check_lens(const geometry::Pinhole& pinhole, std::string_view key, Fitness& fitness) {
     constexpr double margin = 1.1;
     const double corner = pinhole.ideal().farthest_r2();
     const double fold = pinhole.lens.fold_r2();
@@ -119,7 +120,7 @@ void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) 
 
 void check_projector(const Settings& settings, Fitness& fitness) {
     check_lens(settings.projector.pinhole, "projector.k1", fitness);
-    const RigidTransform& pose = settings.projector.table_from_projector;
+    const geometry::RigidTransform& pose = settings.projector.table_from_projector;
     const std::string_view position = position_key(fitness);
     const double min_height = settings.prop.height_m + min_clearance_m;
     fitness.require(
@@ -238,7 +239,7 @@ void check_tags(const CameraSettings& camera, Fitness& fitness) {
         return;
     }
     check_camera_lens(camera, "camera.tags", "the tags", fitness);
-    const RigidTransform& pose = camera.table_from_camera;
+    const geometry::RigidTransform& pose = camera.table_from_camera;
     fitness.require("settings.camera_pose", pose.translation.z > 0.0 && pose.direction({0, 0, 1}).z < 0.0,
                     "camera.tags",
                     "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the "
@@ -259,7 +260,7 @@ void check_visitor(const Settings& settings, Fitness& fitness) {
         return;
     }
     check_camera_lens(camera, "camera.visitor", "the visitors", fitness);
-    const RigidTransform& pose = camera.table_from_camera;
+    const geometry::RigidTransform& pose = camera.table_from_camera;
     constexpr double upright = -0.64; // of the picture's down, along the table's up: 50 degrees
     fitness.require(
         "settings.camera_not_upright", pose.translation.z > 0.0 && pose.direction({0, 1, 0}).z < upright,
@@ -299,7 +300,7 @@ void check_camera(const Settings& settings, Fitness& fitness) {
 /// Two keys of the same name would make messages ambiguous.
 void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
-    for (const TrustedKey& key : settings.exhibit.keys) {
+    for (const pack::TrustedKey& key : settings.exhibit.keys) {
         fitness.require(
             "settings.key_twice", names.insert(key.name).second, "exhibit.keys",
             fmt::format("has two keys called \"{}\"; give each a name of its own", printable(key.name, 40)));
@@ -346,4 +347,4 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     return fitness.error();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 [[nodiscard]] std::optional<Error> unfit(const Settings& settings, const std::string& file,
                                          const KeyLines& lines);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

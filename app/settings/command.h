@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 enum class Command : std::uint8_t {
     PreviousArtifact,
@@ -45,4 +45,4 @@ inline constexpr std::array button_commands{Command::PreviousArtifact, Command::
                             button_commands.begin());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

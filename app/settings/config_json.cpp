@@ -6,7 +6,7 @@
 #include "app/settings/whole_zone.h"
 #include "firmware_host/base/json.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -46,7 +46,7 @@ public:
     }
     /// An input is not reported: the settings that were computed from it are.
     void input(const char*, const auto&, const Range&, std::string_view) {}
-    void rigid(const char* key, const RigidTransform& value, const Range&, std::string_view) {
+    void rigid(const char* key, const geometry::RigidTransform& value, const Range&, std::string_view) {
         json_[key] = list_of(value.matrix());
     }
     void integer(const char* key, int value, int, int, std::string_view) { json_[key] = value; }
@@ -102,9 +102,9 @@ private:
     Json json_ = Json::object();
 };
 
-Json faces_json(const PropShape& prop) {
+Json faces_json(const geometry::PropShape& prop) {
     Json faces = Json::array();
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         Json corners = Json::array();
         for (const glm::dvec3& corner : face.corners) {
             corners.push_back(list_of(corner));
@@ -208,4 +208,4 @@ std::string config_json(const CheckedSettings& checked) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -20,7 +20,7 @@
 #include <functional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 inline constexpr std::size_t max_packs = 256;
 inline constexpr std::string_view allowed_public_keys =
@@ -65,7 +65,7 @@ void distortion_settings(auto& fields, auto& lens) {
 }
 
 template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
-    const Pinhole usual = ProjectorSettings().pinhole;
+    const geometry::Pinhole usual = ProjectorSettings().pinhole;
     fields.integer("width", pinhole.width, 64, 8192, "columns of the picture; the projector's own");
     fields.integer("height", pinhole.height, 64, 8192, "rows of the picture; the projector's own");
     double throw_ratio = usual.fx / usual.width;
@@ -336,8 +336,10 @@ template <typename Fields> void key_settings(Fields& fields, auto& key) {
     fields.text("name", key.name, "whose key it is, for messages");
     fields.parsed(
         "public_key", key.key,
-        [](const PublicKey& value) { return value == PublicKey{} ? std::string() : public_key_line(value); },
-        parse_public_key, allowed_public_keys,
+        [](const pack::PublicKey& value) {
+            return value == pack::PublicKey{} ? std::string() : pack::public_key_line(value);
+        },
+        pack::parse_public_key, allowed_public_keys,
         "the second line of NAME.pub, which frustumscreen-pack keygen writes");
     fields.parsed(
         "until", key.until,
@@ -388,7 +390,7 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
                    "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first");
     fields.tables(
-        "keys", exhibit.keys, max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
+        "keys", exhibit.keys, pack::max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
         "the museum's public keys: what comes on a stick must be signed with one of them");
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
@@ -459,4 +461,4 @@ void all_settings(auto& file, auto& settings) {
         [&](auto& fields) { hours_settings(fields, settings.hours); });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

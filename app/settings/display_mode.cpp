@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::string text_of(const DisplayMode& mode) {
                                  : fmt::format("{}x{}", mode.width, mode.height);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

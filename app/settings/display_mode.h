@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 struct DisplayMode {
     int width = 0; ///< pixels; 0: "preferred"
@@ -20,4 +20,4 @@ struct DisplayMode {
 [[nodiscard]] std::optional<DisplayMode> parse_display_mode(std::string_view text);
 [[nodiscard]] std::string text_of(const DisplayMode& mode);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -6,7 +6,7 @@
 
 #include "app/settings/settings.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// A prop that is not tracked cannot be moved, so there is nothing to advise.
 [[nodiscard]] inline bool guides_visitors(const Settings& settings) {
@@ -23,4 +23,4 @@ namespace frustumscreen {
     return !settings.exhibit.words.empty();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

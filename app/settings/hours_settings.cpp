@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::optional<std::string> parse_time_zone(std::string_view text) {
     return is_name ? std::optional(std::string(text)) : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

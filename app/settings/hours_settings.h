@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 inline constexpr int minutes_a_day = 24 * 60;
 
@@ -47,4 +47,4 @@ struct HoursSettings {
     std::string time_zone; ///< empty: the machine's
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

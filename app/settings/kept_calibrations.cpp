@@ -9,7 +9,7 @@
 #include <cstring>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -111,4 +111,4 @@ Result<KeptCalibration> undo_calibration(WritableTree& folder) {
     return newest;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 inline constexpr std::size_t max_kept_calibrations = 3;
 
@@ -31,4 +31,4 @@ struct KeptCalibration {
 /// Makes the one before the newest count again. Returns the undone one. Errors: there is none.
 [[nodiscard]] Result<KeptCalibration> undo_calibration(WritableTree& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::optional<std::string> parse_language_tag(std::string_view tag) {
     return usual;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 inline constexpr std::string_view allowed_language_tags =
     "language tags such as \"en\" or \"de-CH\", which begin with a code of ISO 639";
@@ -18,4 +18,4 @@ inline constexpr std::string_view allowed_language_tags =
 /// language. Codes of three letters are not looked up.
 [[nodiscard]] std::optional<std::string> parse_language_tag(std::string_view tag);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -14,10 +14,10 @@ constexpr double min_share_of_brightest = 0.25;
 constexpr int yaws = 30; ///< over a quarter turn, after which a square prop looks the same
 
 /// Adds the prop in one pose, given by the lens in the prop's frame.
-void include(const PropShape& prop, const glm::dvec3& lens, LightRange& range) {
+void include(const geometry::PropShape& prop, const glm::dvec3& lens, LightRange& range) {
     double darkest = std::numeric_limits<double>::infinity();
     double brightest = 0.0;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         const double at_middle = received_light(face.plane, face.middle(), lens);
         darkest = std::min(darkest, at_middle);
         brightest = std::max(brightest, at_middle);
@@ -33,7 +33,7 @@ void include(const PropShape& prop, const glm::dvec3& lens, LightRange& range) {
 
 } // namespace
 
-double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector) {
+double received_light(const geometry::Plane& face, const glm::dvec3& point, const glm::dvec3& projector) {
     const double d = glm::distance(projector, point);
     return face.distance(projector) / (d * d * d);
 }
@@ -43,7 +43,7 @@ glm::dvec2 reach_on_table(const PropSettings& prop, const TableSettings& table) 
     return glm::max(0.5 * glm::dvec2(table.width_m, table.depth_m) - half_diagonal_m, glm::dvec2(0.0));
 }
 
-LightRange light_range(const PropShape& prop, const glm::dvec3& lens, const glm::dvec2& reach_m) {
+LightRange light_range(const geometry::PropShape& prop, const glm::dvec3& lens, const glm::dvec2& reach_m) {
     LightRange range{std::numeric_limits<double>::infinity(), 0.0, 1.0};
     for (int place = 0; place < 9; ++place) {
         const glm::dvec2 at = reach_m * glm::dvec2(place % 3 - 1, place / 3 - 1);
@@ -59,7 +59,7 @@ LightRange light_range(const PropShape& prop, const glm::dvec3& lens, const glm:
 }
 
 double even_light(const Settings& settings) {
-    const PropShape prop = make_prop(settings.prop);
+    const geometry::PropShape prop = make_prop(settings.prop);
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     if (settings.prop.zone == PropZone::Hand) {
         const double d = glm::distance(lens, glm::dvec3(0.0, 0.0, settings.prop.height_m));
@@ -69,4 +69,4 @@ double even_light(const Settings& settings) {
     return std::max(range.least, min_share_of_brightest * range.most);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -15,10 +15,11 @@
 
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// cos(theta) / d^2 at a point of a face; 0 or less if the projector is not above the face.
-[[nodiscard]] double received_light(const Plane& face, const glm::dvec3& point, const glm::dvec3& projector);
+[[nodiscard]] double received_light(const geometry::Plane& face, const glm::dvec3& point,
+                                    const glm::dvec3& projector);
 
 /// The farthest place of the prop's axis from the table's centre, along X and Y, with the whole bottom on the
 /// table at every yaw; 0 if the table is too small.
@@ -32,7 +33,7 @@ struct LightRange {
     double evenness = 1.0;
 };
 /// `lens`: table frame.
-[[nodiscard]] LightRange light_range(const PropShape& prop, const glm::dvec3& lens,
+[[nodiscard]] LightRange light_range(const geometry::PropShape& prop, const glm::dvec3& lens,
                                      const glm::dvec2& reach_m);
 
 /// Light that the prop sends back at every place, so that the artifact looks the same wherever the prop stands: the
@@ -41,4 +42,4 @@ struct LightRange {
 /// the table's centre.
 [[nodiscard]] double even_light(const Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

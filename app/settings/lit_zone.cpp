@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -36,7 +36,8 @@ struct PictureEdge {
 };
 
 std::array<PictureEdge, 4> picture_edges(const ProjectorSettings& projector) {
-    const std::array<Plane, 4> planes = picture_planes(projector.pinhole, projector.table_from_projector);
+    const std::array<geometry::Plane, 4> planes =
+        geometry::picture_planes(projector.pinhole, projector.table_from_projector);
     std::array<PictureEdge, 4> edges{};
     for (std::size_t k = 0; k < 4; ++k) {
         const glm::dvec3& inward = planes[k].normal;
@@ -71,9 +72,10 @@ struct TurnedFace {
     std::array<Round, 4> corners{};
 };
 
-TurnedFace turned(const PropFace& face) {
+TurnedFace turned(const geometry::PropFace& face) {
     const glm::dvec3& n = face.plane.normal;
-    TurnedFace result{glm::length(glm::dvec2(n)), n.z, face.plane.offset, {}};
+    TurnedFace result{
+        .run = glm::length(glm::dvec2(n)), .rise = n.z, .offset = face.plane.offset, .corners = {}};
     const double azimuth = result.run > 0.0 ? std::atan2(n.y, n.x) : 0.0;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
         const glm::dvec3& corner = face.corners[k];
@@ -99,8 +101,8 @@ struct Scene {
     explicit Scene(const Settings& settings)
         : edges(picture_edges(settings.projector)),
           lens(settings.projector.table_from_projector.translation) {
-        const PropShape prop = make_prop(settings.prop);
-        for (const PropFace& face : prop.faces) {
+        const geometry::PropShape prop = make_prop(settings.prop);
+        for (const geometry::PropFace& face : prop.faces) {
             const bool on_table = std::all_of(face.corners.begin(), face.corners.end(),
                                               [](const glm::dvec3& corner) { return corner.z == 0.0; });
             const TurnedFace turned_face = turned(face);
@@ -306,25 +308,25 @@ LitZone lit_zone(const Settings& settings) {
     return zone;
 }
 
-bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
+bool every_seen_face_is_lit(const Settings& settings, const geometry::RigidTransform& table_from_prop,
                             const glm::dvec3& eye) {
-    const PropShape prop = make_prop(settings.prop);
-    const RigidTransform prop_from_table = table_from_prop.inverse();
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+    const geometry::PropShape prop = make_prop(settings.prop);
+    const geometry::RigidTransform prop_from_table = table_from_prop.inverse();
+    const geometry::RigidTransform& table_from_projector = settings.projector.table_from_projector;
     const glm::dvec3 eye_prop = prop_from_table.point(eye);
     const glm::dvec3 lens_prop = prop_from_table.point(table_from_projector.translation);
-    const RigidTransform projector_from_prop = table_from_projector.inverse() * table_from_prop;
-    const Pinhole& pinhole = settings.projector.pinhole;
+    const geometry::RigidTransform projector_from_prop = table_from_projector.inverse() * table_from_prop;
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     const auto in_picture = [&](const glm::dvec3& corner) {
         const auto pixel = pinhole.pixel(projector_from_prop.point(corner));
         return pixel && pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x <= pinhole.width &&
                pixel->y <= pinhole.height;
     };
-    return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
+    return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const geometry::PropFace& face) {
         return face.plane.distance(eye_prop) <= 0.0 ||
                (face.plane.distance(lens_prop) >= min_sine_of_light * glm::length(lens_prop) &&
                 std::all_of(face.corners.begin(), face.corners.end(), in_picture));
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -20,7 +20,7 @@
 
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// About 2 degrees: a face lit at less gets under a tenth of the usual light of the steep faces.
 inline constexpr double min_sine_of_light = 0.035;
@@ -42,11 +42,12 @@ struct LitZone {
 [[nodiscard]] Rectangle lit_rectangle(const Settings& settings);
 
 /// Tests one pose, upright or not.
-[[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
+[[nodiscard]] bool every_seen_face_is_lit(const Settings& settings,
+                                          const geometry::RigidTransform& table_from_prop,
                                           const glm::dvec3& eye);
 
 /// The part of the table, lifted to height `z`, whose points lie in the picture together with a circle of radius
 /// `circle_m` around them. Convex.
 [[nodiscard]] Polygon picture_on_table(const Settings& settings, double z, double circle_m = 0.0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

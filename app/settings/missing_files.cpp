@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 std::vector<std::string> missing_files(const Settings& settings) {
     std::vector<std::string> lines;
@@ -43,4 +43,4 @@ std::vector<std::string> missing_files(const Settings& settings) {
     return lines;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// One sentence for each: where the settings name it, its path, what to do. A recording counts only if it is
 /// replayed.
 [[nodiscard]] std::vector<std::string> missing_files(const Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -14,14 +14,17 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
 constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{1} << 20;
 
 ReadState state_of(const std::filesystem::path& file) {
-    return {printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
+    return {.file = printable(file.string(), 4096),
+            .folder = file.parent_path(),
+            .lines = {},
+            .error = std::nullopt};
 }
 
 void read(ReadState& state, std::string_view text, Settings& settings) {
@@ -147,4 +150,4 @@ Result<CheckedSettings> kiosk_settings(std::string_view text, const std::filesys
     return CheckedSettings(std::move(settings));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

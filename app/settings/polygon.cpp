@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -100,4 +100,4 @@ double area_of(const Polygon& polygon) {
     return 0.5 * twice;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 using Polygon = std::vector<glm::dvec2>;
 
@@ -32,4 +32,4 @@ struct Rectangle {
 /// The largest rectangle along the axes about the polygon's centroid.
 [[nodiscard]] Rectangle rectangle_inside(const Polygon& polygon);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -1,20 +1,24 @@
 #include "app/settings/settings.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 PropSettings cube_settings(double edge_m) {
-    return {PropKind::Cube, edge_m, edge_m, edge_m, PropZone::Hand};
+    return {.kind = PropKind::Cube,
+            .base_m = edge_m,
+            .top_m = edge_m,
+            .height_m = edge_m,
+            .zone = PropZone::Hand};
 }
 
-PropShape make_prop(const PropSettings& prop) {
-    return prop.kind == PropKind::Cube ? make_cube(prop.base_m)
-                                       : make_frustum({prop.base_m, prop.top_m, prop.height_m});
+geometry::PropShape make_prop(const PropSettings& prop) {
+    return prop.kind == PropKind::Cube ? geometry::make_cube(prop.base_m)
+                                       : geometry::make_frustum({prop.base_m, prop.top_m, prop.height_m});
 }
 
-RigidTransform prop_from_tag(const TagSettings& tag) {
+geometry::RigidTransform prop_from_tag(const TagSettings& tag) {
     const glm::dquat leaned = glm::angleAxis(glm::radians(tag.lean_deg), glm::dvec3(1.0, 0.0, 0.0));
     const glm::dquat turned = glm::angleAxis(glm::radians(tag.turn_deg), glm::dvec3(0.0, 0.0, 1.0));
     return {turned * leaned, tag.centre_m};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

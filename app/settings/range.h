@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 struct Range {
     double low = 0.0;
@@ -20,4 +20,4 @@ struct Range {
     return fmt::format("{} to {}{}{}", range.low, range.high, range.unit.empty() ? "" : " ", range.unit);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -49,7 +49,7 @@ std::vector<EyeCorner> wedge_of(const EyesAround& eyes, int wedge) {
 }
 
 /// The part of the solid before the plane; `before` gets each corner's distance.
-std::vector<EyeCorner> in_front(const std::vector<EyeCorner>& corners, const Plane& plane,
+std::vector<EyeCorner> in_front(const std::vector<EyeCorner>& corners, const geometry::Plane& plane,
                                 std::vector<double>& before) {
     const auto distance = [&](const EyeCorner& c) {
         return glm::dot(plane.normal, c.x) - c.w * plane.offset;
@@ -77,7 +77,7 @@ std::vector<EyeCorner> in_front(const std::vector<EyeCorner>& corners, const Pla
 
 /// A face with coordinate axes in its plane.
 struct FaceAxes {
-    explicit FaceAxes(const PropFace& of)
+    explicit FaceAxes(const geometry::PropFace& of)
         : face(of), u(glm::normalize(of.corners[1] - of.corners[0])), v(glm::cross(of.plane.normal, u)),
           middle(of.middle()) {}
 
@@ -96,7 +96,7 @@ struct FaceAxes {
         return polygon;
     }
 
-    const PropFace& face;
+    const geometry::PropFace& face;
     glm::dvec3 u, v, middle;
 };
 
@@ -133,13 +133,14 @@ EyesAround eyes_like_default(const EyeSettings& eye) {
     return {std::atan2(at.z, glm::length(glm::dvec2(at))), glm::length(at), false};
 }
 
-Polygon seen_extent(const PropShape& prop, const EyesAround& eyes, std::span<const glm::dvec3> hull) {
+Polygon seen_extent(const geometry::PropShape& prop, const EyesAround& eyes,
+                    std::span<const glm::dvec3> hull) {
     std::vector<glm::dvec2> rounds;
     const auto add = [&](const glm::dvec3& place) {
         rounds.emplace_back(glm::length(glm::dvec2(place)), place.z);
     };
     std::vector<double> before;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         const FaceAxes axes(face);
         // An artifact that extends beyond the prop may be seen through all of the face.
         constexpr double rounding_m = 1e-9;
@@ -158,4 +159,4 @@ Polygon seen_extent(const PropShape& prop, const EyesAround& eyes, std::span<con
     return rounds.empty() ? Polygon() : convex_polygon(std::move(rounds));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -28,12 +28,13 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 struct ProjectorSettings {
-    Pinhole pinhole{1920, 1200, 3600.0, 3600.0, 960.0, 600.0}; ///< pixels
+    geometry::Pinhole pinhole{
+        .width = 1920, .height = 1200, .fx = 3600.0, .fy = 3600.0, .cx = 960.0, .cy = 600.0}; ///< pixels
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
-    RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
+    geometry::RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
     double refresh_hz = 60.0;
 };
 
@@ -55,14 +56,14 @@ enum class PropKind { Frustum, Cube };
 enum class PropZone { Table, Hand };
 struct PropSettings {
     PropKind kind = PropKind::Frustum;
-    double base_m = shipped_frustum.base_m; ///< side of the bottom square
-    double top_m = shipped_frustum.top_m;   ///< side of the top square
-    double height_m = shipped_frustum.height_m;
+    double base_m = geometry::shipped_frustum.base_m; ///< side of the bottom square
+    double top_m = geometry::shipped_frustum.top_m;   ///< side of the top square
+    double height_m = geometry::shipped_frustum.height_m;
     PropZone zone = PropZone::Table; ///< how it moves
 };
 /// A cube of the usual size, in the hand.
 [[nodiscard]] PropSettings cube_settings(double edge_m = 0.16);
-[[nodiscard]] PropShape make_prop(const PropSettings& prop);
+[[nodiscard]] geometry::PropShape make_prop(const PropSettings& prop);
 
 struct TableSettings {
     double width_m = 0.8;
@@ -89,7 +90,7 @@ struct TrackerSettings {
     std::string poses_key;       ///< where the settings name it, for messages
     double replay_speed = 1.0;
     glm::dvec3 hemisphere{1.0, 0.0, 0.0}; ///< in the tracker's axes
-    Registration registration;            ///< of a device that reports in its own frame
+    geometry::Registration registration;  ///< of a device that reports in its own frame
     double display_latency_ms = 17.0;
 };
 
@@ -136,8 +137,8 @@ struct ExhibitSettings {
     bool table_pictures = true;      ///< pictures of the set lie on the table, to choose from
     double rest_s = 60.0; ///< time without visitors until artifacts come in turn, in the first language
     int memory_mb = 192;  ///< 10^6 bytes that loaded artifacts may take
-    std::vector<TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
-    UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
+    std::vector<pack::TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
+    pack::UnsignedPacks unsigned_packs = pack::UnsignedPacks::Refuse; ///< from a stick
     /// The importer's report on a stick (library/import_report.h); missing: there is none. Resolved as above.
     std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
     /// Numbers of visits (counts/day_counts.h); missing folder: nothing is counted. Resolved as above.
@@ -170,7 +171,7 @@ struct TagSettings {
     double lean_deg = 0.0; ///< before the turn: 0 lies, 90 stands and looks outwards, from where its foot was
 };
 /// The tag flat, then leaned, then turned, then moved.
-[[nodiscard]] RigidTransform prop_from_tag(const TagSettings& tag);
+[[nodiscard]] geometry::RigidTransform prop_from_tag(const TagSettings& tag);
 struct CameraSettings {
     CameraKind kind = CameraKind::None;
     std::string device = "any";
@@ -185,8 +186,13 @@ struct CameraSettings {
     bool visitor = false;            ///< the visitor's eye, with nothing on the head
     bool drift = false;              ///< checks that the picture lies where it was calibrated
     std::vector<TagSettings> tag;
-    Pinhole pinhole{1280, 720, 0.0, 0.0, 640.0, 360.0}; ///< fx of 0: not measured
-    RigidTransform table_from_camera;                   ///< identity: not measured
+    geometry::Pinhole pinhole{.width = 1280,
+                              .height = 720,
+                              .fx = 0.0,
+                              .fy = 0.0,
+                              .cx = 640.0,
+                              .cy = 360.0};     ///< fx of 0: not measured
+    geometry::RigidTransform table_from_camera; ///< identity: not measured
 };
 
 struct RenderSettings {
@@ -249,4 +255,4 @@ private:
 [[nodiscard]] Result<CheckedSettings> parse_settings(std::string_view text,
                                                      const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -43,7 +43,8 @@ public:
     void input(const char* key, const glm::dvec3& value, const Range& range, std::string_view sentence) {
         vector(key, value, range, sentence);
     }
-    void rigid(const char* key, const RigidTransform& value, const Range& range, std::string_view sentence) {
+    void rigid(const char* key, const geometry::RigidTransform& value, const Range& range,
+               std::string_view sentence) {
         const glm::dmat4 matrix = value.matrix();
         const std::span<const double> numbers(&matrix[0][0], 16);
         row(key, fmt::format("`[{}]`", fmt::join(numbers, ", ")), "16 numbers, each " + words_of(range),
@@ -132,4 +133,4 @@ std::string settings_page() {
     return page.text();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -5,8 +5,8 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 [[nodiscard]] std::string settings_page();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -13,7 +13,7 @@ constexpr std::uintmax_t max_bytes = 1U << 20U;
 } // namespace
 
 Result<std::string> settings_to_share(std::string_view text) {
-    ReadState state{"kiosk.toml", {}, {}, std::nullopt};
+    ReadState state{.file = "kiosk.toml", .folder = {}, .lines = {}, .error = std::nullopt};
     std::string shared;
     read_toml(state, text, max_bytes, [&](const toml::table& root) {
         toml::table without = root;
@@ -33,4 +33,4 @@ Result<std::string> settings_to_share(std::string_view text) {
     return shared;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// `text`: of a kiosk.toml, right or wrong, in TOML. The order of its tables is that of their names.
 [[nodiscard]] Result<std::string> settings_to_share(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -12,7 +12,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -275,13 +275,13 @@ void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& r
     value = read;
 }
 
-void TableReader::rigid(std::string_view key, RigidTransform& value, const Range& range,
+void TableReader::rigid(std::string_view key, geometry::RigidTransform& value, const Range& range,
                         std::string_view /*sentence*/) {
     glm::dmat4 matrix = value.matrix();
     read_matrix(key, matrix, range);
-    if (const auto rigid = rigid_from_matrix(matrix)) {
+    if (const auto rigid = geometry::rigid_from_matrix(matrix)) {
         value = *rigid;
-    } else if (rigid_from_matrix(glm::transpose(matrix))) {
+    } else if (geometry::rigid_from_matrix(glm::transpose(matrix))) {
         refuse("settings.row_by_row", key,
                "is written row by row; allowed is column by column: numbers 13 to 15 are the translation in "
                "metres");
@@ -408,4 +408,4 @@ void TableReader::finish() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// Line of every key that was read, by its dotted name; a key missing in the file has none.
 using KeyLines = std::map<std::string, std::uint32_t, std::less<>>;
@@ -59,7 +59,8 @@ public:
         vector(key, value, range);
     }
     /// 16 numbers, column-major.
-    void rigid(std::string_view key, RigidTransform& value, const Range& range, std::string_view sentence);
+    void rigid(std::string_view key, geometry::RigidTransform& value, const Range& range,
+               std::string_view sentence);
     void flag(std::string_view key, bool& value, std::string_view sentence);
     void integer(std::string_view key, int& value, int low, int high, std::string_view sentence);
     void integer(std::string_view key, std::uint64_t& value, std::string_view sentence);
@@ -167,4 +168,4 @@ private:
     std::vector<std::string> known_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
@@ -85,4 +85,4 @@ void read_toml(ReadState& state, std::string_view text, std::uintmax_t max_bytes
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -8,11 +8,11 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// Passes the file's table to `read`, or keeps in `state` why there is none; an exception from `read` is kept there
 /// too.
 void read_toml(ReadState& state, std::string_view text, std::uintmax_t max_bytes,
                const std::function<void(const toml::table&)>& read);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -8,20 +8,20 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 namespace {
 
 /// The distance from the lens's foot up to which every face is turned to the light at every yaw, by FaceReader's
 /// criterion: the sine at the farthest corner. Negative if there is none. Compare radius_lit_at_foot in lit_zone.cpp.
-double radius_lit_at_farthest_corner(const PropShape& prop, const glm::dvec3& lens) {
+double radius_lit_at_farthest_corner(const geometry::PropShape& prop, const glm::dvec3& lens) {
     double reach = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
         reach = std::fmax(reach, glm::length(corner));
     }
     const auto lit = [&](double radius) {
         const double farthest = std::hypot(radius, lens.z) + reach;
-        return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
+        return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const geometry::PropFace& face) {
             const glm::dvec3& n = face.plane.normal;
             const double height = n.z * lens.z - face.plane.offset - glm::length(glm::dvec2(n)) * radius;
             return height >= min_sine_of_light * farthest;
@@ -41,7 +41,7 @@ double radius_lit_at_farthest_corner(const PropShape& prop, const glm::dvec3& le
 
 /// The table top without a rim. A prop stands firmly if its axis is at least half its foot's reach from the table's
 /// edge; a corner of the foot may then extend beyond the edge.
-Polygon places_on_table(const TableSettings& table, const PropShape& prop) {
+Polygon places_on_table(const TableSettings& table, const geometry::PropShape& prop) {
     double rim = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
         rim = std::fmax(rim, 0.5 * glm::length(glm::dvec2(corner)));
@@ -58,15 +58,15 @@ WholeZone whole_zone(const Settings& settings, const EyesAround& eyes, std::span
         const LitZone lit = lit_zone(settings);
         return {lit.any_eye, lit.any_eye_rectangle};
     }
-    const PropShape prop = make_prop(settings.prop);
+    const geometry::PropShape prop = make_prop(settings.prop);
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     const double radius = radius_lit_at_farthest_corner(prop, lens);
     Polygon places = radius > 0.0 ? places_on_table(settings.table, prop) : Polygon();
     // The circle about the prop's axis through which the artifact is seen must lie in the picture.
-    const std::array<Plane, 4> picture =
-        picture_planes(settings.projector.pinhole, settings.projector.table_from_projector);
+    const std::array<geometry::Plane, 4> picture =
+        geometry::picture_planes(settings.projector.pinhole, settings.projector.table_from_projector);
     for (const glm::dvec2& round : seen_extent(prop, eyes, hull)) {
-        for (const Plane& edge : picture) {
+        for (const geometry::Plane& edge : picture) {
             const glm::dvec2 inward(edge.normal);
             places = clipped(places,
                              {inward, edge.offset - edge.normal.z * round.y + glm::length(inward) * round.x});
@@ -86,7 +86,7 @@ WholeZone whole_zone(const Settings& settings, const EyesAround& eyes, std::span
     return {places, rectangle_inside(places)};
 }
 
-std::vector<glm::dvec3> usual_artifact(const PropShape& prop) {
+std::vector<glm::dvec3> usual_artifact(const geometry::PropShape& prop) {
     constexpr int around = 16;
     constexpr int rings = 8;
     constexpr double half_width = 0.325; // of a height of 1
@@ -100,11 +100,11 @@ std::vector<glm::dvec3> usual_artifact(const PropShape& prop) {
                                  0.5 + 0.5 * std::sin(latitude));
         }
     }
-    const double scale = largest_scale_inside(prop, corners);
+    const double scale = geometry::largest_scale_inside(prop, corners);
     for (glm::dvec3& corner : corners) {
         corner *= scale;
     }
     return corners;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

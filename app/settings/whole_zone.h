@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 /// Eyes all around the prop, by their distance and elevation seen from the middle of its foot.
 struct EyesAround {
@@ -36,7 +36,7 @@ struct EyesAround {
 
 /// How far from the prop's axis these eyes look through the prop, and at which heights: the convex outline of all
 /// pairs (distance, height). Empty if they see nothing of the artifact.
-[[nodiscard]] Polygon seen_extent(const PropShape& prop, const EyesAround& eyes,
+[[nodiscard]] Polygon seen_extent(const geometry::PropShape& prop, const EyesAround& eyes,
                                   std::span<const glm::dvec3> hull);
 
 struct WholeZone {
@@ -48,6 +48,6 @@ struct WholeZone {
                                    std::span<const glm::dvec3> hull);
 
 /// A typical artifact for planning: an ellipsoid, 0.65 times as wide as high, as large as fits into the prop.
-[[nodiscard]] std::vector<glm::dvec3> usual_artifact(const PropShape& prop);
+[[nodiscard]] std::vector<glm::dvec3> usual_artifact(const geometry::PropShape& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -28,29 +28,34 @@ constexpr std::array<std::string_view, 2> other_keys{attract_key, "fault.no_arti
 constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
 
 /// The languages of the file that are nearest to some shown language.
-std::set<std::string> nearest(const std::vector<WordsLanguage>& listed,
+std::set<std::string> nearest(const std::vector<pack::WordsLanguage>& listed,
                               const std::vector<std::string>& shown) {
     std::vector<std::string> there;
     std::transform(listed.begin(), listed.end(), std::back_inserter(there),
-                   [](const WordsLanguage& language) { return language.language; });
+                   [](const pack::WordsLanguage& language) { return language.language; });
     std::set<std::string> chosen;
     for (const std::string& language : shown) {
-        chosen.insert(there[caption_for(language, there)]);
+        chosen.insert(there[exhibit::caption_for(language, there)]);
     }
     return chosen;
 }
 
-SharedRecording recording_of(const LanguageWords& words, const std::string& key) {
+residency::SharedRecording recording_of(const pack::LanguageWords& words, const std::string& key) {
     const auto sound = words.sounds.find(key);
     if (sound == words.sounds.end()) {
         return nullptr;
     }
-    return std::make_shared<const PromptRecording>(PromptRecording{
-        fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}});
+    return std::make_shared<const residency::PromptRecording>(
+        residency::PromptRecording{.name = fmt::format("{} in '{}'", key, words.language),
+                                   .opus = sound->second,
+                                   .pack = {},
+                                   .language = words.language,
+                                   .key = key,
+                                   .portions = {}});
 }
 
 /// The exhibit's key of a word; nothing: the exhibit does not use it.
-std::optional<std::string> key_of(const PlainWord& word) {
+std::optional<std::string> key_of(const pack::PlainWord& word) {
     if (word.key.starts_with(advice_prefix)) {
         return word.key.substr(advice_prefix.size());
     }
@@ -59,21 +64,22 @@ std::optional<std::string> key_of(const PlainWord& word) {
                : std::nullopt;
 }
 
-void add_language(const LanguageWords& words, const AdviceWordsRequest& request, AdviceWords& all) {
-    AdviceLanguage language{words.language, {}};
+void add_language(const pack::LanguageWords& words, const AdviceWordsRequest& request, AdviceWords& all) {
+    exhibit::AdviceLanguage language{words.language, {}};
     std::vector<AdviceWord> made;
-    for (const PlainWord& word : words.words) {
-        const GlyphText* const set = words.runs.find(word.key);
+    for (const pack::PlainWord& word : words.words) {
+        const pack::GlyphText* const set = words.runs.find(word.key);
         const std::optional<std::string> key = key_of(word);
         if (!key || set == nullptr) {
             continue;
         }
-        AdviceText text{*key, {}};
+        exhibit::AdviceText text{*key, {}};
         AdviceWord one{all.pictures.size(), nullptr};
         for (const double width_em : widths_em) {
-            const GlyphPart part{CaptionRole::Text, set};
-            CaptionImage image = make_caption(words.runs, words.atlas, std::span(&part, 1), request.em_m,
-                                              width_em * request.em_m, request.texels_per_m);
+            const typography::GlyphPart part{typography::CaptionRole::Text, set};
+            typography::CaptionImage image =
+                typography::make_caption(words.runs, words.atlas, std::span(&part, 1), request.em_m,
+                                         width_em * request.em_m, request.texels_per_m);
             text.sizes_m.push_back(image.size_m);
             all.pictures.push_back(std::move(image.coverage));
         }
@@ -91,43 +97,45 @@ void add_language(const LanguageWords& words, const AdviceWordsRequest& request,
 
 Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request) {
     TRY(const Bytes file, read_file(request.file));
-    TRY(const std::vector<WordsLanguage> listed, at(request.file.string(), list_words(file)));
+    TRY(const std::vector<pack::WordsLanguage> listed, at(request.file.string(), pack::list_words(file)));
     AdviceWords all;
     for (const std::string& language : nearest(listed, request.languages)) {
-        TRY(const LanguageWords words, at(request.file.string(), read_words(file, language)));
+        TRY(const pack::LanguageWords words, at(request.file.string(), pack::read_words(file, language)));
         add_language(words, request, all);
     }
     return all;
 }
 
 Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
-                              const TextStyle& style, AdviceWords& words) {
+                              const residency::TextStyle& style, AdviceWords& words) {
     std::vector<std::string> there;
     std::transform(lines.begin(), lines.end(), std::back_inserter(there),
                    [](const AttractLine& line) { return line.language; });
     if (there.empty()) {
         return {};
     }
-    CaptionSetter setter(style);
-    TRY(std::vector<CaptionImage> images,
-        setter.set({{}, {{CaptionRole::Text, {}, lines[caption_for(language, there)].text}}}, {}));
+    residency::CaptionSetter setter(style);
+    TRY(std::vector<typography::CaptionImage> images,
+        setter.set(
+            {{}, {{typography::CaptionRole::Text, {}, lines[exhibit::caption_for(language, there)].text}}},
+            {}));
     if (words.languages.empty()) {
         words.languages.push_back({language, {}});
         words.words.emplace_back();
     }
     std::vector<std::string> known;
     std::transform(words.languages.begin(), words.languages.end(), std::back_inserter(known),
-                   [](const AdviceLanguage& each) { return each.language; });
-    const std::size_t house = caption_for(language, known);
-    AdviceText line{std::string(attract_key), {}};
+                   [](const exhibit::AdviceLanguage& each) { return each.language; });
+    const std::size_t house = exhibit::caption_for(language, known);
+    exhibit::AdviceText line{std::string(attract_key), {}};
     const AdviceWord word{words.pictures.size(), nullptr};
-    for (CaptionImage& image : images) {
+    for (typography::CaptionImage& image : images) {
         line.sizes_m.push_back(image.size_m);
         words.pictures.push_back(std::move(image.coverage));
     }
-    std::vector<AdviceText>& texts = words.languages[house].texts;
+    std::vector<exhibit::AdviceText>& texts = words.languages[house].texts;
     const auto old = std::find_if(texts.begin(), texts.end(),
-                                  [](const AdviceText& text) { return text.key == attract_key; });
+                                  [](const exhibit::AdviceText& text) { return text.key == attract_key; });
     if (old != texts.end()) {
         AdviceWord& replaced = words.words[house][static_cast<std::size_t>(old - texts.begin())];
         for (std::size_t shape = 0; shape < old->sizes_m.size(); ++shape) {
@@ -142,4 +150,4 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

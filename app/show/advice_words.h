@@ -16,18 +16,18 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// One sentence, wrapped to each of the captions' widths, and spoken.
 struct AdviceWord {
     std::size_t first_picture = 0; ///< index into AdviceWords::pictures: one for each of AdviceText::sizes_m
-    SharedRecording recording;     ///< none: silent
+    residency::SharedRecording recording; ///< none: silent
 };
 
 struct AdviceWords {
-    std::vector<AdviceLanguage> languages;      ///< for the exhibit
-    std::vector<std::vector<AdviceWord>> words; ///< [language][text], in the same order
-    TextPictures pictures;
+    std::vector<exhibit::AdviceLanguage> languages; ///< for the exhibit
+    std::vector<std::vector<AdviceWord>> words;     ///< [language][text], in the same order
+    residency::TextPictures pictures;
 };
 
 struct AdviceWordsRequest {
@@ -48,6 +48,6 @@ struct AttractLine {
 };
 /// Sets the line nearest to the house's `language` in the kiosk's typeface, and ignores the others.
 [[nodiscard]] Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
-                                            const TextStyle& style, AdviceWords& words);
+                                            const residency::TextStyle& style, AdviceWords& words);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -15,7 +15,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -24,30 +24,36 @@ constexpr double sample_side_m = 0.05;
 
 } // namespace
 
-Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& settings,
-                                                           const DevicePlan& devices,
+Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Settings& settings,
+                                                           const scene::DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
-                                                           const RenderTarget& target) {
-    const Pinhole& pinhole = settings.projector.pinhole;
-    TRY(Renderer renderer, Renderer::create(pinhole.width, pinhole.height));
+                                                           const render::RenderTarget& target) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    TRY(render::Renderer renderer, render::Renderer::create(pinhole.width, pinhole.height));
     std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(renderer)));
-    show->set_options_ = {options.technique,
-                          options.samples,
-                          options.cull_kinds,
-                          options.program,
-                          options.waits,
-                          devices,
-                          draws_on_processor(gl_driver_name()) ? 0 : max_blocks_on_gpu()};
+    show->set_options_ = {.technique = options.technique,
+                          .samples = options.samples,
+                          .cull_kinds = options.cull_kinds,
+                          .program = options.program,
+                          .waits = options.waits,
+                          .devices = devices,
+                          .max_blocks_on_gpu = display::draws_on_processor(display::gl_driver_name())
+                                                   ? 0
+                                                   : render::max_blocks_on_gpu()};
     TRY_VOID(show->upload_what_stays(settings));
-    TRY(show->set_,
-        open_set(settings, show->set_options(),
-                 {options.set_number, options.packs, options.packs_key, options.attract}, std::nullopt));
+    TRY(show->set_, open_set(settings, show->set_options(),
+                             {.number = options.set_number,
+                              .packs = options.packs,
+                              .packs_key = options.packs_key,
+                              .attract = options.attract},
+                             std::nullopt));
     show->needs_ = show->set_->needs;
     if (options.other_sets) {
         const bool blocks =
-            show->set_options_.max_blocks_on_gpu > 0 || options.technique.ends_with(on_gpu_suffix);
-        show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples, blocks));
-        show->may_speak_ = settings.sound.kind != SoundKind::None;
+            show->set_options_.max_blocks_on_gpu > 0 || options.technique.ends_with(scene::on_gpu_suffix);
+        show->needs_ =
+            scene::united(show->needs_, residency::needs_of_any_pack(settings, options.samples, blocks));
+        show->may_speak_ = settings.sound.kind != settings::SoundKind::None;
     }
     TRY_VOID(show->renderer_.prepare(show->needs_));
     TRY_VOID(show->upload_set(options.other_sets));
@@ -58,11 +64,11 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     return show;
 }
 
-Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
-    if (shows_zone_frame(settings)) {
-        TRY(white_, renderer_.store().upload(Image<std::uint8_t>(1, 1, 255)));
+Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings) {
+    if (settings::shows_zone_frame(settings)) {
+        TRY(white_, renderer_.store().upload(image::Image<std::uint8_t>(1, 1, 255)));
     }
-    if (tells_of_sticks(settings)) {
+    if (settings::tells_of_sticks(settings)) {
         TRY_VOID(notice_.prepare(renderer_.store()));
     }
     if (settings.camera.drift) {
@@ -72,11 +78,11 @@ Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
 }
 
 Result<void> ArtifactShow::upload_set(bool hotspots) {
-    GpuStore& store = renderer_.store();
-    if (hotspots || std::any_of(catalogue().begin(), catalogue().end(), [](const CatalogueEntry& entry) {
-            return !entry.hotspots.hotspots.empty();
-        })) {
-        TRY(hotspots_, HotspotShow::create(store));
+    render::GpuStore& store = renderer_.store();
+    if (hotspots ||
+        std::any_of(catalogue().begin(), catalogue().end(),
+                    [](const exhibit::CatalogueEntry& entry) { return !entry.hotspots.hotspots.empty(); })) {
+        TRY(hotspots_, residency::HotspotShow::create(store));
     }
     constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
     TRY_VOID(set_->word_pictures.upload(store, all));
@@ -85,96 +91,110 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
 }
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
-    return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
+    return (white_ != scene::TextureId::None ? scene::caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
            hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes() + marks_.planned_gpu_bytes();
 }
 
-void ArtifactShow::note_language(const Settings& settings) {
+void ArtifactShow::note_language(const settings::Settings& settings) {
     const std::vector<std::string>& languages = set_->languages;
     if (!settings.exhibit.captions || languages.empty() ||
-        has_language(languages, settings.exhibit.language)) {
+        exhibit::has_language(languages, settings.exhibit.language)) {
         return;
     }
     const std::vector<std::string>& shown = catalogue().front().languages;
-    notes_.push_back(fmt::format(
-        "no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
-        shown.empty() ? settings.exhibit.language : shown[caption_for(settings.exhibit.language, shown)],
-        fmt::join(languages, ", ")));
+    notes_.push_back(
+        fmt::format("no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
+                    shown.empty() ? settings.exhibit.language
+                                  : shown[exhibit::caption_for(settings.exhibit.language, shown)],
+                    fmt::join(languages, ", ")));
 }
 
 /// Measures at the middle of the table, seen by the default eye. Later artifacts are expected to cost as much as the
 /// first one, triangle for triangle and sample for sample.
-void ArtifactShow::measure(const Settings& settings, const RenderTarget& target, bool other_sets) {
-    PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
-    ArtifactCache& artifact_cache = *set_->artifact_cache;
-    RunLevels& first = *artifact_cache.find(0);
-    const ScenePlan& plan = artifact_cache.known(0).plan;
+void ArtifactShow::measure(const settings::Settings& settings, const render::RenderTarget& target,
+                           bool other_sets) {
+    scene::PlanView view{.projector = projector_,
+                         .table_from_projector = table_from_projector_,
+                         .table_from_prop = {},
+                         .eyes_m = std::span(&settings.eye.default_m, 1)};
+    residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
+    residency::RunLevels& first = *artifact_cache.find(0);
+    const scene::ScenePlan& plan = artifact_cache.known(0).plan;
     view.light = plan.light;
     view.brightness = artifact_cache.exposure(0);
     if (plan.quality_levels.size() > 1 || artifact_cache.size() > 1 || other_sets) {
         first.measure(prop_, view, renderer_, target);
     }
     warm_up(view, target);
-    expected_ = {cost_of(first.times()), prop_, view, settings.eye.default_m};
+    expected_ = {
+        .cost = scene::cost_of(first.times()), .prop = prop_, .view = view, .eye_m = settings.eye.default_m};
     expected_.view.eyes_m = {};
     artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
 /// Draws a whole picture and one that redraws only what moved, each with one of every picture on the table: drivers
 /// compile on first use, and this should happen before the first frame.
-void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
+void ArtifactShow::warm_up(scene::PlanView view, const render::RenderTarget& target) {
     if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue().front().caption_sizes_m;
         !sizes.empty()) {
         for (std::size_t language = 0; language < sizes.size() && !view.caption; ++language) {
-            if (const LoadedTexts* const caption =
-                    set_->artifact_cache->texts(0, TextPart::Caption, language)) {
-                view.caption = TablePicture{picture_corners({attract_place_m_, sizes[language].front()}), 1.0,
-                                            caption->texture(0)};
+            if (const residency::LoadedTexts* const caption =
+                    set_->artifact_cache->texts(0, residency::TextPart::Caption, language)) {
+                view.caption = scene::TablePicture{
+                    .corners_m = residency::picture_corners({attract_place_m_, sizes[language].front()}),
+                    .brightness = 1.0,
+                    .texture = caption->texture(0)};
             }
         }
     }
     on_table_.clear();
     set_->table.place_samples(attract_place_m_, on_table_);
     const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
-    const TextureId word = !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
+    const scene::TextureId word =
+        !words.empty() && !words.front().empty() ? set_->word({}, 0) : scene::TextureId::None;
     const auto [ring, notice] = notice_.samples();
-    for (const TextureId texture : {white_, ring, notice, marks_.texture(), signs_.front(), word}) {
-        if (texture != TextureId::None) {
-            on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
+    for (const scene::TextureId texture : {white_, ring, notice, marks_.texture(), signs_.front(), word}) {
+        if (texture != scene::TextureId::None) {
+            on_table_.add(
+                {.corners_m = residency::picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}),
+                 .brightness = 1.0,
+                 .texture = texture});
         }
     }
     view.on_table = on_table_.pictures();
-    RenderTarget drawn = target;
-    for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
+    render::RenderTarget drawn = target;
+    for (const render::Redraw redraw : {render::Redraw::Everything, render::Redraw::Changes}) {
         static_cast<void>(set_->artifact_cache->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
-    wait_until_drawn();
+    render::wait_until_drawn();
 }
 
-ArtifactShow::ArtifactShow(const Settings& settings, Renderer renderer)
+ArtifactShow::ArtifactShow(const settings::Settings& settings, render::Renderer renderer)
     : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
-      prop_(make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
+      prop_(settings::make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
       renderer_(std::move(renderer)), names_{settings.exhibit.language}, attract_place_m_(0.0),
-      picture_m_(picture_on_table(settings, 0.0)), dark_(make_plan(prop_, 0, 1)) {
-    const Rectangle zone = lit_rectangle(settings);
+      picture_m_(settings::picture_on_table(settings, 0.0)), dark_(scene::make_plan(prop_, 0, 1)) {
+    const settings::Rectangle zone = settings::lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
-    if (shows_zone_frame(settings)) {
-        zone_ = ZoneFrame(zone, 0.5 * settings.prop.base_m, {settings.table.width_m, settings.table.depth_m});
+    if (settings::shows_zone_frame(settings)) {
+        zone_ = exhibit::ZoneFrame(zone, 0.5 * settings.prop.base_m,
+                                   {settings.table.width_m, settings.table.depth_m});
     }
 }
 
-Result<void> ArtifactShow::upload_signs(const Settings& settings) {
-    if (!guides_visitors(settings)) {
+Result<void> ArtifactShow::upload_signs(const settings::Settings& settings) {
+    if (!settings::guides_visitors(settings)) {
         return {};
     }
-    const double texels_per_m = text_style(settings).texels_per_m;
+    const double texels_per_m = residency::text_style(settings).texels_per_m;
     for (std::size_t k = 0; k < signs_.size(); ++k) {
-        const Image<std::uint8_t> picture = sign_picture(static_cast<Sign>(k), texels_per_m);
-        TRY(const TextureId texture, renderer_.store().upload(picture));
+        const image::Image<std::uint8_t> picture =
+            exhibit::sign_picture(static_cast<exhibit::Sign>(k), texels_per_m);
+        TRY(const scene::TextureId texture, renderer_.store().upload(picture));
         signs_.at(k) = texture;
-        planned_sign_bytes_ += caption_gpu_bytes(picture.width, picture.height);
+        planned_sign_bytes_ += scene::caption_gpu_bytes(picture.width, picture.height);
     }
     return {};
 }
@@ -193,7 +213,7 @@ std::string_view ArtifactShow::kept(std::string_view name) const {
 }
 
 Result<void> ArtifactShow::prepare(const ShownSet& set) {
-    needs_ = united(needs_, set.needs);
+    needs_ = scene::united(needs_, set.needs);
     return renderer_.prepare(needs_);
 }
 
@@ -210,82 +230,100 @@ bool ArtifactShow::speaks() const {
     return may_speak_ || set_->speaks();
 }
 
-std::optional<TablePicture> ArtifactShow::place_advice(const Presentation& presentation) const {
+std::optional<scene::TablePicture>
+ArtifactShow::place_advice(const exhibit::Presentation& presentation) const {
     if (!presentation.advice) {
         return std::nullopt;
     }
-    const PresentedAdvice& advice = *presentation.advice;
-    return TablePicture{picture_corners(on_pixels(advice.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * advice.brightness, set_->word(advice.word, advice.shape)};
+    const exhibit::PresentedAdvice& advice = *presentation.advice;
+    return scene::TablePicture{.corners_m = residency::picture_corners(
+                                   residency::on_pixels(advice.rectangle, projector_, table_from_projector_)),
+                               .brightness = caption_brightness_ * advice.brightness,
+                               .texture = set_->word(advice.word, advice.shape)};
 }
 
-void ArtifactShow::place_zone_frame(const Presentation& presentation) {
-    if (white_ == TextureId::None) {
+void ArtifactShow::place_zone_frame(const exhibit::Presentation& presentation) {
+    if (white_ == scene::TextureId::None) {
         return;
     }
-    const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
-    for (const TableRectangle& side : presentation.zone_sides) {
-        on_table_.add({picture_corners(side), brightness, white_});
+    const double brightness = exhibit::zone_brightness * caption_brightness_ * presentation.zone_share;
+    for (const typography::TableRectangle& side : presentation.zone_sides) {
+        on_table_.add(
+            {.corners_m = residency::picture_corners(side), .brightness = brightness, .texture = white_});
     }
 }
 
-void ArtifactShow::place_hotspot(const Presentation& presentation) {
+void ArtifactShow::place_hotspot(const exhibit::Presentation& presentation) {
     if (!presentation.hotspot) {
         return;
     }
-    const PresentedHotspot& hotspot = *presentation.hotspot;
-    const CatalogueEntry& entry = catalogue()[hotspot.artifact];
-    const LoadedTexts* const texts =
-        set_->artifact_cache->texts(hotspot.artifact, TextPart::NarrationSequencer, hotspot.language);
+    const exhibit::PresentedHotspot& hotspot = *presentation.hotspot;
+    const exhibit::CatalogueEntry& entry = catalogue()[hotspot.artifact];
+    const residency::LoadedTexts* const texts = set_->artifact_cache->texts(
+        hotspot.artifact, residency::TextPart::NarrationSequencer, hotspot.language);
     if (texts != nullptr) {
-        hotspots_.place(hotspot, texts->texture(label_picture(entry, hotspot.language, hotspot.hotspot)),
+        hotspots_.place(hotspot,
+                        texts->texture(residency::label_picture(entry, hotspot.language, hotspot.hotspot)),
                         caption_brightness_, projector_, table_from_projector_, on_table_);
     }
 }
 
-void ArtifactShow::place_signs(const Presentation& presentation) {
+void ArtifactShow::place_signs(const exhibit::Presentation& presentation) {
     if (presentation.sign) {
-        const PlacedSign& sign = *presentation.sign;
-        on_table_.add({flat_corners(sign.corners_m), caption_brightness_ * sign.brightness,
-                       signs_.at(static_cast<std::size_t>(sign.sign))});
+        const exhibit::PlacedSign& sign = *presentation.sign;
+        on_table_.add({.corners_m = residency::flat_corners(sign.corners_m),
+                       .brightness = caption_brightness_ * sign.brightness,
+                       .texture = signs_.at(static_cast<std::size_t>(sign.sign))});
     }
-    if (const std::optional<TablePicture> advice = place_advice(presentation)) {
+    if (const std::optional<scene::TablePicture> advice = place_advice(presentation)) {
         on_table_.add(*advice);
     }
 }
 
-std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& presentation) const {
+std::optional<scene::TablePicture>
+ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
     if (!presentation.caption) {
         return std::nullopt;
     }
-    const PresentedCaption& caption = *presentation.caption;
-    const LoadedTexts* const texts = set_->artifact_cache->texts(
-        presentation.artifact, caption.portion ? TextPart::NarrationSequencer : TextPart::Caption,
+    const exhibit::PresentedCaption& caption = *presentation.caption;
+    const residency::LoadedTexts* const texts = set_->artifact_cache->texts(
+        presentation.artifact,
+        caption.portion ? residency::TextPart::NarrationSequencer : residency::TextPart::Caption,
         caption.language);
-    const TextureId texture =
-        texts != nullptr ? texts->texture(portion_picture(caption.portion.value_or(0), caption.shape))
-                         : TextureId::None;
-    if (texture == TextureId::None) {
+    const scene::TextureId texture =
+        texts != nullptr
+            ? texts->texture(residency::portion_picture(caption.portion.value_or(0), caption.shape))
+            : scene::TextureId::None;
+    if (texture == scene::TextureId::None) {
         return std::nullopt;
     }
-    return TablePicture{picture_corners(on_pixels(caption.rectangle, projector_, table_from_projector_)),
-                        caption_brightness_ * caption.brightness, texture};
+    return scene::TablePicture{.corners_m = residency::picture_corners(residency::on_pixels(
+                                   caption.rectangle, projector_, table_from_projector_)),
+                               .brightness = caption_brightness_ * caption.brightness,
+                               .texture = texture};
 }
 
-DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
-                              const RenderTarget& target, Redraw redraw) {
-    ArtifactCache& artifact_cache = *set_->artifact_cache;
-    artifact_cache.step(renderer_.store(), {presentation.artifact, presentation.table_language,
-                                            presentation.wanted.artifacts(), presentation.wanted_language});
-    PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
+render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
+                                      const glm::dvec3& eye_m, const render::RenderTarget& target,
+                                      render::Redraw redraw) {
+    residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
+    artifact_cache.step(renderer_.store(), {.shown = presentation.artifact,
+                                            .shown_language = presentation.table_language,
+                                            .wanted = presentation.wanted.artifacts(),
+                                            .language = presentation.wanted_language});
+    scene::PlanView view{.projector = projector_,
+                         .table_from_projector = table_from_projector_,
+                         .table_from_prop = presentation.table_from_prop,
+                         .eyes_m = std::span(&eye_m, 1)};
     view.light = artifact_cache.known(presentation.artifact).plan.light;
     view.brightness = artifact_cache.exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
     on_table_.clear();
     place_zone_frame(presentation);
-    set_->table.place(presentation,
-                      hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
-                      on_table_);
+    set_->table.place(
+        presentation,
+        typography::hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
+        on_table_);
     if (presentation.placeholder) {
         set_->table.place_placeholder(*presentation.placeholder, on_table_);
     }
@@ -295,10 +333,10 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
                   renderer_.store(), on_table_);
     marks_.place(mark_, on_table_);
     view.on_table = on_table_.pictures();
-    RunLevels* const levels = artifact_cache.find(presentation.artifact);
+    residency::RunLevels* const levels = artifact_cache.find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
-        plan_frame(prop_, PlacedLevel{}, view, dark_);
+        scene::plan_frame(prop_, scene::PlacedLevel{}, view, dark_);
         return renderer_.draw(dark_, target, redraw);
     }
     if (on_ != presentation.artifact) {
@@ -310,17 +348,17 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
 
 ShowUse ArtifactShow::use() const {
     ShowUse use;
-    use.planned_shaders = shaders_of(needs_);
+    use.planned_shaders = scene::shaders_of(needs_);
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
-    use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
+    use.planned_gpu_bytes = scene::gpu_bytes(needs_, projector_.width, projector_.height);
     use.text_gpu_bytes = set_->artifact_cache->uploaded_text_bytes();
     use.planned_gpu_bytes += planned_bytes_that_stay() + set_->planned_gpu_bytes() + use.text_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
     for (std::size_t artifact = 0; artifact < catalogue().size(); ++artifact) {
         use.captions += catalogue()[artifact].languages.size();
-        if (const RunLevels* levels = set_->artifact_cache->find(artifact)) {
-            for (const LevelUse& level : levels->uses()) {
+        if (const residency::RunLevels* levels = set_->artifact_cache->find(artifact)) {
+            for (const residency::LevelUse& level : levels->uses()) {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
         }
@@ -329,21 +367,23 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    if (RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr) {
+    if (residency::RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr) {
         levels->record_time(now, ms);
         load_ = levels->load();
     }
 }
 
-ShowState ArtifactShow::state(const Presentation& presentation) const {
-    const ArtifactCache& artifact_cache = *set_->artifact_cache;
-    const RunLevels* const shown = artifact_cache.find(presentation.artifact);
-    LevelState levels = shown != nullptr ? shown->state() : LevelState{};
+ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
+    const residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
+    const residency::RunLevels* const shown = artifact_cache.find(presentation.artifact);
+    residency::LevelState levels = shown != nullptr ? shown->state() : residency::LevelState{};
     levels.technique = kept(levels.technique);
     levels.switches = past_switches_ + artifact_cache.switches();
     levels.ignored_times = past_ignored_times_ + artifact_cache.ignored_times();
-    ShowState state{kept(artifact_cache.known(presentation.artifact).outline.description.title),
-                    kept(presentation.language), levels, presentation.settled};
+    ShowState state{.artifact = kept(artifact_cache.known(presentation.artifact).outline.description.title),
+                    .language = kept(presentation.language),
+                    .levels = levels,
+                    .settled = presentation.settled};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
     state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;
@@ -353,11 +393,12 @@ ShowState ArtifactShow::state(const Presentation& presentation) const {
     return state;
 }
 
-Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts, MonotonicTime now) {
-    ExhibitPlace place = exhibit_place(settings);
+exhibit::Exhibit make_exhibit(const settings::Settings& settings, const ArtifactShow& artifacts,
+                              MonotonicTime now) {
+    exhibit::ExhibitPlace place = exhibit_place(settings);
     place.zone = artifacts.zone();
     place.words = artifacts.words();
     return {artifacts.catalogue(), place, settings.exhibit.language, now};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -31,13 +31,14 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
     std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see `level_of`
-    int samples = default_samples;  ///< for each pixel; the render target holds them wherever the prop stands
-    unsigned cull_kinds = AllCullKinds;
+    int samples =
+        render::default_samples; ///< for each pixel; the render target holds them wherever the prop stands
+    unsigned cull_kinds = scene::AllCullKinds;
     std::string_view program = "frustumscreen"; ///< named in lines on standard error
     std::string packs_key = {}; ///< the key of the packs in the settings, for messages; empty: none
     bool waits =
@@ -49,7 +50,7 @@ struct ArtifactShowOptions {
 
 /// The resources of a show, planned and observed.
 struct ShowUse {
-    std::set<ShaderKey> planned_shaders, shaders;
+    std::set<scene::ShaderKey> planned_shaders, shaders;
     std::uint64_t planned_gpu_bytes = 0;
     std::uint64_t gpu_bytes = 0;      ///< as reported by the driver
     std::uint64_t text_gpu_bytes = 0; ///< planned, of the loaded texts of the artifacts
@@ -61,41 +62,42 @@ class ArtifactShow final : public ExhibitStage {
 public:
     /// Loads the first artifact and measures its levels on this GPU by drawing into `target`, whose contents are
     /// undefined afterwards.
-    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,
-                                                                      const DevicePlan& devices,
+    [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const settings::Settings& settings,
+                                                                      const scene::DevicePlan& devices,
                                                                       const ArtifactShowOptions& options,
-                                                                      const RenderTarget& target);
+                                                                      const render::RenderTarget& target);
 
     /// The catalogue when the set was opened.
-    [[nodiscard]] const Catalogue& catalogue() const { return set_->catalogue; }
+    [[nodiscard]] const exhibit::Catalogue& catalogue() const { return set_->catalogue; }
     [[nodiscard]] const ShownSet& set() const { return *set_; }
-    [[nodiscard]] const ZoneFrame& zone() const { return zone_; }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Presentation& presentation,
-                                  const glm::dvec3& eye_m, const RenderTarget& target,
-                                  Redraw redraw) override;
-    void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
+    [[nodiscard]] const exhibit::ZoneFrame& zone() const { return zone_; }
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const exhibit::Presentation& presentation,
+                                          const glm::dvec3& eye_m, const render::RenderTarget& target,
+                                          render::Redraw redraw) override;
+    void set_mark(const std::optional<drift::ShownMark>& mark) override { mark_ = mark; }
     void record_time(MonotonicTime now, double ms) override;
-    [[nodiscard]] ShowState state(const Presentation& presentation) const override;
-    [[nodiscard]] SharedRecording recording(const WordIndex& word) const override {
+    [[nodiscard]] ShowState state(const exhibit::Presentation& presentation) const override;
+    [[nodiscard]] residency::SharedRecording recording(const exhibit::WordIndex& word) const override {
         return set_->recording(word);
     }
-    [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
+    [[nodiscard]] residency::SharedRecording
+    recording(const exhibit::DescriptionIndex& description) const override {
         return set_->artifact_cache->known(description.artifact).texts.recordings[description.language];
     }
     [[nodiscard]] bool speaks() const override;
-    [[nodiscard]] std::span<const ArtifactState> artifacts() const override {
+    [[nodiscard]] std::span<const exhibit::ArtifactState> artifacts() const override {
         return set_->artifact_cache->states();
     }
-    [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const override {
+    [[nodiscard]] exhibit::ArtifactTriangles triangles(std::size_t artifact) const override {
         return set_->artifact_cache->triangles(artifact);
     }
     /// The exhibit's own texts of the set.
-    [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return set_->words.languages; }
+    [[nodiscard]] const std::vector<exhibit::AdviceLanguage>& words() const { return set_->words.languages; }
 
     [[nodiscard]] ShowUse use() const;
     /// Sentences about settings that may be unintended.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    [[nodiscard]] const PacksLeftOut& left_out() const { return set_->artifact_cache->left_out(); }
+    [[nodiscard]] const library::PacksLeftOut& left_out() const { return set_->artifact_cache->left_out(); }
 
     // For a change of the set, where `other_sets` may come:
     [[nodiscard]] SetOptions set_options() const {
@@ -104,50 +106,52 @@ public:
         return options;
     }
     [[nodiscard]] const ExpectedFrames& expected_frames() const { return expected_; }
-    [[nodiscard]] GpuStore& store() { return renderer_.store(); }
+    [[nodiscard]] render::GpuStore& store() { return renderer_.store(); }
     /// Call before the set is shown. With `other_sets` everything is already prepared.
     [[nodiscard]] Result<void> prepare(const ShownSet& set);
     /// Shows the set from the next frame on; a presentation of the previous set must not be drawn any more. Returns
     /// the previous set, whose GPU resources are not released yet.
     [[nodiscard]] std::unique_ptr<ShownSet> exchange(std::unique_ptr<ShownSet> set);
     /// `artifact`: index into the catalogue.
-    [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const {
+    [[nodiscard]] const scene::ScenePlan& plan(std::size_t artifact) const {
         return set_->artifact_cache->known(artifact).plan;
     }
     /// The levels of a ready artifact; the first is ready until another one is shown.
-    [[nodiscard]] const RunLevels& levels(std::size_t artifact) const {
+    [[nodiscard]] const residency::RunLevels& levels(std::size_t artifact) const {
         return *set_->artifact_cache->find(artifact);
     }
 
 private:
-    ArtifactShow(const Settings& settings, Renderer renderer);
-    void note_language(const Settings& settings);
-    void measure(const Settings& settings, const RenderTarget& target, bool other_sets);
-    void warm_up(PlanView view, const RenderTarget& target);
+    ArtifactShow(const settings::Settings& settings, render::Renderer renderer);
+    void note_language(const settings::Settings& settings);
+    void measure(const settings::Settings& settings, const render::RenderTarget& target, bool other_sets);
+    void warm_up(scene::PlanView view, const render::RenderTarget& target);
     /// Uploads the pictures on the table that every set uses.
-    [[nodiscard]] Result<void> upload_what_stays(const Settings& settings);
-    [[nodiscard]] Result<void> upload_signs(const Settings& settings);
+    [[nodiscard]] Result<void> upload_what_stays(const settings::Settings& settings);
+    [[nodiscard]] Result<void> upload_signs(const settings::Settings& settings);
     [[nodiscard]] Result<void> upload_set(bool hotspots);
     [[nodiscard]] std::uint64_t planned_bytes_that_stay() const;
     /// Keeps the set's texts that a status or a report may show after the set has gone.
     void keep_names();
     [[nodiscard]] std::string_view kept(std::string_view name) const;
-    [[nodiscard]] std::optional<TablePicture> place_advice(const Presentation& presentation) const;
+    [[nodiscard]] std::optional<scene::TablePicture>
+    place_advice(const exhibit::Presentation& presentation) const;
     /// Places the frame around the prop's zone.
-    void place_zone_frame(const Presentation& presentation);
-    void place_hotspot(const Presentation& presentation);
+    void place_zone_frame(const exhibit::Presentation& presentation);
+    void place_hotspot(const exhibit::Presentation& presentation);
     /// Places the sign of the guidance.
-    void place_signs(const Presentation& presentation);
+    void place_signs(const exhibit::Presentation& presentation);
     /// Nothing if no caption is shown, or if its picture is not loaded.
-    [[nodiscard]] std::optional<TablePicture> place_caption(const Presentation& presentation) const;
+    [[nodiscard]] std::optional<scene::TablePicture>
+    place_caption(const exhibit::Presentation& presentation) const;
 
-    Pinhole projector_;
-    RigidTransform table_from_projector_;
-    PropShape prop_;
+    geometry::Pinhole projector_;
+    geometry::RigidTransform table_from_projector_;
+    geometry::PropShape prop_;
     double caption_brightness_; ///< fraction of the projector's light
     bool may_speak_ = false;    ///< in at least one set
-    RenderNeeds needs_;
-    Renderer renderer_;
+    scene::RenderNeeds needs_;
+    render::Renderer renderer_;
     SetOptions set_options_;
     ExpectedFrames expected_;
     std::unique_ptr<ShownSet> set_;
@@ -155,23 +159,23 @@ private:
     std::set<std::string, std::less<>> names_; ///< titles and languages of all sets shown so far
     std::uint64_t past_switches_ = 0, past_ignored_times_ = 0; ///< of previous sets
     glm::dvec2 attract_place_m_;
-    ZoneFrame zone_;
-    TextureId white_ = TextureId::None;         ///< one texel, for drawing the zone's frame
-    std::array<TextureId, sign_count> signs_{}; ///< by Sign; None without guidance
+    exhibit::ZoneFrame zone_;
+    scene::TextureId white_ = scene::TextureId::None;           ///< one texel, for drawing the zone's frame
+    std::array<scene::TextureId, exhibit::sign_count> signs_{}; ///< by Sign; None without guidance
     std::uint64_t planned_sign_bytes_ = 0;
-    HotspotShow hotspots_;
+    residency::HotspotShow hotspots_;
     NoticeTextures notice_;
     MarkShow marks_;
-    std::optional<ShownMark> mark_;     ///< of this frame
-    std::vector<glm::dvec2> picture_m_; ///< the part of the table that the projector's picture covers
-    OnTable on_table_;
+    std::optional<drift::ShownMark> mark_; ///< of this frame
+    std::vector<glm::dvec2> picture_m_;    ///< the part of the table that the projector's picture covers
+    residency::OnTable on_table_;
     std::optional<std::size_t> on_; ///< the artifact drawn last; none: it was not ready
     double load_ = 1.0;             ///< of the GPU (governor.h)
-    FramePlan dark_;                ///< for a picture without an artifact
+    scene::FramePlan dark_;         ///< for a picture without an artifact
 };
 
 /// The exhibit for these artifacts on the settings' table.
-[[nodiscard]] Exhibit make_exhibit(const Settings& settings, const ArtifactShow& artifacts,
-                                   MonotonicTime now);
+[[nodiscard]] exhibit::Exhibit make_exhibit(const settings::Settings& settings, const ArtifactShow& artifacts,
+                                            MonotonicTime now);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -7,18 +7,18 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
-std::optional<Command> command_of(const PanelEvent& event) {
+std::optional<settings::Command> command_of(const panel::PanelEvent& event) {
     switch (event.kind) {
-    case PressKind::Press:
-        return command_of_button(event.button);
-    case PressKind::LongPress:
-        return event.button == 0 ? Command::HoldFirst : Command::HoldOther;
-    case PressKind::Chord:
-        return Command::StaffMode;
+    case panel::PressKind::Press:
+        return settings::command_of_button(event.button);
+    case panel::PressKind::LongPress:
+        return event.button == 0 ? settings::Command::HoldFirst : settings::Command::HoldOther;
+    case panel::PressKind::Chord:
+        return settings::Command::StaffMode;
     default:
         return std::nullopt;
     }
@@ -29,20 +29,20 @@ DeviceState camera_state(const Inputs& inputs) {
     if (!inputs.camera) {
         return {};
     }
-    const CameraState state = inputs.camera->state();
-    const bool is_well = health_of(state) == CameraHealth::Well;
+    const camera::CameraState state = inputs.camera->state();
+    const bool is_well = camera::health_of(state) == camera::CameraHealth::Well;
     if (is_well && inputs.tags && !inputs.tags->trouble().empty()) {
         return {{DeviceHealth::Impaired, "camera.no_tags"}, Sentence(inputs.tags->trouble())};
     }
     if (is_well && inputs.visitor && !inputs.visitor->trouble().empty()) {
         return {{DeviceHealth::Impaired, "camera.no_visitor"}, Sentence(inputs.visitor->trouble())};
     }
-    return {condition_of(state), Sentence(sentence_of(state))};
+    return {camera::condition_of(state), Sentence(camera::sentence_of(state))};
 }
 
 /// `device`: null if not configured.
-DeviceReport report_of(const auto& device) {
-    return device ? DeviceReport(device->condition()) : DeviceReport{};
+status::DeviceReport report_of(const auto& device) {
+    return device ? status::DeviceReport(device->condition()) : status::DeviceReport{};
 }
 
 } // namespace
@@ -61,7 +61,7 @@ std::string camera_uses(const Inputs& inputs) {
     return fmt::format("{}", fmt::join(uses, ", "));
 }
 
-DeviceIntake::DeviceIntake(const Settings& settings, Inputs& inputs)
+DeviceIntake::DeviceIntake(const settings::Settings& settings, Inputs& inputs)
     : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
       tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m) {
     samples_.reserve(1024);
@@ -78,8 +78,8 @@ void DeviceIntake::poll(MonotonicTime now) {
     if (inputs_.panel) {
         errors_ += inputs_.panel->poll(now, events_) ? 0 : 1;
     }
-    for (const PanelEvent& event : events_) {
-        if (const std::optional<Command> command = command_of(event)) {
+    for (const panel::PanelEvent& event : events_) {
+        if (const std::optional<settings::Command> command = command_of(event)) {
             commands_.push_back(*command);
         }
     }
@@ -98,41 +98,41 @@ void DeviceIntake::take_poses(MonotonicTime now) {
     if (inputs_.visitor) {
         inputs_.visitor->poll(now, heads_);
     }
-    for (const PoseSample& sample : samples_) {
-        if (sample.station == prop_station) {
+    for (const tracker::PoseSample& sample : samples_) {
+        if (sample.station == tracker::prop_station) {
             prop_signal_.take(sample);
-        } else if (sample.station == head_station) {
+        } else if (sample.station == tracker::head_station) {
             head_signal_.take(sample);
         }
-        if (head_is_followed_ || sample.station != head_station) {
+        if (head_is_followed_ || sample.station != tracker::head_station) {
             errors_ += tracked_state_.take(sample) ? 0 : 1;
         }
     }
-    for (const UncertainPose& pose : tag_poses_) {
+    for (const tracking::UncertainPose& pose : tag_poses_) {
         errors_ += tracked_state_.take_tags(pose) ? 0 : 1;
     }
-    for (const SeenHead& head : heads_) {
+    for (const tracking::SeenHead& head : heads_) {
         errors_ += tracked_state_.take_visitor(head) ? 0 : 1;
     }
 }
 
-TrackerHealth DeviceIntake::tracker_health() const {
-    return inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
+tracker::TrackerHealth DeviceIntake::tracker_health() const {
+    return inputs_.tracker ? inputs_.tracker->health() : tracker::TrackerHealth::Well;
 }
 
-TrackedState DeviceIntake::tracked_state_at(MonotonicTime lit) {
-    const TrackerHealth health = tracker_health();
+tracking::TrackedState DeviceIntake::tracked_state_at(MonotonicTime lit) {
+    const tracker::TrackerHealth health = tracker_health();
     tracked_state_.tracker_is(health);
-    TrackedState tracked_state = tracked_state_.at(lit);
+    tracking::TrackedState tracked_state = tracked_state_.at(lit);
     tracked_state.prop_known = tracked_state.prop_known || (!inputs_.tracker && !inputs_.tags);
     // The tags stand in for the tracker, so its failure does not concern visitors.
-    tracked_state.tracker = tracked_state.by_tags ? TrackerHealth::Well : health;
+    tracked_state.tracker = tracked_state.by_tags ? tracker::TrackerHealth::Well : health;
     return tracked_state;
 }
 
-void DeviceIntake::tell(const TrackedState& shown, RunStatus& status) const {
+void DeviceIntake::tell(const tracking::TrackedState& shown, RunStatus& status) const {
     status.device_errors = errors_;
-    status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
+    status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : tracker::TrackerCounts{};
     status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
     status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
     status.prop_by = shown.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
@@ -151,21 +151,21 @@ void DeviceIntake::tell(const TrackedState& shown, RunStatus& status) const {
 void DeviceIntake::tell_of_camera(RunStatus& status) const {
     const DeviceState camera = camera_state(inputs_);
     status.camera = camera.sentence;
-    status.devices.camera = inputs_.camera ? DeviceReport(camera.condition) : DeviceReport{};
+    status.devices.camera = inputs_.camera ? status::DeviceReport(camera.condition) : status::DeviceReport{};
     status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
     if (inputs_.viewfinder && inputs_.camera) {
-        const std::optional<CameraSetUp> set_up = inputs_.camera->set_up();
+        const std::optional<camera::CameraSetUp> set_up = inputs_.camera->set_up();
         status.camera_width = set_up ? set_up->mode.width : 0;
         status.camera_height = set_up ? set_up->mode.height : 0;
     }
     if (inputs_.drift) {
-        const DriftVerdict& verdict = inputs_.drift->verdict();
-        status.drift = sentence_of(verdict);
-        status.drifted = verdict.state == DriftState::Moved;
+        const drift::DriftVerdict& verdict = inputs_.drift->verdict();
+        status.drift = drift::sentence_of(verdict);
+        status.drifted = verdict.state == drift::DriftState::Moved;
         status.drift_m = verdict.off_m;
     } else if (looks_for_drift_) {
         status.drift = Sentence("no calibration is kept to compare the marks with; measure the table");
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -18,44 +18,44 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The uses of the camera, in words; empty: none.
 [[nodiscard]] std::string camera_uses(const Inputs& inputs);
 
 class DeviceIntake {
 public:
-    DeviceIntake(const Settings& settings, Inputs& inputs);
+    DeviceIntake(const settings::Settings& settings, Inputs& inputs);
 
     /// Polls every device once.
     void poll(MonotonicTime now);
     /// The commands of this frame.
-    [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
+    [[nodiscard]] const std::vector<settings::Command>& commands() const { return commands_; }
     void drop_commands() { commands_.clear(); }
     /// Prop, eye and tracker at the time at which the picture is lit.
-    [[nodiscard]] TrackedState tracked_state_at(MonotonicTime lit);
+    [[nodiscard]] tracking::TrackedState tracked_state_at(MonotonicTime lit);
     /// The tracker's signal of the prop's sensor and of the head's.
-    [[nodiscard]] const SignalMeter& prop_signal() const { return prop_signal_; }
-    [[nodiscard]] const SignalMeter& head_signal() const { return head_signal_; }
+    [[nodiscard]] const tracking::SignalMeter& prop_signal() const { return prop_signal_; }
+    [[nodiscard]] const tracking::SignalMeter& head_signal() const { return head_signal_; }
     /// The devices' part of the status. `shown`: the situation of the latest picture.
-    void tell(const TrackedState& shown, RunStatus& status) const;
+    void tell(const tracking::TrackedState& shown, RunStatus& status) const;
 
 private:
     void take_poses(MonotonicTime now);
-    [[nodiscard]] TrackerHealth tracker_health() const;
+    [[nodiscard]] tracker::TrackerHealth tracker_health() const;
     void tell_of_camera(RunStatus& status) const;
 
     Inputs& inputs_;
     bool head_is_followed_;
     bool looks_for_drift_;
-    LiveTrackedState tracked_state_;
-    SignalMeter prop_signal_, head_signal_;
+    tracking::LiveTrackedState tracked_state_;
+    tracking::SignalMeter prop_signal_, head_signal_;
     std::uint64_t errors_ = 0;
-    std::vector<PoseSample> samples_; ///< `samples_` to `events_`: of this frame
-    std::vector<UncertainPose> tag_poses_;
-    std::vector<SeenHead> heads_;
-    std::vector<PanelEvent> events_;
-    std::vector<Command> commands_;
+    std::vector<tracker::PoseSample> samples_; ///< `samples_` to `events_`: of this frame
+    std::vector<tracking::UncertainPose> tag_poses_;
+    std::vector<tracking::SeenHead> heads_;
+    std::vector<panel::PanelEvent> events_;
+    std::vector<settings::Command> commands_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

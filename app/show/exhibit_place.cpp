@@ -6,24 +6,24 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-ExhibitPlace exhibit_place(const Settings& settings) {
-    ExhibitPlace place;
-    place.prop = make_prop(settings.prop);
+exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
+    exhibit::ExhibitPlace place;
+    place.prop = settings::make_prop(settings.prop);
     place.lens_m = settings.projector.table_from_projector.translation;
-    place.picture_m = picture_on_table(settings, 0.0);
-    place.attract_place_m = lit_rectangle(settings).centre_m;
+    place.picture_m = settings::picture_on_table(settings, 0.0);
+    place.attract_place_m = settings::lit_rectangle(settings).centre_m;
     place.buttons = settings.panel.buttons();
-    if (guides_visitors(settings)) {
-        place.guidance = guidance_setup(settings);
+    if (settings::guides_visitors(settings)) {
+        place.guidance = exhibit::guidance_setup(settings);
     }
     // The exhibit can be calibrated with the buttons, and is not calibrated yet.
     place.staff_stays = settings.calibration.by_buttons && !settings.calibration.used &&
-                        settings.tracker.kind != TrackerKind::None;
-    place.table_pictures = chooses_on_table(settings);
+                        settings.tracker.kind != settings::TrackerKind::None;
+    place.table_pictures = settings::chooses_on_table(settings);
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -8,8 +8,8 @@
 #include "app/exhibit/exhibit.h"
 #include "app/settings/settings.h"
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-[[nodiscard]] ExhibitPlace exhibit_place(const Settings& settings);
+[[nodiscard]] exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

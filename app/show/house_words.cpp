@@ -5,18 +5,19 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-Result<LanguageWords> read_house_words(const Settings& settings, std::string_view key) {
+Result<pack::LanguageWords> read_house_words(const settings::Settings& settings, std::string_view key) {
     const std::string place = settings.exhibit.words.string();
     TRY(const Bytes file, read_file(settings.exhibit.words));
-    TRY(const std::vector<WordsLanguage> listed, at(place, list_words(file)));
+    TRY(const std::vector<pack::WordsLanguage> listed, at(place, pack::list_words(file)));
     std::vector<std::string> languages;
-    for (const WordsLanguage& language : listed) {
+    for (const pack::WordsLanguage& language : listed) {
         languages.push_back(language.language);
     }
-    TRY(LanguageWords words,
-        at(place, read_words(file, languages[caption_for(settings.exhibit.language, languages)])));
+    TRY(pack::LanguageWords words,
+        at(place,
+           pack::read_words(file, languages[exhibit::caption_for(settings.exhibit.language, languages)])));
     if (words.runs.find(key) == nullptr) {
         return bad_input("show.word_missing",
                          "{}: has no word '{}'; bake it again with frustumscreen-bake --words", place, key);
@@ -24,4 +25,4 @@ Result<LanguageWords> read_house_words(const Settings& settings, std::string_vie
     return words;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -10,9 +10,10 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// `key`: one of the requested texts.
-[[nodiscard]] Result<LanguageWords> read_house_words(const Settings& settings, std::string_view key);
+[[nodiscard]] Result<pack::LanguageWords> read_house_words(const settings::Settings& settings,
+                                                           std::string_view key);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -4,57 +4,57 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
-bool is_over(const ImportReport& report) {
-    return report.stage == ImportStage::Done || report.stage == ImportStage::Failed;
+bool is_over(const library::ImportReport& report) {
+    return report.stage == library::ImportStage::Done || report.stage == library::ImportStage::Failed;
 }
 
-std::size_t count_of(const ImportReport& report, ImportOutcome outcome) {
+std::size_t count_of(const library::ImportReport& report, library::ImportOutcome outcome) {
     return static_cast<std::size_t>(
         std::count_if(report.packs.begin(), report.packs.end(),
-                      [&](const ImportedPack& pack) { return pack.outcome == outcome; }));
+                      [&](const library::ImportedPack& pack) { return pack.outcome == outcome; }));
 }
 
 /// The journal goes to the makers: it has no stick's label, which may be a person's name.
-Sentence line_of(const ImportReport& report) {
+Sentence line_of(const library::ImportReport& report) {
     switch (report.stage) {
-    case ImportStage::Found:
+    case library::ImportStage::Found:
         return format_sentence("stick: one is there; it is looked through");
-    case ImportStage::Copying:
+    case library::ImportStage::Copying:
         return format_sentence("stick: {} bytes are copied", report.total_bytes);
-    case ImportStage::MayTakeOut:
+    case library::ImportStage::MayTakeOut:
         return format_sentence("stick: it may be taken out");
-    case ImportStage::Failed:
+    case library::ImportStage::Failed:
         return format_sentence("stick: nothing was taken: {}", report.reason);
-    case ImportStage::Done:
+    case library::ImportStage::Done:
         break;
     }
     return format_sentence("stick: done: {} taken, {} already there, {} refused, {} removed; the "
                            "installed set has number {}",
-                           count_of(report, ImportOutcome::Taken),
-                           count_of(report, ImportOutcome::AlreadyThere),
-                           count_of(report, ImportOutcome::Refused), count_of(report, ImportOutcome::Removed),
-                           report.set_number);
+                           count_of(report, library::ImportOutcome::Taken),
+                           count_of(report, library::ImportOutcome::AlreadyThere),
+                           count_of(report, library::ImportOutcome::Refused),
+                           count_of(report, library::ImportOutcome::Removed), report.set_number);
 }
 
-Sentence line_of(const ImportedPack& pack) {
+Sentence line_of(const library::ImportedPack& pack) {
     switch (pack.outcome) {
-    case ImportOutcome::Taken:
+    case library::ImportOutcome::Taken:
         return format_sentence("stick: {}: taken: {}", pack.file, pack.title);
-    case ImportOutcome::AlreadyThere:
+    case library::ImportOutcome::AlreadyThere:
         return format_sentence("stick: {}: already there: {}", pack.file, pack.title);
-    case ImportOutcome::Removed:
+    case library::ImportOutcome::Removed:
         return format_sentence("stick: {}: removed: {}", pack.file, pack.title);
-    case ImportOutcome::Refused:
+    case library::ImportOutcome::Refused:
         return format_sentence("stick: {}: refused: {}", pack.file, pack.reason);
-    case ImportOutcome::Written:
+    case library::ImportOutcome::Written:
         return format_sentence("stick: {}: written to the stick", pack.file);
-    case ImportOutcome::NotWritten:
+    case library::ImportOutcome::NotWritten:
         return format_sentence("stick: {}: not written to the stick: {}", pack.file, pack.reason);
-    case ImportOutcome::Pending:
+    case library::ImportOutcome::Pending:
         break;
     }
     return format_sentence("stick: {}: left as it was", pack.file);
@@ -80,7 +80,8 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
         if (was_over) {
             packs_ = import->report.packs.size();
         } else if (changed) {
-            write(import->report.stage == ImportStage::Failed ? LogPriority::Warning : LogPriority::Notice,
+            write(import->report.stage == library::ImportStage::Failed ? service::LogPriority::Warning
+                                                                       : service::LogPriority::Notice,
                   line_of(import->report));
         }
     }
@@ -88,16 +89,16 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
 }
 
 void ImportJournal::note_packs(const Write& write) {
-    const std::vector<ImportedPack>& packs = noted_->report.packs;
+    const std::vector<library::ImportedPack>& packs = noted_->report.packs;
     if (!is_over(noted_->report)) {
         return;
     }
     for (std::size_t lines = 0; lines < max_lines && packs_ < packs.size(); ++lines, ++packs_) {
-        const ImportedPack& pack = packs[packs_];
-        const bool failed =
-            pack.outcome == ImportOutcome::Refused || pack.outcome == ImportOutcome::NotWritten;
-        write(failed ? LogPriority::Warning : LogPriority::Notice, line_of(pack));
+        const library::ImportedPack& pack = packs[packs_];
+        const bool failed = pack.outcome == library::ImportOutcome::Refused ||
+                            pack.outcome == library::ImportOutcome::NotWritten;
+        write(failed ? service::LogPriority::Warning : service::LogPriority::Notice, line_of(pack));
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

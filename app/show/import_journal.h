@@ -13,12 +13,12 @@
 #include <cstddef>
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class ImportJournal {
 public:
     static constexpr std::size_t max_lines = 16;
-    using Write = std::function<void(LogPriority priority, const Sentence& line)>;
+    using Write = std::function<void(service::LogPriority priority, const Sentence& line)>;
 
     /// Call once a second. An import that was over long before the exhibit began is not logged again. A new import
     /// waits until the previous one's lines have been written.
@@ -31,4 +31,4 @@ private:
     std::size_t packs_ = 0; ///< number of the import's packs already logged
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -52,9 +52,9 @@ void ImportWatch::work(const std::stop_token& stop) {
     }
 }
 
-Result<ImportReport> ImportWatch::read() const {
+Result<library::ImportReport> ImportWatch::read() const {
     TRY(const Bytes bytes, read_file(file_, max_report_bytes));
-    return at(file_.string(), parse_import_report(as_text(bytes)));
+    return at(file_.string(), library::parse_import_report(as_text(bytes)));
 }
 
 /// Reads a new file at once, and again some seconds after a failed read.
@@ -65,13 +65,16 @@ void ImportWatch::look(MonotonicTime now) {
         first_ = false;
         return;
     }
-    const FileMark mark{file.st_dev, file.st_ino, static_cast<std::uint64_t>(file.st_size),
-                        std::int64_t{file.st_mtim.tv_sec} * 1'000'000'000 + file.st_mtim.tv_nsec};
+    const FileMark mark{.device = file.st_dev,
+                        .inode = file.st_ino,
+                        .bytes = static_cast<std::uint64_t>(file.st_size),
+                        .changed_ns =
+                            std::int64_t{file.st_mtim.tv_sec} * 1'000'000'000 + file.st_mtim.tv_nsec};
     if (mark_ == mark && (!read_again_ || now < *read_again_)) {
         return;
     }
     mark_ = mark;
-    Result<ImportReport> report = read();
+    Result<library::ImportReport> report = read();
     if (!report) {
         read_again_ = now + between_tries;
         const std::string line = report.error().message + "; nothing is told of it on the table";
@@ -83,8 +86,8 @@ void ImportWatch::look(MonotonicTime now) {
     }
     read_again_.reset();
     auto seen = std::make_shared<SeenImport>();
-    seen->notice = drawn(notice_text(*report), notice_text(*report, lines_of_counts));
-    seen->stopped = drawn(stopped_text(), stopped_text());
+    seen->notice = drawn(exhibit::notice_text(*report), exhibit::notice_text(*report, lines_of_counts));
+    seen->stopped = drawn(exhibit::stopped_text(), exhibit::stopped_text());
     seen->report = std::move(*report);
     const SharedImport before = found_; // only this thread changes it
     seen->is_old = (std::exchange(first_, false) && age_of(file) >= is_news_for) ||
@@ -95,13 +98,13 @@ void ImportWatch::look(MonotonicTime now) {
 
 /// The notice's picture; kept ones are reused, since the report changes while a stick is copied but its text does
 /// not.
-SharedNotice ImportWatch::drawn(const NoticeText& text, const NoticeText& counts) {
+exhibit::SharedNotice ImportWatch::drawn(const exhibit::NoticeText& text, const exhibit::NoticeText& counts) {
     const auto kept = std::find_if(drawn_.begin(), drawn_.end(),
-                                   [&](const SharedNotice& notice) { return notice->text == text; });
+                                   [&](const exhibit::SharedNotice& notice) { return notice->text == text; });
     if (kept != drawn_.end()) {
         return *kept;
     }
-    SharedNotice notice = draw_(text, counts);
+    exhibit::SharedNotice notice = draw_(text, counts);
     if (notice) {
         drawn_.insert(drawn_.begin(), notice);
         drawn_.resize(std::min(drawn_.size(), notices_kept));
@@ -109,4 +112,4 @@ SharedNotice ImportWatch::drawn(const NoticeText& text, const NoticeText& counts
     return notice;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -23,18 +23,18 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct SeenImport {
-    ImportReport report;
-    bool is_old = false;  ///< the file existed when the watch began, and was older than `is_news_for`
-    SharedNotice notice;  ///< none: there are no texts to draw it with
-    SharedNotice stopped; ///< says that the copy has stopped
+    library::ImportReport report;
+    bool is_old = false;          ///< the file existed when the watch began, and was older than `is_news_for`
+    exhibit::SharedNotice notice; ///< none: there are no texts to draw it with
+    exhibit::SharedNotice stopped; ///< says that the copy has stopped
 };
 using SharedImport = std::shared_ptr<const SeenImport>;
 /// The report; null if there is none.
-[[nodiscard]] inline std::shared_ptr<const ImportReport> report_of(const SharedImport& import) {
-    return import ? std::shared_ptr<const ImportReport>(import, &import->report) : nullptr;
+[[nodiscard]] inline std::shared_ptr<const library::ImportReport> report_of(const SharedImport& import) {
+    return import ? std::shared_ptr<const library::ImportReport>(import, &import->report) : nullptr;
 }
 
 class ImportWatch {
@@ -43,7 +43,8 @@ public:
     /// clock.
     enum class Answer : std::uint8_t { WhenReady, Always };
     /// `counts`: as draw_notice. May return null.
-    using Draw = std::function<SharedNotice(const NoticeText& text, const NoticeText& counts)>;
+    using Draw = std::function<exhibit::SharedNotice(const exhibit::NoticeText& text,
+                                                     const exhibit::NoticeText& counts)>;
     static constexpr Nanoseconds between_looks = std::chrono::milliseconds(250);
     static constexpr Nanoseconds between_tries = std::chrono::seconds(5); ///< after a failed read
     /// Compared with the wall clock, which may be wrong: a report from the future counts as news.
@@ -63,8 +64,9 @@ private:
     };
     void work(const std::stop_token& stop);
     void look(MonotonicTime now);
-    [[nodiscard]] Result<ImportReport> read() const;
-    [[nodiscard]] SharedNotice drawn(const NoticeText& text, const NoticeText& counts);
+    [[nodiscard]] Result<library::ImportReport> read() const;
+    [[nodiscard]] exhibit::SharedNotice drawn(const exhibit::NoticeText& text,
+                                              const exhibit::NoticeText& counts);
 
     std::filesystem::path file_;
     Draw draw_;
@@ -74,7 +76,7 @@ private:
     bool first_ = true;                       ///< nothing has been read yet
     std::optional<MonotonicTime> read_again_; ///< after a failed read
     std::string said_;                        ///< last line on standard error
-    std::vector<SharedNotice> drawn_;
+    std::vector<exhibit::SharedNotice> drawn_;
 
     std::mutex mutex_; ///< guards found_; nothing is read or drawn under it
     SharedImport found_;
@@ -83,4 +85,4 @@ private:
     std::jthread worker_; ///< last, so that it ends first
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -16,19 +16,20 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct Inputs {
-    std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
+    std::unique_ptr<tracker::PacketRecorder> recorder; ///< of the tracker's packets; outlives it
     Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or recording is off
-    std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
-    std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
-    std::unique_ptr<VisitorTracker> visitor;    ///< none: only sensors tell where a head is
-    std::unique_ptr<DriftWatch> drift;          ///< none: drift is not measured
-    std::unique_ptr<Viewfinder> viewfinder;     ///< none: no camera is used, or there are no buttons to hold
-    std::unique_ptr<Camera> camera; ///< source of their frames; declared after them, so that it ends first
-    std::unique_ptr<Panel> panel;   ///< none: there are no buttons
-    std::unique_ptr<Sound> sound;   ///< none: there is nothing to play
+    std::unique_ptr<tracking::RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
+    std::unique_ptr<tags::TagTracker> tags;               ///< none: the prop has no second tracker
+    std::unique_ptr<visitor::VisitorTracker> visitor;     ///< none: only sensors tell where a head is
+    std::unique_ptr<drift::DriftWatch> drift;             ///< none: drift is not measured
+    std::unique_ptr<Viewfinder> viewfinder; ///< none: no camera is used, or there are no buttons to hold
+    std::unique_ptr<camera::Camera>
+        camera; ///< source of their frames; declared after them, so that it ends first
+    std::unique_ptr<panel::Panel> panel; ///< none: there are no buttons
+    std::unique_ptr<sound::Sound> sound; ///< none: there is nothing to play
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

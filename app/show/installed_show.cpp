@@ -6,23 +6,23 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-bool library_is_there(const Settings& settings) {
+bool library_is_there(const settings::Settings& settings) {
     std::error_code failed;
     return !settings.exhibit.library.empty() &&
            std::filesystem::is_directory(settings.exhibit.library, failed);
 }
 
 InstalledShow show_installed_set(
-    const Settings& settings, const ArtifactShowOptions& options, Trust trust,
+    const settings::Settings& settings, const ArtifactShowOptions& options, Trust trust,
     const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create) {
     InstalledShow installed;
     if (!library_is_there(settings)) {
         return installed;
     }
     const std::filesystem::path& library = settings.exhibit.library;
-    const auto options_for = [&](const InstalledSet& set) {
+    const auto options_for = [&](const library::InstalledSet& set) {
         const SetRequest request = request_of(set, library, settings);
         ArtifactShowOptions own = options;
         own.packs = request.packs;
@@ -38,7 +38,7 @@ InstalledShow show_installed_set(
     std::optional<SetTrial>& trial = installed.start.trial;
     const std::optional<SetTrial> before = trial;
     for (int step = 0; step < 2 && trial && !installed.show; ++step) { // a bad set leads to the previous one
-        const InstalledSet target = trial->target();
+        const library::InstalledSet target = trial->target();
         Result<std::unique_ptr<ArtifactShow>> show = create(options_for(target));
         if (!show && target.packs.empty()) { // the new set without its bad packs is better than nothing
             show = create(options_for(trial->choice().set));
@@ -63,4 +63,4 @@ InstalledShow show_installed_set(
     return installed;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -15,10 +15,10 @@
 #include <memory>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// True if the folder that the settings name exists: a set is installed there, or may be later.
-[[nodiscard]] bool library_is_there(const Settings& settings);
+[[nodiscard]] bool library_is_there(const settings::Settings& settings);
 
 struct InstalledShow {
     std::unique_ptr<ArtifactShow> show; ///< null: no set is installed, or none can be shown
@@ -26,7 +26,7 @@ struct InstalledShow {
 };
 /// `options`: those common to all sets. `create`: calls ArtifactShow::create with them.
 [[nodiscard]] InstalledShow show_installed_set(
-    const Settings& settings, const ArtifactShowOptions& options, Trust trust,
+    const settings::Settings& settings, const ArtifactShowOptions& options, Trust trust,
     const std::function<Result<std::unique_ptr<ArtifactShow>>(const ArtifactShowOptions&)>& create);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

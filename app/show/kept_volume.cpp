@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -50,4 +50,4 @@ void VolumeKeeper::note(int louder_db) {
     static_cast<void>(write_file(file_, std::as_bytes(std::span(line))));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

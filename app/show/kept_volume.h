@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// 0: no volume was chosen relative to `settings_gain_db`.
 [[nodiscard]] int read_kept_volume(const std::filesystem::path& file, double settings_gain_db);
@@ -31,4 +31,4 @@ private:
     int kept_db_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -22,7 +22,7 @@ Result<UsedSettings> read_from(const std::filesystem::path& file, const std::fil
         return as_kind(ErrorKind::BadConfiguration, bytes.error());
     }
     std::string text(as_text(*bytes));
-    TRY(CheckedSettings settings, kiosk_settings(text, as));
+    TRY(settings::CheckedSettings settings, settings::kiosk_settings(text, as));
     return UsedSettings{std::move(settings), std::move(text), {}};
 }
 
@@ -56,7 +56,7 @@ SettingsKeeper::SettingsKeeper(std::filesystem::path file, std::string text)
 
 void SettingsKeeper::note(const RunStatus& status) {
     const MonotonicTime now = status.written.monotonic.value_or(MonotonicTime());
-    const bool is_good = status.health == word_of(Health::Well) && !status.artifact.empty();
+    const bool is_good = status.health == service::word_of(service::Health::Well) && !status.artifact.empty();
     if (!is_good || (since_ && now - latest_ > longest_silence)) {
         since_.reset();
     }
@@ -78,4 +78,4 @@ void SettingsKeeper::note(const RunStatus& status) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -16,10 +16,10 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct UsedSettings {
-    CheckedSettings settings;
+    settings::CheckedSettings settings;
     std::string text; ///< of their file
     std::string
         instead; ///< why these are not the kiosk's own, and which they are, as a sentence; empty: its own
@@ -49,4 +49,4 @@ private:
     bool is_done_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

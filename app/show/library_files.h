@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// Identity of a set.txt, which is only ever replaced. Two different files have equal stamps only by coincidence.
 struct FileStamp {
@@ -26,15 +26,17 @@ struct FileStamp {
 /// None: there is no set.txt.
 [[nodiscard]] std::optional<FileStamp> stamp_of_set(const std::filesystem::path& library);
 /// Nothing: there is no set.txt.
-[[nodiscard]] Result<std::optional<SetChoice>> read_choice(const std::filesystem::path& library);
+[[nodiscard]] Result<std::optional<library::SetChoice>> read_choice(const std::filesystem::path& library);
 /// Nothing: there is none, or it is unusable, as after a power cut; then the set's trial starts again.
-[[nodiscard]] std::optional<SetVerdict> read_verdict(const std::filesystem::path& library);
-[[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict);
+[[nodiscard]] std::optional<library::SetVerdict> read_verdict(const std::filesystem::path& library);
+[[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library,
+                                        const library::SetVerdict& verdict);
 
 /// The packs of `set` that are signed with an expired key, in words; empty: there are none, or the settings name no
 /// key, so that none is required.
-[[nodiscard]] std::string packs_of_ended_keys(const std::filesystem::path& library, const InstalledSet& set,
-                                              const Settings& settings,
+[[nodiscard]] std::string packs_of_ended_keys(const std::filesystem::path& library,
+                                              const library::InstalledSet& set,
+                                              const settings::Settings& settings,
                                               std::optional<std::chrono::sys_days> clock);
 
 /// The state of the library when the exhibit starts.
@@ -46,9 +48,9 @@ struct LibraryStart {
 [[nodiscard]] LibraryStart start_library(const std::filesystem::path& library, Trust trust = Trust::Newest);
 
 /// The request for a set. A set without packs shows those of the settings.
-[[nodiscard]] SetRequest request_of(const InstalledSet& set, const std::filesystem::path& library,
-                                    const Settings& settings);
+[[nodiscard]] SetRequest request_of(const library::InstalledSet& set, const std::filesystem::path& library,
+                                    const settings::Settings& settings);
 /// Why a set that shows this is bad, as a sentence; empty: no fault so far.
-[[nodiscard]] std::string fault_of(const PacksLeftOut& left_out, bool shows_nothing);
+[[nodiscard]] std::string fault_of(const library::PacksLeftOut& left_out, bool shows_nothing);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

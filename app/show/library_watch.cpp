@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr Nanoseconds pack_patience = std::chrono::minutes(5);
 
 } // namespace
 
-LibraryWatch::LibraryWatch(const Settings& settings, SetUp set_up)
+LibraryWatch::LibraryWatch(const settings::Settings& settings, SetUp set_up)
     : settings_(settings), set_up_(std::move(set_up)), trial_(std::move(set_up_.start.trial)),
       offered_(set_up_.shown), on_show_(set_up_.shown), heartbeat_(monotonic_now() + look_patience) {
     if (trial_) {
@@ -107,7 +107,7 @@ void LibraryWatch::look() {
     }
     stamp_ = stamp;
     read_again_ = now + set_up_.between_tries;
-    Result<std::optional<SetChoice>> choice = read_choice(set_up_.library);
+    Result<std::optional<library::SetChoice>> choice = read_choice(set_up_.library);
     trouble_ = choice ? "" : choice.error().message;
     if (!choice || !*choice) {
         stamp_ = choice ? std::nullopt : stamp_; // it was removed meanwhile
@@ -137,15 +137,15 @@ void LibraryWatch::keep() {
 void LibraryWatch::follow_target(const std::stop_token& stop) {
     // A bad set leads to the previous one: two steps at most.
     for (int step = 0; step < 2 && trial_; ++step) {
-        const InstalledSet& target = trial_->target();
+        const library::InstalledSet& target = trial_->target();
         if (target.number == offered_ || target.number == failed_ || stop.stop_requested()) {
             return;
         }
-        offer(InstalledSet(target), stop);
+        offer(library::InstalledSet(target), stop);
     }
 }
 
-void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
+void LibraryWatch::offer(const library::InstalledSet& set, const std::stop_token& stop) {
     SetRequest request = request_of(set, set_up_.library, settings_);
     request.goes_on = [&] {
         heartbeat_.promise(monotonic_now() + pack_patience);
@@ -191,7 +191,7 @@ void LibraryWatch::look_at_keys() {
 }
 
 void LibraryWatch::post() {
-    SetStatus status;
+    status::SetStatus status;
     status.shown = on_show_;
     if (on_show_ == shown_set_.number) {
         status.packs = shown_set_.packs;
@@ -204,8 +204,8 @@ void LibraryWatch::post() {
     status.trouble = !trouble_.empty() ? trouble_ : verdict_trouble_;
     if (status != posted_) {
         posted_ = status;
-        status_.put(std::make_shared<const SetStatus>(std::move(status)));
+        status_.put(std::make_shared<const status::SetStatus>(std::move(status)));
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -20,14 +20,14 @@
 #include <memory>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The render thread's report on the shown set, for the verdict.
 struct ShownReport {
     MonotonicTime now;
     std::uint64_t number = 0; ///< of the set
     bool shows_nothing = false;
-    PacksLeftOut left_out;
+    library::PacksLeftOut left_out;
 };
 
 class LibraryWatch {
@@ -42,7 +42,7 @@ public:
         Nanoseconds between_tries = std::chrono::seconds(5); ///< after a failed read or write
     };
     /// `settings` must outlive this object.
-    LibraryWatch(const Settings& settings, SetUp set_up);
+    LibraryWatch(const settings::Settings& settings, SetUp set_up);
     ~LibraryWatch();
     LibraryWatch(const LibraryWatch&) = delete;
     LibraryWatch& operator=(const LibraryWatch&) = delete;
@@ -55,7 +55,7 @@ public:
     /// Call at least once a second.
     void report(const ShownReport& report) { static_cast<void>(shown_.try_put(report)); }
     /// Takes the status if it is new; false: it is not.
-    [[nodiscard]] bool news(SharedSetStatus& status) { return status_.try_take(status); }
+    [[nodiscard]] bool news(status::SharedSetStatus& status) { return status_.try_take(status); }
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
 
 private:
@@ -65,34 +65,34 @@ private:
     void look();
     void keep();
     void follow_target(const std::stop_token& stop);
-    void offer(const InstalledSet& set, const std::stop_token& stop);
+    void offer(const library::InstalledSet& set, const std::stop_token& stop);
     void look_at_keys();
     void post();
 
-    const Settings& settings_;
+    const settings::Settings& settings_;
     SetUp set_up_;
-    std::optional<SetTrial> trial_;  ///< none: no set was ever installed
-    std::string trouble_;            ///< with set.txt, which is read again
-    std::string verdict_trouble_;    ///< with the verdict, which is written again
-    std::optional<FileStamp> stamp_; ///< of the set.txt read last, or not readable
-    std::optional<SetVerdict> kept_; ///< as written last, or not writable
+    std::optional<SetTrial> trial_;           ///< none: no set was ever installed
+    std::string trouble_;                     ///< with set.txt, which is read again
+    std::string verdict_trouble_;             ///< with the verdict, which is written again
+    std::optional<FileStamp> stamp_;          ///< of the set.txt read last, or not readable
+    std::optional<library::SetVerdict> kept_; ///< as written last, or not writable
     MonotonicTime read_again_, keep_again_;
     std::uint64_t offered_ = 0;           ///< number of the latest set offered, or of the first set
     std::optional<std::uint64_t> failed_; ///< the latest set that could not be opened
-    InstalledSet offered_set_, shown_set_;
+    library::InstalledSet offered_set_, shown_set_;
     std::uint64_t on_show_ = 0; ///< as reported
     std::string of_ended_keys_;
     /// The set and the set.txt whose keys were checked last.
     std::optional<std::pair<std::uint64_t, std::optional<FileStamp>>> keys_of_;
     MonotonicTime keys_again_;
-    std::optional<SetStatus> posted_;
+    std::optional<status::SetStatus> posted_;
 
     Latest<ShownReport> shown_;
-    Latest<SharedSetStatus> status_;
+    Latest<status::SharedSetStatus> status_;
     std::atomic<ShownSet*> coming_{nullptr}; ///< `coming_`, `gone_`: owned by the thread that takes them
     std::atomic<ShownSet*> gone_{nullptr};
     Heartbeat heartbeat_;
     std::jthread thread_; ///< last: it uses the others
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

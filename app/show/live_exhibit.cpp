@@ -10,11 +10,11 @@
 #include <numbers>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
-ToldText told_by(const Presentation& presentation) {
+ToldText told_by(const exhibit::Presentation& presentation) {
     if (presentation.caption && presentation.caption->portion) {
         return {ToldText::Kind::Description, *presentation.caption->portion};
     }
@@ -25,7 +25,7 @@ ToldText told_by(const Presentation& presentation) {
 }
 
 /// Dims all parts alike on the way to sleep.
-void dim(Presentation& presentation, double light) {
+void dim(exhibit::Presentation& presentation, double light) {
     if (light >= 1.0) {
         return;
     }
@@ -51,19 +51,19 @@ void dim(Presentation& presentation, double light) {
 
 } // namespace
 
-Volume volume_of(const SoundSettings& settings) {
-    Volume volume{settings.gain_db, {}};
-    for (const SoundHour& hour : settings.hours) {
+sound::Volume volume_of(const settings::SoundSettings& settings) {
+    sound::Volume volume{settings.gain_db, {}};
+    for (const settings::SoundHour& hour : settings.hours) {
         volume.hours.push_back({hour.from_h, hour.gain_db});
     }
     return volume;
 }
 
-LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage> stage, Exhibit exhibit,
-                         std::string driver, PromptReader::Answer answer)
+LiveExhibit::LiveExhibit(const settings::Settings& settings, std::unique_ptr<ExhibitStage> stage,
+                         exhibit::Exhibit exhibit, std::string driver, residency::PromptReader::Answer answer)
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
-      notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always
-                                                               : ImportWatch::Answer::WhenReady),
+      notice_(settings, answer == residency::PromptReader::Answer::Always ? ImportWatch::Answer::Always
+                                                                          : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)), gain_db_(settings.sound.gain_db) {
     if (speaks()) {
         speaker_.begin(answer);
@@ -74,7 +74,8 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
     set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
 }
 
-void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) {
+void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
+                       const tracking::TrackedState& on_table) {
     const bool asleep = light_ <= 0.0;
     if (set_switch_ && !asleep && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // the previous presentation belongs to the old set
@@ -102,22 +103,23 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
     }
 }
 
-std::span<const Command> LiveExhibit::left_by_notice(MonotonicTime now, std::span<const Command> commands) {
-    static constexpr std::array chord{Command::StaffMode};
+std::span<const settings::Command> LiveExhibit::left_by_notice(MonotonicTime now,
+                                                               std::span<const settings::Command> commands) {
+    static constexpr std::array chord{settings::Command::StaffMode};
     if (!notice_.take_press(now, commands)) {
         return commands;
     }
     bool has_chord = false;
-    for (const Command command : commands) {
-        has_chord = has_chord || command == Command::StaffMode;
-        if (is_press(command)) {
+    for (const settings::Command command : commands) {
+        has_chord = has_chord || command == settings::Command::StaffMode;
+        if (settings::is_press(command)) {
             exhibit_.forget_press(command);
         }
     }
     return std::span(chord).first(has_chord ? 1 : 0);
 }
 
-void LiveExhibit::hear(const SoundReport& report) {
+void LiveExhibit::hear(const sound::SoundReport& report) {
     speaker_.hear(report);
     exhibit_.hear(speaker_.speaks(), speaker_.narration());
 }
@@ -152,16 +154,16 @@ void LiveExhibit::follow_staff_mode() {
 }
 
 void LiveExhibit::tell(const RunStatus& status) {
-    gain_db_ = gain_db_at(volume_, status.hour_of_day);
+    gain_db_ = sound::gain_db_at(volume_, status.hour_of_day);
     if (staff_) {
         staff_->tell(status, gain_db_);
     }
 }
 
-DrawResult LiveExhibit::draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
-                             Redraw redraw) {
+render::DrawResult LiveExhibit::draw(MonotonicTime now, const tracking::TrackedState& on_table,
+                                     const render::RenderTarget& target, render::Redraw redraw) {
     // A buffer that is older than the change holds the other picture.
-    RenderTarget own = target;
+    render::RenderTarget own = target;
     if (presents_ && target.buffer_age > *presents_) {
         own.buffer_age = 0;
     }
@@ -169,8 +171,8 @@ DrawResult LiveExhibit::draw(MonotonicTime now, const TrackedState& on_table, co
         staff_->set_viewfinder(viewfinder_);
         staff_->show(now, presentation_.staff_view, prop_signal_, head_signal_);
     }
-    const DrawResult drawn = staff_ ? staff_->draw(now, on_table, own, redraw)
-                                    : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
+    const render::DrawResult drawn = staff_ ? staff_->draw(now, on_table, own, redraw)
+                                            : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
     if (presents_ && drawn.drawn) {
         ++*presents_;
     }
@@ -183,4 +185,4 @@ void LiveExhibit::record_time(MonotonicTime now, double ms) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

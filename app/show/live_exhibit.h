@@ -20,60 +20,62 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-[[nodiscard]] Volume volume_of(const SoundSettings& settings);
+[[nodiscard]] sound::Volume volume_of(const settings::SoundSettings& settings);
 
 class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
     /// `answer`: Always on a simulated clock.
-    LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage> stage, Exhibit exhibit,
-                std::string driver, PromptReader::Answer answer = PromptReader::Answer::WhenReady);
+    LiveExhibit(const settings::Settings& settings, std::unique_ptr<ExhibitStage> stage,
+                exhibit::Exhibit exhibit, std::string driver,
+                residency::PromptReader::Answer answer = residency::PromptReader::Answer::WhenReady);
 
     /// Accepts other sets from here on; `artifacts` is the stage.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
 
-    void step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) override;
+    void step(MonotonicTime now, std::span<const settings::Command> commands,
+              const tracking::TrackedState& on_table) override;
     void tell(const RunStatus& status) override;
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
-                                  Redraw redraw) override;
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& on_table,
+                                          const render::RenderTarget& target, render::Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
-    [[nodiscard]] const SoundRequest& sound_request() const override { return speaker_.request(); }
+    [[nodiscard]] const sound::SoundRequest& sound_request() const override { return speaker_.request(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
-    void hear(const SoundReport& report) override;
+    void hear(const sound::SoundReport& report) override;
     [[nodiscard]] bool sleeps() const override { return true; }
     void set_light(double light) override { light_ = light; }
-    void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
+    void set_mark(const std::optional<drift::ShownMark>& mark) override { mark_ = mark; }
     void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
-    void set_signal(const TrackerSignal& prop, const TrackerSignal& head) override {
+    void set_signal(const tracking::TrackerSignal& prop, const tracking::TrackerSignal& head) override {
         prop_signal_ = prop;
         head_signal_ = head;
     }
 
 private:
     /// The commands that a notice leaves to the exhibit.
-    [[nodiscard]] std::span<const Command> left_by_notice(MonotonicTime now,
-                                                          std::span<const Command> commands);
+    [[nodiscard]] std::span<const settings::Command>
+    left_by_notice(MonotonicTime now, std::span<const settings::Command> commands);
     void follow_staff_mode();
 
-    const Settings& settings_;
+    const settings::Settings& settings_;
     std::unique_ptr<ExhibitStage> stage_;
     std::string driver_;
     std::unique_ptr<SetSwitch> set_switch_; ///< none: the set never changes
-    Exhibit exhibit_;
-    Presentation presentation_; ///< of the latest step
+    exhibit::Exhibit exhibit_;
+    exhibit::Presentation presentation_; ///< of the latest step
     Speaker speaker_;
     NoticeShow notice_;
-    Volume volume_;
-    double light_ = 1.0;               ///< 0: asleep
-    std::optional<ShownMark> mark_;    ///< wanted in this step
-    Viewfinder* viewfinder_ = nullptr; ///< none: the staff's buttons are not held
-    TrackerSignal prop_signal_, head_signal_;
+    sound::Volume volume_;
+    double light_ = 1.0;                   ///< 0: asleep
+    std::optional<drift::ShownMark> mark_; ///< wanted in this step
+    Viewfinder* viewfinder_ = nullptr;     ///< none: the staff's buttons are not held
+    tracking::TrackerSignal prop_signal_, head_signal_;
     double gain_db_;                   ///< the settings' volume for this hour
     std::unique_ptr<StaffShow> staff_; ///< while the staff picture is on
     std::optional<int> presents_;      ///< since the other picture was last drawn; nothing: never
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
 constexpr int texels = 32;
 
 /// Bright in the middle, dark at the rim, without an edge: this gives the most accurate centre.
-Image<std::uint8_t> soft_disc() {
-    Image<std::uint8_t> disc(texels, texels);
+image::Image<std::uint8_t> soft_disc() {
+    image::Image<std::uint8_t> disc(texels, texels);
     for (int v = 0; v < texels; ++v) {
         for (int u = 0; u < texels; ++u) {
             const double from_middle =
@@ -27,15 +27,15 @@ Image<std::uint8_t> soft_disc() {
     return disc;
 }
 
-bool is_apart(const TableRectangle& mark, const TableRectangle& other) {
+bool is_apart(const typography::TableRectangle& mark, const typography::TableRectangle& other) {
     constexpr double between_m = 0.004;
-    return clearance(mark.corners(), other.corners()) > between_m;
+    return typography::clearance(mark.corners(), other.corners()) > between_m;
 }
 
 } // namespace
 
-bool has_room_for_mark(const glm::dvec2& place_m, const Presentation& presentation, double prop_m) {
-    const TableRectangle mark{place_m, glm::dvec2(mark_size_m), 0};
+bool has_room_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation, double prop_m) {
+    const typography::TableRectangle mark{place_m, glm::dvec2(mark_size_m), 0};
     bool free =
         glm::distance(place_m, glm::dvec2(presentation.table_from_prop.translation)) > prop_m + mark_size_m;
     free = free && (!presentation.caption || is_apart(mark, presentation.caption->rectangle));
@@ -43,26 +43,28 @@ bool has_room_for_mark(const glm::dvec2& place_m, const Presentation& presentati
     free = free && (!presentation.notice || is_apart(mark, presentation.notice->rectangle));
     if (presentation.table != nullptr) {
         const auto pictures = presentation.table->pictures();
-        free = free && std::all_of(pictures.begin(), pictures.end(), [&](const PlacedPicture& picture) {
-                   return picture.brightness <= 0.0 || is_apart(mark, picture.place.whole());
-               });
+        free =
+            free && std::all_of(pictures.begin(), pictures.end(), [&](const exhibit::PlacedPicture& picture) {
+                return picture.brightness <= 0.0 || is_apart(mark, picture.place.whole());
+            });
     }
     return free;
 }
 
-Result<void> MarkShow::prepare(GpuStore& store) {
-    return store.upload(soft_disc()).map([&](TextureId texture) { texture_ = texture; });
+Result<void> MarkShow::prepare(render::GpuStore& store) {
+    return store.upload(soft_disc()).map([&](scene::TextureId texture) { texture_ = texture; });
 }
 
-void MarkShow::place(const std::optional<ShownMark>& mark, OnTable& on_table) const {
-    if (mark && texture_ != TextureId::None) {
-        on_table.add({picture_corners({mark->place_m, glm::dvec2(mark_size_m), 0}),
-                      mark_brightness * mark->brightness, texture_});
+void MarkShow::place(const std::optional<drift::ShownMark>& mark, residency::OnTable& on_table) const {
+    if (mark && texture_ != scene::TextureId::None) {
+        on_table.add({.corners_m = residency::picture_corners({mark->place_m, glm::dvec2(mark_size_m), 0}),
+                      .brightness = mark_brightness * mark->brightness,
+                      .texture = texture_});
     }
 }
 
 std::uint64_t MarkShow::planned_gpu_bytes() const {
-    return texture_ != TextureId::None ? caption_gpu_bytes(texels, texels) : 0;
+    return texture_ != scene::TextureId::None ? scene::caption_gpu_bytes(texels, texels) : 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

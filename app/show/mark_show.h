@@ -13,25 +13,25 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 inline constexpr double mark_size_m = 0.016;    ///< across
 inline constexpr double mark_brightness = 0.25; ///< fraction of the projector's light, in its middle
 
 /// True if a mark is clear of the prop and of everything lit. `prop_m`: reach of the prop from its axis.
-[[nodiscard]] bool has_room_for_mark(const glm::dvec2& place_m, const Presentation& presentation,
+[[nodiscard]] bool has_room_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation,
                                      double prop_m);
 
 class MarkShow {
 public:
     /// Call before the first frame.
-    [[nodiscard]] Result<void> prepare(GpuStore& store);
-    void place(const std::optional<ShownMark>& mark, OnTable& on_table) const;
-    [[nodiscard]] TextureId texture() const { return texture_; }
+    [[nodiscard]] Result<void> prepare(render::GpuStore& store);
+    void place(const std::optional<drift::ShownMark>& mark, residency::OnTable& on_table) const;
+    [[nodiscard]] scene::TextureId texture() const { return texture_; }
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:
-    TextureId texture_ = TextureId::None; ///< none: no camera uses marks
+    scene::TextureId texture_ = scene::TextureId::None; ///< none: no camera uses marks
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

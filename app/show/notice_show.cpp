@@ -18,7 +18,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -26,34 +26,45 @@ constexpr double empty_ring_brightness = 0.2; ///< relative to a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
 
-SharedRecording recording_of(const LanguageWords& words, const std::string& key, double gain_db) {
+residency::SharedRecording recording_of(const pack::LanguageWords& words, const std::string& key,
+                                        double gain_db) {
     const auto sound = words.sounds.find(key);
     if (sound == words.sounds.end()) {
         return nullptr;
     }
-    return std::make_shared<const PromptRecording>(PromptRecording{
-        fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}, gain_db});
+    return std::make_shared<const residency::PromptRecording>(
+        residency::PromptRecording{.name = fmt::format("{} in '{}'", key, words.language),
+                                   .opus = sound->second,
+                                   .pack = {},
+                                   .language = words.language,
+                                   .key = key,
+                                   .portions = {},
+                                   .gain_db = gain_db});
 }
 
 /// The function that draws notices; null: notices cannot be drawn, and a line says why.
-ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
-    Result<Typesetter> opened = Typesetter::open();
+ImportWatch::Draw draws_with(pack::LanguageWords words, double texels_per_m) {
+    Result<typography::Typesetter> opened = typography::Typesetter::open();
     if (!opened) {
         say_line("frustumscreen",
                  "what is done with a stick is not told on the table: " + opened.error().message);
-        return [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
+        return [](const exhibit::NoticeText&, const exhibit::NoticeText&) { return exhibit::SharedNotice(); };
     }
     words.sounds.clear();
-    return [kept = std::make_shared<const LanguageWords>(std::move(words)),
-            typesetter = std::make_shared<const Typesetter>(std::move(*opened)),
-            texels_per_m](const NoticeText& text, const NoticeText& counts) {
-        return std::make_shared<const NoticePicture>(
-            draw_notice(text, counts, {kept->runs, kept->atlas, *typesetter, texels_per_m}));
+    return [kept = std::make_shared<const pack::LanguageWords>(std::move(words)),
+            typesetter = std::make_shared<const typography::Typesetter>(std::move(*opened)),
+            texels_per_m](const exhibit::NoticeText& text, const exhibit::NoticeText& counts) {
+        return std::make_shared<const exhibit::NoticePicture>(
+            exhibit::draw_notice(text, counts,
+                                 {.runs = kept->runs,
+                                  .atlas = kept->atlas,
+                                  .typesetter = *typesetter,
+                                  .texels_per_m = texels_per_m}));
     };
 }
 
 /// The axis-parallel rectangle around a sign, with a margin for its movement.
-TableRectangle around(const PlacedSign& sign) {
+typography::TableRectangle around(const exhibit::PlacedSign& sign) {
     constexpr double moves_m = 0.02;
     glm::dvec2 low = sign.corners_m[0];
     glm::dvec2 high = low;
@@ -67,7 +78,7 @@ TableRectangle around(const PlacedSign& sign) {
 /// The pictures for visitors beside the prop, except the caption.
 class Obstacles {
 public:
-    explicit Obstacles(const Presentation& presentation) {
+    explicit Obstacles(const exhibit::Presentation& presentation) {
         if (presentation.sign) {
             lit_.add(around(*presentation.sign));
         }
@@ -78,27 +89,29 @@ public:
             lit_.add(presentation.hotspot->label);
         }
         if (presentation.table != nullptr) {
-            for (const PlacedPicture& picture : presentation.table->pictures()) {
+            for (const exhibit::PlacedPicture& picture : presentation.table->pictures()) {
                 (picture.brightness > 0.0 ? lit_ : empty_).add(picture.place.whole());
             }
         }
     }
-    [[nodiscard]] std::span<const TableRectangle> lit() const { return lit_.all(); }
+    [[nodiscard]] std::span<const typography::TableRectangle> lit() const { return lit_.all(); }
     /// Places without a picture.
-    [[nodiscard]] std::span<const TableRectangle> empty() const { return empty_.all(); }
+    [[nodiscard]] std::span<const typography::TableRectangle> empty() const { return empty_.all(); }
 
 private:
     class List {
     public:
-        void add(const TableRectangle& rectangle) {
+        void add(const typography::TableRectangle& rectangle) {
             if (count_ < all_.size()) {
                 all_[count_++] = rectangle;
             }
         }
-        [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
+        [[nodiscard]] std::span<const typography::TableRectangle> all() const {
+            return std::span(all_).first(count_);
+        }
 
     private:
-        std::array<TableRectangle, CaptionPlacer::max_obstacles> all_{};
+        std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> all_{};
         std::size_t count_ = 0;
     };
     List lit_, empty_;
@@ -106,24 +119,26 @@ private:
 
 } // namespace
 
-NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
-    : prop_(make_prop(settings.prop)), lens_m_(settings.projector.table_from_projector.translation),
-      place_(picture_on_table(settings, 0.0)) {
+NoticeShow::NoticeShow(const settings::Settings& settings, ImportWatch::Answer answer)
+    : prop_(settings::make_prop(settings.prop)), lens_m_(settings.projector.table_from_projector.translation),
+      place_(settings::picture_on_table(settings, 0.0)) {
     if (settings.exhibit.import_report.empty()) {
         return;
     }
-    ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
-    if (!tells_of_sticks(settings)) { // only in the journal and the status
+    ImportWatch::Draw draw = [](const exhibit::NoticeText&, const exhibit::NoticeText&) {
+        return exhibit::SharedNotice();
+    };
+    if (!settings::tells_of_sticks(settings)) { // only in the journal and the status
         watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
         return;
     }
-    Result<LanguageWords> words = read_house_words(settings, "stick.take_out");
-    if (words && settings.sound.kind != SoundKind::None) {
+    Result<pack::LanguageWords> words = read_house_words(settings, "stick.take_out");
+    if (words && settings.sound.kind != settings::SoundKind::None) {
         found_ = recording_of(*words, "stick.found", found_gain_db);
         take_out_ = recording_of(*words, "stick.take_out", 0.0);
     }
     if (words) {
-        draw = draws_with(std::move(*words), text_style(settings).texels_per_m);
+        draw = draws_with(std::move(*words), residency::text_style(settings).texels_per_m);
     } else {
         say_line("frustumscreen",
                  "what is done with a stick is not told on the table: " + words.error().message);
@@ -131,19 +146,20 @@ NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
     watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
 }
 
-bool NoticeShow::take_press(MonotonicTime now, std::span<const Command> commands) {
-    const bool pressed = std::any_of(commands.begin(), commands.end(), is_press);
+bool NoticeShow::take_press(MonotonicTime now, std::span<const settings::Command> commands) {
+    const bool pressed = std::any_of(commands.begin(), commands.end(), settings::is_press);
     return pressed && lies_there_ && notice_.press(now);
 }
 
-SharedNotice NoticeShow::wanted(const std::optional<ShownNotice>& shown) const {
+exhibit::SharedNotice NoticeShow::wanted(const std::optional<exhibit::ShownNotice>& shown) const {
     if (!shown || !import_) {
         return nullptr;
     }
     return shown->stopped ? import_->stopped : import_->notice;
 }
 
-void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation) {
+void NoticeShow::step(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                      exhibit::Presentation& presentation) {
     if (!watch_) {
         return;
     }
@@ -153,8 +169,8 @@ void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Pres
         notice_.take(now, import_->report, import_->is_old);
     }
     side_.update(tracked_state.eye_m);
-    const std::optional<ShownNotice> shown = notice_.at(now);
-    const SharedNotice notice = wanted(shown);
+    const std::optional<exhibit::ShownNotice> shown = notice_.at(now);
+    const exhibit::SharedNotice notice = wanted(shown);
     place(now, notice, tracked_state, presentation);
     if (presentation.notice) {
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
@@ -170,78 +186,87 @@ void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Pres
     announcement_ = !due_ ? nullptr : due_->key == "stick.found" ? found_ : take_out_;
 }
 
-void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
-                       Presentation& presentation) {
+void NoticeShow::place(MonotonicTime now, const exhibit::SharedNotice& wanted,
+                       const tracking::TrackedState& tracked_state, exhibit::Presentation& presentation) {
     const Obstacles obstacles(presentation);
-    NoticeEnvironment environment{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
-                                  hidden_by_prop(prop_, presentation.table_from_prop, tracked_state.eye_m),
-                                  glm::dvec2(presentation.table_from_prop.translation),
-                                  side_.quarter_turns(),
-                                  obstacles.lit(),
-                                  obstacles.empty(),
-                                  {}};
+    exhibit::NoticeEnvironment environment{
+        .shadow = typography::hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
+        .hidden = typography::hidden_by_prop(prop_, presentation.table_from_prop, tracked_state.eye_m),
+        .prop_m = glm::dvec2(presentation.table_from_prop.translation),
+        .quarter_turns = side_.quarter_turns(),
+        .obstacles = obstacles.lit(),
+        .kept = obstacles.empty(),
+        .caption = {}};
     if (presentation.caption) {
         environment.caption = presentation.caption->rectangle;
     }
     presentation.notice = place_.step(now, wanted, environment);
     if (presentation.notice && presentation.caption) {
         presentation.caption->brightness *=
-            left_to_caption(presentation.caption->rectangle, *presentation.notice);
+            exhibit::left_to_caption(presentation.caption->rectangle, *presentation.notice);
     }
 }
 
-Result<void> NoticeTextures::prepare(GpuStore& store) {
-    return store.upload(Image<std::uint8_t>(1, 1, 255))
-        .and_then([&](TextureId texel) {
+Result<void> NoticeTextures::prepare(render::GpuStore& store) {
+    return store.upload(image::Image<std::uint8_t>(1, 1, 255))
+        .and_then([&](scene::TextureId texel) {
             white_ = texel;
-            return store.upload(Image<std::uint8_t>(sample_width, sample_height, 255));
+            return store.upload(image::Image<std::uint8_t>(sample_width, sample_height, 255));
         })
-        .map([&](TextureId sample) { sample_ = sample; });
+        .map([&](scene::TextureId sample) { sample_ = sample; });
 }
 
-void NoticeTextures::follow(const SharedNotice& picture, std::size_t shape, GpuStore& store) {
+void NoticeTextures::follow(const exhibit::SharedNotice& picture, std::size_t shape,
+                            render::GpuStore& store) {
     if (picture == picture_ && shape == shape_) {
         return;
     }
-    store.release(std::exchange(texture_, TextureId::None));
+    store.release(std::exchange(texture_, scene::TextureId::None));
     picture_ = picture;
     shape_ = shape;
     if (!picture_) {
         return;
     }
-    texture_ = store.upload(picture_->shapes[shape].image.coverage).value_or(TextureId::None);
+    texture_ = store.upload(picture_->shapes[shape].image.coverage).value_or(scene::TextureId::None);
 }
 
 std::uint64_t NoticeTextures::planned_gpu_bytes() const {
-    std::uint64_t bytes = white_ != TextureId::None
-                              ? caption_gpu_bytes(1, 1) + caption_gpu_bytes(sample_width, sample_height)
-                              : 0;
-    if (texture_ != TextureId::None) {
-        const Image<std::uint8_t>& coverage = picture_->shapes[shape_].image.coverage;
-        bytes += caption_gpu_bytes(coverage.width, coverage.height);
+    std::uint64_t bytes =
+        white_ != scene::TextureId::None
+            ? scene::caption_gpu_bytes(1, 1) + scene::caption_gpu_bytes(sample_width, sample_height)
+            : 0;
+    if (texture_ != scene::TextureId::None) {
+        const image::Image<std::uint8_t>& coverage = picture_->shapes[shape_].image.coverage;
+        bytes += scene::caption_gpu_bytes(coverage.width, coverage.height);
     }
     return bytes;
 }
 
-void NoticeTextures::place(const std::optional<PresentedNotice>& notice, double brightness,
-                           const Pinhole& projector, const RigidTransform& table_from_projector,
-                           std::span<const glm::dvec2> room, GpuStore& store, OnTable& on_table) {
+void NoticeTextures::place(const std::optional<exhibit::PresentedNotice>& notice, double brightness,
+                           const geometry::Pinhole& projector,
+                           const geometry::RigidTransform& table_from_projector,
+                           std::span<const glm::dvec2> room, render::GpuStore& store,
+                           residency::OnTable& on_table) {
     follow(notice ? notice->picture : nullptr, notice ? notice->shape : 0, store);
     if (!notice) {
         return;
     }
-    on_table.add({picture_corners(on_pixels(notice->rectangle, projector, table_from_projector)),
-                  brightness * notice->brightness, texture_});
-    const std::optional<TablePolygon> round = notice_ring(*notice);
+    on_table.add({.corners_m = residency::picture_corners(
+                      residency::on_pixels(notice->rectangle, projector, table_from_projector)),
+                  .brightness = brightness * notice->brightness,
+                  .texture = texture_});
+    const std::optional<typography::TablePolygon> round = exhibit::notice_ring(*notice);
     if (!round) {
         return;
     }
-    const Ring ring = ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, room);
-    for (const RingPiece& piece : ring.pieces()) {
-        on_table.add({flat_corners(piece.corners_m),
-                      brightness * notice->brightness * (piece.filled ? 1.0 : empty_ring_brightness),
-                      white_});
+    const typography::Ring ring =
+        typography::ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, room);
+    for (const typography::RingPiece& piece : ring.pieces()) {
+        on_table.add(
+            {.corners_m = residency::flat_corners(piece.corners_m),
+             .brightness = brightness * notice->brightness * (piece.filled ? 1.0 : empty_ring_brightness),
+             .texture = white_});
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

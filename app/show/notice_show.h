@@ -25,21 +25,22 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class NoticeShow {
 public:
     static constexpr double found_gain_db = -9.0; ///< quieter, because it comes unasked
 
     /// Reads the texts. `answer`: Always on a simulated clock.
-    NoticeShow(const Settings& settings, ImportWatch::Answer answer);
+    NoticeShow(const settings::Settings& settings, ImportWatch::Answer answer);
 
     /// True if a press ends the notice; then the press has no other effect.
-    [[nodiscard]] bool take_press(MonotonicTime now, std::span<const Command> commands);
+    [[nodiscard]] bool take_press(MonotonicTime now, std::span<const settings::Command> commands);
     /// Adds the notice to the presentation of this step.
-    void step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation);
+    void step(MonotonicTime now, const tracking::TrackedState& tracked_state,
+              exhibit::Presentation& presentation);
     /// The recording to play when nothing else is heard; null: none. It stays until `announced`.
-    [[nodiscard]] const SharedRecording& announcement() const { return announcement_; }
+    [[nodiscard]] const residency::SharedRecording& announcement() const { return announcement_; }
     void announced() { said_ = due_; }
 
     [[nodiscard]] bool speaks() const { return found_ || take_out_; }
@@ -47,16 +48,16 @@ public:
     [[nodiscard]] const SharedImport& import() const { return import_; }
 
 private:
-    [[nodiscard]] SharedNotice wanted(const std::optional<ShownNotice>& shown) const;
-    void place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
-               Presentation& presentation);
+    [[nodiscard]] exhibit::SharedNotice wanted(const std::optional<exhibit::ShownNotice>& shown) const;
+    void place(MonotonicTime now, const exhibit::SharedNotice& wanted,
+               const tracking::TrackedState& tracked_state, exhibit::Presentation& presentation);
 
-    PropShape prop_;
+    geometry::PropShape prop_;
     glm::dvec3 lens_m_;
-    SharedRecording found_, take_out_; ///< spoken
-    StickNotice notice_;
-    NoticePlace place_;
-    VisitorSide side_;
+    residency::SharedRecording found_, take_out_; ///< spoken
+    exhibit::StickNotice notice_;
+    exhibit::NoticePlace place_;
+    typography::VisitorSide side_;
     SharedImport import_;
     /// A text that is spoken once for each import.
     struct Said {
@@ -66,7 +67,7 @@ private:
     };
     std::optional<Said> said_; ///< the last one
     std::optional<Said> due_;
-    SharedRecording announcement_;
+    residency::SharedRecording announcement_;
     bool lies_there_ = false;          ///< in the previous step; a press then ends the notice
     std::optional<ImportWatch> watch_; ///< none: notices are off
 };
@@ -75,25 +76,26 @@ private:
 class NoticeTextures {
 public:
     /// Call before the first frame.
-    [[nodiscard]] Result<void> prepare(GpuStore& store);
+    [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     /// Textures to draw once before the first frame, so that the driver compiles for notices: it may distinguish
     /// textures by size.
-    [[nodiscard]] std::array<TextureId, 2> samples() const { return {white_, sample_}; }
+    [[nodiscard]] std::array<scene::TextureId, 2> samples() const { return {white_, sample_}; }
     /// Uploads a new picture and releases one that is not shown. `brightness`: of texts, fraction of the projector's
     /// light.
-    void place(const std::optional<PresentedNotice>& notice, double brightness, const Pinhole& projector,
-               const RigidTransform& table_from_projector, std::span<const glm::dvec2> room, GpuStore& store,
-               OnTable& on_table);
+    void place(const std::optional<exhibit::PresentedNotice>& notice, double brightness,
+               const geometry::Pinhole& projector, const geometry::RigidTransform& table_from_projector,
+               std::span<const glm::dvec2> room, render::GpuStore& store, residency::OnTable& on_table);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:
-    void follow(const SharedNotice& picture, std::size_t shape, GpuStore& store);
+    void follow(const exhibit::SharedNotice& picture, std::size_t shape, render::GpuStore& store);
 
-    SharedNotice picture_;
+    exhibit::SharedNotice picture_;
     std::size_t shape_ = 0;
-    TextureId texture_ = TextureId::None; ///< None: the driver has no memory for it
-    TextureId white_ = TextureId::None;   ///< one texel, for drawing the ring
-    TextureId sample_ = TextureId::None;  ///< of a size like a text's: with mip levels, and no power of two
+    scene::TextureId texture_ = scene::TextureId::None; ///< None: the driver has no memory for it
+    scene::TextureId white_ = scene::TextureId::None;   ///< one texel, for drawing the ring
+    scene::TextureId sample_ =
+        scene::TextureId::None; ///< of a size like a text's: with mip levels, and no power of two
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -8,64 +8,66 @@
 
 #include <chrono>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
 /// The finest level is chosen where cost does not matter, so it gets the smoothest outlines too.
-int samples_of(const OfflineOptions& options, const PackDescription& pack) {
-    const int usual = options.technique == "finest" ? finest_samples : pack.samples;
+int samples_of(const OfflineOptions& options, const pack::PackDescription& pack) {
+    const int usual = options.technique == "finest" ? render::finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;
 }
 
-std::vector<std::uint32_t> levels_to_read(const ScenePlan& plan) {
+std::vector<std::uint32_t> levels_to_read(const scene::ScenePlan& plan) {
     return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
 }
 
 /// The scene plan of a pack for the options.
-Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pack) {
+Result<scene::ScenePlan> plan_offline(const OfflineSetup& setup, const pack::PackOutline& pack) {
     const auto& [checked, options] = setup;
-    Settings settings = *checked;
+    settings::Settings settings = *checked;
     if (options.width > 0 && options.height > 0) {
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);
     }
-    SceneRequest request;
+    scene::SceneRequest request;
     request.technique = options.technique;
     request.live = false;
     request.light = options.light;
     request.samples = samples_of(options, pack.description);
-    request.room = default_samples;
+    request.room = render::default_samples;
     request.cull_kinds = options.cull_kinds;
     if (!options.views.empty()) {
-        request.visibility = visibility_of(settings, options.views);
+        request.visibility = scene::visibility_of(settings, options.views);
     }
-    return plan_scene(settings, pack, request);
+    return scene::plan_scene(settings, pack, request);
 }
 
 } // namespace
 
-Result<OfflineScene> load_offline(const std::filesystem::path& file,
-                                  const std::function<Result<OfflineSetup>(const PackOutline&)>& setup_of) {
+Result<OfflineScene>
+load_offline(const std::filesystem::path& file,
+             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of) {
     std::optional<OfflineSetup> setup;
-    ScenePlan plan;
-    Result<VerifiedPack> pack =
-        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+    scene::ScenePlan plan;
+    Result<pack::VerifiedPack> pack =
+        pack::load_pack(file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
             TRY(OfflineSetup made, setup_of(outline));
-            TRY(ScenePlan planned, plan_offline(made, outline));
+            TRY(scene::ScenePlan planned, plan_offline(made, outline));
             setup = std::move(made);
             plan = std::move(planned);
             return levels_to_read(plan);
         });
     TRY_VOID(pack);
-    OfflineScene scene{*std::move(setup), std::move(plan), *std::move(pack), nullptr};
+    OfflineScene scene{
+        .setup = *std::move(setup), .plan = std::move(plan), .pack = *std::move(pack), .relief = nullptr};
     if (!scene.plan.reliefs.empty()) {
-        TRY(BlockRelief relief, load_relief(file, scene.plan.reliefs.front()));
-        scene.relief = std::make_shared<const BlockRelief>(std::move(relief));
+        TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));
+        scene.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
     }
     return scene;
 }
 
-OfflineRenderer::OfflineRenderer(const ScenePlan& plan)
+OfflineRenderer::OfflineRenderer(const scene::ScenePlan& plan)
     : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop),
       light_(plan.light) {}
 
@@ -75,55 +77,64 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
     std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
     const int width = made->projector_.width;
     const int height = made->projector_.height;
-    TRY(made->display_, SurfacelessDisplay::create(width, height));
-    made->technique_ = name_of(plan.quality_levels.front());
-    const PackLevel& brightness = pack->levels[plan.exposure_level];
-    made->exposure_ =
-        exposure_of(brightness, pack->box_size, pack->textures[brightness.texture], plan.highlight_code);
+    TRY(made->display_, display::SurfacelessDisplay::create(width, height));
+    made->technique_ = scene::name_of(plan.quality_levels.front());
+    const pack::PackLevel& brightness = pack->levels[plan.exposure_level];
+    made->exposure_ = scene::exposure_of(brightness, pack->box_size, pack->textures[brightness.texture],
+                                         plan.highlight_code);
     TRY_VOID(scene.relief ? made->take_relief(scene) : made->take_level(scene));
     if (options.hit_points) {
-        TRY(made->hit_points_, HitPointRenderer::create(*made->renderer_));
+        TRY(made->hit_points_, render::HitPointRenderer::create(*made->renderer_));
     }
     made->placed_.samples = samples_of(options, *pack);
     made->placed_.faces = plan.faces;
-    made->plan_ = make_plan(made->prop_, made->placed_);
+    made->plan_ = scene::make_plan(made->prop_, made->placed_);
     return made;
 }
 
 Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
     const std::uint32_t number = plan.quality_levels.front().level;
-    const SceneLevel level = scene_level(*pack, number, plan);
-    TRY(renderer_, Renderer::create(projector_.width, projector_.height, needs_of(plan, level)));
-    const Image8& texture = pack->textures[level.mesh.texture];
-    TRY(const Drawable drawable, renderer_->store().upload(level, texture));
+    const scene::SceneLevel level = scene::scene_level(*pack, number, plan);
+    TRY(renderer_,
+        render::Renderer::create(projector_.width, projector_.height, scene::needs_of(plan, level)));
+    const image::Image8& texture = pack->textures[level.mesh.texture];
+    TRY(const scene::Drawable drawable, renderer_->store().upload(level, texture));
     seen_ = plan.seen[number];
-    placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
-               plan.metres_per_box, drawable};
+    placed_ = {.triangles =
+                   std::make_shared<scene::LevelTriangles>(scene::triangles_of(level.mesh, pack->box_size)),
+               .box_size = pack->box_size,
+               .metres_per_box = plan.metres_per_box,
+               .drawable = drawable};
     return {};
 }
 
 Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
-    TRY(renderer_, Renderer::create(projector_.width, projector_.height, plan.needs));
+    TRY(renderer_, render::Renderer::create(projector_.width, projector_.height, plan.needs));
     seen_ = plan.seen_reliefs.front();
     const bool on_gpu = plan.quality_levels.front().on_gpu;
-    TRY(const Drawable drawable,
+    TRY(const scene::Drawable drawable,
         on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief));
-    placed_ = placed(*pack, relief, plan.metres_per_box, drawable);
+    placed_ = scene::placed(*pack, relief, plan.metres_per_box, drawable);
     placed_.on_gpu = on_gpu;
     return {};
 }
 
-void OfflineRenderer::draw_once(const PlanView& view) {
-    plan_frame(prop_, placed_, view, plan_);
-    renderer_->draw(plan_, {display_->framebuffer(), display_->buffer_age()}, Redraw::Everything);
+void OfflineRenderer::draw_once(const scene::PlanView& view) {
+    scene::plan_frame(prop_, placed_, view, plan_);
+    renderer_->draw(plan_, {display_->framebuffer(), display_->buffer_age()}, render::Redraw::Everything);
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
-OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m) {
-    const PlanView view{projector_, table_from_projector_, table_from_prop, std::span(&eye_m, 1), light_,
-                        exposure_};
+OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
+                                     const glm::dvec3& eye_m) {
+    const scene::PlanView view{.projector = projector_,
+                               .table_from_projector = table_from_projector_,
+                               .table_from_prop = table_from_prop,
+                               .eyes_m = std::span(&eye_m, 1),
+                               .light = light_,
+                               .brightness = exposure_};
     if (!warm_) {
         draw_once(view); // the driver compiles its shaders on the first picture
         warm_ = true;
@@ -133,12 +144,12 @@ OfflinePicture OfflineRenderer::draw(const RigidTransform& table_from_prop, cons
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     OfflinePicture picture;
     picture.ms = taken.count();
-    picture.error = estimate_error(seen_, prop_, placed_, view, plan_);
-    picture.colour = read_colour(display_->framebuffer(), projector_.width, projector_.height);
+    picture.error = scene::estimate_error(seen_, prop_, placed_, view, plan_);
+    picture.colour = render::read_colour(display_->framebuffer(), projector_.width, projector_.height);
     if (hit_points_) {
         picture.hit_points = hit_points_->draw(plan_, renderer_->store());
     }
     return picture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

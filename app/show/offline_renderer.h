@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct OfflineOptions {
     std::string technique = "auto";
@@ -31,31 +31,31 @@ struct OfflineOptions {
     bool light = true;
     bool hit_points = false;
     int samples = 0; ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
-    unsigned cull_kinds = AllCullKinds;
+    unsigned cull_kinds = scene::AllCullKinds;
     /// All poses that will be drawn; empty: any pose may be drawn.
-    std::vector<KnownView> views;
+    std::vector<scene::KnownView> views;
 };
 
 struct OfflineSetup {
-    CheckedSettings settings;
+    settings::CheckedSettings settings;
     OfflineOptions options;
 };
 /// A pack's file, of which only what its pictures need was read.
 struct OfflineScene {
     OfflineSetup setup;
-    ScenePlan plan;
-    VerifiedPack pack;
-    std::shared_ptr<const BlockRelief> relief; ///< in place of a level
+    scene::ScenePlan plan;
+    pack::VerifiedPack pack;
+    std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
 };
 /// `setup_of` returns the set-up for a pack's outline.
 [[nodiscard]] Result<OfflineScene>
 load_offline(const std::filesystem::path& file,
-             const std::function<Result<OfflineSetup>(const PackOutline&)>& setup_of);
+             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of);
 
 struct OfflinePicture {
-    Image8 colour;
-    std::optional<ImageFloat> hit_points; ///< prop frame, metres; NaN = no hit
-    std::optional<ErrorEstimate> error;   ///< nothing: no part of the artifact is visible
+    image::Image8 colour;
+    std::optional<image::ImageFloat> hit_points; ///< prop frame, metres; NaN = no hit
+    std::optional<scene::ErrorEstimate> error;   ///< nothing: no part of the artifact is visible
     double ms = 0.0; ///< of plan and full redraw until the GPU is done, without read-back
 };
 
@@ -64,33 +64,35 @@ public:
     /// `scene` need not outlive the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
 
-    [[nodiscard]] OfflinePicture draw(const RigidTransform& table_from_prop, const glm::dvec3& eye_m);
+    [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
+                                      const glm::dvec3& eye_m);
 
-    [[nodiscard]] const Pinhole& projector() const { return projector_; }
-    [[nodiscard]] const PropShape& prop() const { return prop_; }
+    [[nodiscard]] const geometry::Pinhole& projector() const { return projector_; }
+    [[nodiscard]] const geometry::PropShape& prop() const { return prop_; }
     /// "level0", "relief96", ...: the choice of "auto", "finest" or "relief".
     [[nodiscard]] const std::string& technique() const { return technique_; }
 
 private:
-    explicit OfflineRenderer(const ScenePlan& plan);
+    explicit OfflineRenderer(const scene::ScenePlan& plan);
     /// Takes the level or relief to draw, and creates a renderer for it.
     [[nodiscard]] Result<void> take_level(const OfflineScene& scene);
     [[nodiscard]] Result<void> take_relief(const OfflineScene& scene);
-    void draw_once(const PlanView& view);
+    void draw_once(const scene::PlanView& view);
 
-    Pinhole projector_;
-    RigidTransform table_from_projector_;
-    PropShape prop_;
-    std::optional<LightCompensation> light_;
+    geometry::Pinhole projector_;
+    geometry::RigidTransform table_from_projector_;
+    geometry::PropShape prop_;
+    std::optional<scene::LightCompensation> light_;
     double exposure_ = 1.0;
     std::string technique_;
-    SeenLevel seen_;
-    PlacedLevel placed_;
-    FramePlan plan_;
-    std::unique_ptr<SurfacelessDisplay> display_; ///< declared before everything that lives in its context
-    std::optional<Renderer> renderer_;
-    std::optional<HitPointRenderer> hit_points_;
+    scene::SeenLevel seen_;
+    scene::PlacedLevel placed_;
+    scene::FramePlan plan_;
+    std::unique_ptr<display::SurfacelessDisplay>
+        display_; ///< declared before everything that lives in its context
+    std::optional<render::Renderer> renderer_;
+    std::optional<render::HitPointRenderer> hit_points_;
     bool warm_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

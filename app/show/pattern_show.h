@@ -16,26 +16,26 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class PatternShow final : public Show {
 public:
     static constexpr int max_buffers = 16; ///< more than any display has
 
-    [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
+    [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const settings::Settings& settings);
 
     /// Updates the line about the camera, shown while the staff hold their buttons.
     void tell(const RunStatus& status) override;
     void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
     /// Shows `picture` in place of the pattern. `with_edges`: with the prop's edges on top.
-    void set_picture(Image8 picture, bool with_edges);
-    [[nodiscard]] const PatternScene& scene() const { return scene_; }
+    void set_picture(image::Image8 picture, bool with_edges);
+    [[nodiscard]] const typography::PatternScene& scene() const { return scene_; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
-                                  const RenderTarget& target, Redraw redraw) override;
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                                          const render::RenderTarget& target, render::Redraw redraw) override;
     /// The pattern replaces artifacts that cannot be shown.
-    void is_fault() { state_ = State::Fault; }
+    void is_fault() { state_ = exhibit::State::Fault; }
     [[nodiscard]] ShowState state() const override {
         ShowState state;
         state.state = state_;
@@ -43,14 +43,15 @@ public:
     }
 
 private:
-    PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload);
+    PatternShow(typography::PatternScene scene, typography::Typesetter typesetter,
+                render::PictureUpload upload);
     [[nodiscard]] bool follow_camera(int buffer_age);
 
-    State state_ = State::Staff;
-    PatternScene scene_;
-    Typesetter typesetter_;
-    PictureUpload upload_;
-    Image8 table_; ///< below the prop's edges
+    exhibit::State state_ = exhibit::State::Staff;
+    typography::PatternScene scene_;
+    typography::Typesetter typesetter_;
+    render::PictureUpload upload_;
+    image::Image8 table_; ///< below the prop's edges
     bool with_edges_ = true;
     std::vector<std::string> lines_;
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
@@ -59,4 +60,4 @@ private:
     int without_camera_ = max_buffers; ///< pictures drawn since the last one with the camera's picture
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -4,9 +4,9 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-Image<std::uint8_t> qr_code(std::string_view text) {
+image::Image<std::uint8_t> qr_code(std::string_view text) {
     constexpr int quiet = 4;
     constexpr int smallest_version = 0; // as small as the text allows
     if (text.empty() || text.size() > max_qr_bytes) {
@@ -19,7 +19,7 @@ Image<std::uint8_t> qr_code(std::string_view text) {
     if (!code) {
         return {};
     }
-    Image<std::uint8_t> picture(code->width + 2 * quiet, code->width + 2 * quiet, 255);
+    image::Image<std::uint8_t> picture(code->width + 2 * quiet, code->width + 2 * quiet, 255);
     for (int y = 0; y < code->width; ++y) {
         for (int x = 0; x < code->width; ++x) {
             const bool dark = (code->data[y * code->width + x] & 1U) != 0;
@@ -29,4 +29,4 @@ Image<std::uint8_t> qr_code(std::string_view text) {
     return picture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -12,11 +12,11 @@
 #include <cstdint>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 inline constexpr std::size_t max_qr_bytes = 2000;
 
 /// One pixel a module; 0 is dark, 255 is light.
-[[nodiscard]] Image<std::uint8_t> qr_code(std::string_view text);
+[[nodiscard]] image::Image<std::uint8_t> qr_code(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

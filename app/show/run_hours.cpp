@@ -5,7 +5,7 @@
 
 #include <fmt/chrono.h>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -20,7 +20,8 @@ Sentence words_of(std::chrono::sys_seconds time) {
 
 } // namespace
 
-RunHours::RunHours(const HoursSettings& settings, OffsetAt offset_at, std::string_view missing_zone)
+RunHours::RunHours(const settings::HoursSettings& settings, exhibit::OffsetAt offset_at,
+                   std::string_view missing_zone)
     : timetable_(settings, std::move(offset_at)),
       zone_missing_(missing_zone.empty()
                         ? Sentence()
@@ -36,7 +37,7 @@ void RunHours::look_at_clock(MonotonicTime now, std::chrono::sys_seconds wall) {
                             std::chrono::abs(set).count(), words_of(wall).view());
         looked_.reset();
     }
-    plausible_ = WallClock::plausible(wall);
+    plausible_ = exhibit::WallClock::plausible(wall);
     const bool is_due = !looked_ || wall < *looked_ || wall >= *looked_ + between_looks ||
                         (opening_.until && wall >= *opening_.until);
     if (plausible_ && is_due) {
@@ -53,18 +54,19 @@ void RunHours::step(MonotonicTime now, const Input& input) {
     if (wall != wall_) {
         look_at_clock(now, wall);
     }
-    sleep_.step(now, {is_open(), input.pressed, input.used, input.may_sleep});
+    sleep_.step(
+        now, {.open = is_open(), .pressed = input.pressed, .used = input.used, .may_sleep = input.may_sleep});
 }
 
-HoursStatus RunHours::status() const {
+status::HoursStatus RunHours::status() const {
     if (timetable_.always_open()) {
         return {};
     }
-    HoursStatus status{plausible_ ? opening_.open ? "open" : "closed" : "clock_wrong",
-                       plausible_ ? opening_.until : std::nullopt,
-                       {},
-                       clock_set_,
-                       sleep_.asleep()};
+    status::HoursStatus status{.state = plausible_ ? opening_.open ? "open" : "closed" : "clock_wrong",
+                               .until = plausible_ ? opening_.until : std::nullopt,
+                               .why = {},
+                               .clock = clock_set_,
+                               .asleep = sleep_.asleep()};
     if (!plausible_) {
         const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(wall_));
         status.why = format_sentence(
@@ -93,4 +95,4 @@ HoursStatus RunHours::status() const {
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -14,12 +14,13 @@
 #include <chrono>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class RunHours {
 public:
     /// `missing_zone`: the settings' time zone if this machine does not have it; else empty.
-    RunHours(const HoursSettings& settings, OffsetAt offset_at, std::string_view missing_zone);
+    RunHours(const settings::HoursSettings& settings, exhibit::OffsetAt offset_at,
+             std::string_view missing_zone);
 
     struct Input {
         std::chrono::system_clock::time_point wall;
@@ -33,16 +34,16 @@ public:
     /// The factor on the picture's light, 0..1.
     [[nodiscard]] double light() const { return sleep_.light(); }
     /// The sentence changes only with the state, not with the time.
-    [[nodiscard]] HoursStatus status() const;
+    [[nodiscard]] status::HoursStatus status() const;
 
 private:
     void look_at_clock(MonotonicTime now, std::chrono::sys_seconds wall);
     [[nodiscard]] bool is_open() const { return !plausible_ || opening_.open; }
 
-    Timetable timetable_;
-    WallClock clock_;
-    Sleep sleep_;
-    Opening opening_;
+    exhibit::Timetable timetable_;
+    exhibit::WallClock clock_;
+    exhibit::Sleep sleep_;
+    exhibit::Opening opening_;
     std::optional<std::chrono::sys_seconds> looked_; ///< at the timetable
     std::chrono::sys_seconds wall_{};
     bool plausible_ = true;
@@ -50,4 +51,4 @@ private:
     Sentence clock_set_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -25,12 +25,15 @@ constexpr double min_light = 1e-6;
 constexpr std::size_t max_visit_pieces = 64;
 
 std::string_view shown_artifact(const ShowState& state) {
-    return state.state != State::Fault ? state.artifact : std::string_view{};
+    return state.state != exhibit::State::Fault ? state.artifact : std::string_view{};
 }
 
-VisitsReport report_of(const CountedVisits& visits) {
-    return {visits.today.visits, visits.since_start.visits, 1e-3 * static_cast<double>(visits.today.ms),
-            1e-3 * static_cast<double>(visits.since_start.ms), visits.trouble};
+status::VisitsReport report_of(const counts::CountedVisits& visits) {
+    return {.today = visits.today.visits,
+            .since_start = visits.since_start.visits,
+            .today_s = 1e-3 * static_cast<double>(visits.today.ms),
+            .since_start_s = 1e-3 * static_cast<double>(visits.since_start.ms),
+            .trouble = visits.trouble};
 }
 
 double milliseconds_since(MonotonicTime start) {
@@ -39,8 +42,8 @@ double milliseconds_since(MonotonicTime start) {
 
 class Loop {
 public:
-    Loop(const Settings& settings, Display& display, Inputs& inputs, Show& show, const LoopOptions& options,
-         StatusFile& status_file, RunWatch& watch, MonotonicTime start)
+    Loop(const settings::Settings& settings, display::Display& display, Inputs& inputs, Show& show,
+         const LoopOptions& options, StatusFile& status_file, RunWatch& watch, MonotonicTime start)
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
           watch_(watch), hours_(options.fast || !show.sleeps() ? nullptr : options.hours), start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
@@ -94,19 +97,19 @@ private:
         follow_hours(now);
         follow_viewfinder(now);
         watch_.enters("draws");
-        const TrackedState tracked_state = intake_.tracked_state_at(now + light_delay_.from_now());
+        const tracking::TrackedState tracked_state = intake_.tracked_state_at(now + light_delay_.from_now());
         show_.set_mark(mark(now));
         if (staff_) {
             show_.set_signal(intake_.prop_signal().at(now), intake_.head_signal().at(now));
         }
-        const std::vector<Command>& commands = intake_.commands();
+        const std::vector<settings::Command>& commands = intake_.commands();
         show_.step(now, commands, tracked_state);
         if (inputs_.sound) {
-            const SoundReport heard = inputs_.sound->poll(now, show_.sound_request());
+            const sound::SoundReport heard = inputs_.sound->poll(now, show_.sound_request());
             show_.hear(heard);
             result_.status.sound_underruns = heard.underruns;
         }
-        if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
+        if (std::find(commands.begin(), commands.end(), settings::Command::StaffMode) != commands.end()) {
             renew_status(now);
             show_.tell(result_.status);
         }
@@ -126,9 +129,15 @@ private:
         const ShowState state = show_.state();
         follow_state(now, state);
         if (result_.rows.size() < rows_expected_) {
-            result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
-                                    state.levels.error, drawn.changed, state.artifact, state.levels.level,
-                                    name_of(state.state), state.language, state.told});
+            result_.rows.push_back({.t_us = to_microseconds(MonotonicTime(now - start_)),
+                                    .ms = static_cast<float>(ms),
+                                    .error = state.levels.error,
+                                    .drawn = drawn.changed,
+                                    .artifact = state.artifact,
+                                    .technique = state.levels.level,
+                                    .state = exhibit::name_of(state.state),
+                                    .language = state.language,
+                                    .told = state.told});
         }
         shown_ = tracked_state;
         shown_.table_from_prop = state.stands.value_or(tracked_state.table_from_prop);
@@ -149,17 +158,18 @@ private:
         bool coded = false;   ///< contains a code for the watchdog
     };
     /// Draws what changed, or the same picture again if none was presented for a second.
-    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const TrackedState& tracked_state) {
-        const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
-        const bool probe =
-            options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
-        const DrawResult drawn =
-            show_.draw(now, tracked_state, target, probe ? Redraw::Again : options_.redraw);
+    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const tracking::TrackedState& tracked_state) {
+        const render::RenderTarget target{display_.framebuffer(), display_.buffer_age()};
+        const bool probe = options_.redraw == render::Redraw::Changes &&
+                           (now - presented_ >= between_probes || !watch_.ready());
+        const render::DrawResult drawn =
+            show_.draw(now, tracked_state, target, probe ? render::Redraw::Again : options_.redraw);
         if (!drawn.drawn) {
             return Drawn{};
         }
-        const bool coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
-        for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
+        const bool coded = render::write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+        for (const PixelRectangle& part :
+             {drawn.redrawn, PixelRectangle{.x = 0, .y = 0, .width = probe_pixels, .height = 1}}) {
             display_.changed(part);
         }
         watch_.enters("waits for the display");
@@ -174,12 +184,14 @@ private:
     void follow_state(MonotonicTime now, const ShowState& state) {
         count_visits(now, state);
         used_ = state.used;
-        attracts_ = state.state == State::Attract;
-        staff_ = state.state == State::Staff;
+        attracts_ = state.state == exhibit::State::Attract;
+        staff_ = state.state == exhibit::State::Staff;
         if (state.calibrate && options_.calibrate) {
             options_.calibrate();
         }
-        fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
+        fault_since_ = state.state != exhibit::State::Fault ? std::nullopt
+                       : fault_since_                       ? fault_since_
+                                                            : now;
         if (const Sentence artifact(shown_artifact(state)); artifact != artifact_) {
             artifact_ = artifact;
             artifact_since_ = now;
@@ -197,8 +209,8 @@ private:
         if (visit_pieces_.size() < max_visit_pieces / 2) {
             visit_counter_.step({.now = now,
                                  .used = state.used,
-                                 .rests = asleep_ || state.state == State::Attract,
-                                 .staff = state.state == State::Staff,
+                                 .rests = asleep_ || state.state == exhibit::State::Attract,
+                                 .staff = state.state == exhibit::State::Staff,
                                  .artifact = shown_artifact(state),
                                  .language = state.language},
                                 visit_pieces_);
@@ -207,11 +219,12 @@ private:
     }
 
     /// The drift marks are shown only while no visitor is present.
-    [[nodiscard]] std::optional<ShownMark> mark(MonotonicTime now) {
+    [[nodiscard]] std::optional<drift::ShownMark> mark(MonotonicTime now) {
         if (!inputs_.drift) {
             return std::nullopt;
         }
-        const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
+        const bool is_seen =
+            !inputs_.camera || camera::health_of(inputs_.camera->state()) == camera::CameraHealth::Well;
         return inputs_.drift->step(now, attracts_ && !asleep_ && intake_.commands().empty() && is_seen);
     }
 
@@ -221,7 +234,7 @@ private:
             return;
         }
         shows_camera_ = staff_ && !asleep_ && inputs_.panel && inputs_.panel->chord_held(now);
-        const bool sees = !inputs_.camera || shows_something(inputs_.camera->state());
+        const bool sees = !inputs_.camera || camera::shows_something(inputs_.camera->state());
         inputs_.viewfinder->want(shows_camera_ && sees);
         show_.set_viewfinder(shows_camera_ ? inputs_.viewfinder.get() : nullptr);
     }
@@ -232,8 +245,11 @@ private:
             return;
         }
         const bool was_dark = hours_->asleep();
-        hours_->step(now, {std::chrono::system_clock::now(), !intake_.commands().empty(), used_,
-                           watch_.ready() && !staff_}); // staff on a ladder are not left in the dark
+        hours_->step(now,
+                     {.wall = std::chrono::system_clock::now(),
+                      .pressed = !intake_.commands().empty(),
+                      .used = used_,
+                      .may_sleep = watch_.ready() && !staff_}); // staff on a ladder are not left in the dark
         if (was_dark) {
             intake_.drop_commands();
         }
@@ -242,7 +258,7 @@ private:
     }
 
     /// Keeps the projector dark; devices are read and reported to the watchdog.
-    [[nodiscard]] Result<void> sleep(MonotonicTime now, const TrackedState& tracked_state,
+    [[nodiscard]] Result<void> sleep(MonotonicTime now, const tracking::TrackedState& tracked_state,
                                      MonotonicTime begin) {
         watch_.enters("waits for the display");
         TRY_VOID(display_.stay_dark());
@@ -291,8 +307,8 @@ private:
         status.left_out = state.left_out;
         status.set = state.set;
         status.library_hangs = state.library_hangs;
-        status.hours = hours_ != nullptr ? hours_->status() : HoursStatus{};
-        status.state = status.hours.asleep ? asleep_name : name_of(state.state);
+        status.hours = hours_ != nullptr ? hours_->status() : status::HoursStatus{};
+        status.state = status.hours.asleep ? exhibit::asleep_name : exhibit::name_of(state.state);
         status.artifact = shown_artifact(state);
         status.shown_for_s = to_seconds(now - artifact_since_);
         status.shown_since =
@@ -311,7 +327,7 @@ private:
         status.technique = state.levels.technique;
         status.level = state.levels.level;
         status.samples = state.levels.samples;
-        const std::optional<ErrorEstimate>& error = state.levels.error;
+        const std::optional<scene::ErrorEstimate>& error = state.levels.error;
         status.estimated_error_mm = error ? std::optional(error->mean_mm) : std::nullopt;
         status.p95_error_mm = error ? std::optional(error->p95_mm) : std::nullopt;
         status.level_switches = state.levels.switches;
@@ -323,9 +339,9 @@ private:
         status.presented.prop_wxyz = {turn.w, turn.x, turn.y, turn.z};
         status.presented.eye_m = {shown_.eye_m.x, shown_.eye_m.y, shown_.eye_m.z};
         status.shown_code = watch_.shown_code();
-        status.health = word_of(watch_.health());
+        status.health = service::word_of(watch_.health());
         status.display = Sentence(display_.state());
-        status.devices.display = DeviceReport(display_.condition());
+        status.devices.display = status::DeviceReport(display_.condition());
         status.mode = options_.mode;
         status.settings = options_.settings;
         status.hour_of_day = local_hour();
@@ -356,7 +372,7 @@ private:
         return next;
     }
 
-    Display& display_;
+    display::Display& display_;
     Inputs& inputs_;
     Show& show_;
     const LoopOptions& options_;
@@ -369,19 +385,19 @@ private:
     bool shows_camera_ = false; ///< the staff hold their buttons and see the camera's picture
     MonotonicTime start_;
     Nanoseconds period_;
-    LightDelay light_delay_;
+    tracking::LightDelay light_delay_;
     DeviceIntake intake_;
     StillTaker stills_;
-    TrackedState shown_; ///< of the latest frame, as it was drawn
+    tracking::TrackedState shown_; ///< of the latest frame, as it was drawn
     RecentFrameTimes times_;
     MonotonicTime presented_; ///< when the shown picture was presented
     Sentence artifact_;       ///< on show
     MonotonicTime artifact_since_;
     std::optional<MonotonicTime> fault_since_; ///< since when nothing can be shown
     std::optional<MonotonicTime> used_;        ///< when the exhibit was last used
-    VisitCounter visit_counter_;
-    std::vector<VisitPiece> visit_pieces_; ///< not taken yet
-    CountedVisits visits_;
+    counts::VisitCounter visit_counter_;
+    std::vector<counts::VisitPiece> visit_pieces_; ///< not taken yet
+    counts::CountedVisits visits_;
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     LoopResult result_;
@@ -389,8 +405,8 @@ private:
 
 } // namespace
 
-Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs, Show& show,
-                            const LoopOptions& options, StatusFile& status_file, RunWatch& watch,
+Result<LoopResult> run_loop(const settings::Settings& settings, display::Display& display, Inputs& inputs,
+                            Show& show, const LoopOptions& options, StatusFile& status_file, RunWatch& watch,
                             MonotonicTime start) {
     Result<LoopResult> result =
         Loop(settings, display, inputs, show, options, status_file, watch, start).run();
@@ -398,4 +414,4 @@ Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& 
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

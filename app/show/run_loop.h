@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// After this time without an artifact the run ends, so that a restart looks for packs again.
 inline constexpr Nanoseconds longest_fault = std::chrono::minutes(1);
@@ -34,16 +34,16 @@ inline constexpr Nanoseconds longest_fault = std::chrono::minutes(1);
 struct LoopOptions {
     std::optional<Nanoseconds> length; ///< nothing: until stopped
     bool fast = false;
-    Redraw redraw = Redraw::Changes;
+    render::Redraw redraw = render::Redraw::Changes;
     int stills = 0; ///< pictures to keep, spread over `length`
     bool keep_rows = false;
     std::string_view mode = "normal"; ///< `mode` and `settings` are for the status
     Sentence settings;
-    const StopSignals* stop = nullptr;    ///< a stop signal ends the loop
-    Screenshot* screenshot = nullptr;     ///< of the display's size; serves requests for a picture
-    std::function<bool()> ends = {};      ///< called in each frame; true ends the loop
-    std::function<void()> calibrate = {}; ///< starts the calibration for the staff; none: not available
-    VisitBook* visits = nullptr;          ///< counts visits; none: they are not counted, as in a fast run
+    const service::StopSignals* stop = nullptr; ///< a stop signal ends the loop
+    Screenshot* screenshot = nullptr;           ///< of the display's size; serves requests for a picture
+    std::function<bool()> ends = {};            ///< called in each frame; true ends the loop
+    std::function<void()> calibrate = {};       ///< starts the calibration for the staff; none: not available
+    counts::VisitBook* visits = nullptr; ///< counts visits; none: they are not counted, as in a fast run
     RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern
 };
 
@@ -54,8 +54,8 @@ struct LoopResult {
     double first_resident_mib = 0.0; ///< after the first tenth of the run
 };
 
-[[nodiscard]] Result<LoopResult> run_loop(const Settings& settings, Display& display, Inputs& inputs,
-                                          Show& show, const LoopOptions& options, StatusFile& status_file,
-                                          RunWatch& watch, MonotonicTime start);
+[[nodiscard]] Result<LoopResult> run_loop(const settings::Settings& settings, display::Display& display,
+                                          Inputs& inputs, Show& show, const LoopOptions& options,
+                                          StatusFile& status_file, RunWatch& watch, MonotonicTime start);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -17,7 +17,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -55,13 +55,13 @@ std::string frames_csv(const std::vector<FrameRow>& rows) {
     auto out = std::back_inserter(csv);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const FrameRow& row = rows[k];
-        const auto error_mm = [&](double ErrorEstimate::*figure) {
+        const auto error_mm = [&](double scene::ErrorEstimate::*figure) {
             return row.error ? fmt::format("{:.4f}", (*row.error).*figure) : std::string();
         };
         fmt::format_to(out, "{},{},{:.3f},{},{},{},{},{},{},{},{}\n", k, row.t_us, row.ms, row.technique,
-                       error_mm(&ErrorEstimate::mean_mm), row.drawn ? 1 : 0, csv_text(row.artifact),
+                       error_mm(&scene::ErrorEstimate::mean_mm), row.drawn ? 1 : 0, csv_text(row.artifact),
                        row.state, csv_text(row.language), told_name(row.told),
-                       error_mm(&ErrorEstimate::p95_mm));
+                       error_mm(&scene::ErrorEstimate::p95_mm));
     }
     return csv;
 }
@@ -96,7 +96,7 @@ void stamp(RunStatus& status) {
     status.resident_mib = resident_mib();
 }
 
-StatusFile::StatusFile(StatusPlaces places, std::function<void(const RunStatus&)> written)
+StatusFile::StatusFile(status::StatusPlaces places, std::function<void(const RunStatus&)> written)
     : places_(std::move(places)), written_(std::move(written)) {
     if (wanted()) {
         writer_ = std::jthread([this] { work(); });
@@ -132,7 +132,7 @@ void StatusFile::note_hang(bool hangs) {
     changed_.notify_one();
 }
 
-SharedEnvironment StatusFile::environment() {
+status::SharedEnvironment StatusFile::environment() {
     const std::lock_guard lock(mutex_);
     return environment_;
 }
@@ -140,7 +140,7 @@ SharedEnvironment StatusFile::environment() {
 void StatusFile::work() {
     begin_device_thread("status");
     bool complained = false;
-    Environment environment;
+    status::Environment environment;
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return pending_ || closing_; });
@@ -149,15 +149,15 @@ void StatusFile::work() {
         }
         RunStatus status = latest_;
         if (hangs_) {
-            status.health = word_of(Health::Hangs);
+            status.health = service::word_of(service::Health::Hangs);
         }
         pending_ = false;
         lock.unlock();
         stamp(status);
-        renew_environment(environment, places_, status_clock());
-        status.environment = std::make_shared<const Environment>(environment);
+        status::renew_environment(environment, places_, status::status_clock());
+        status.environment = std::make_shared<const status::Environment>(environment);
         status.versions.system = environment.system;
-        const Result<void> written = renew_file(places_.status_file, as_bytes(status_json(status)));
+        const Result<void> written = renew_file(places_.status_file, as_bytes(status::status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
             complained = true;
@@ -170,4 +170,4 @@ void StatusFile::work() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

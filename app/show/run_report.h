@@ -26,7 +26,7 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The text on the table in place of the artifact's short text, or beside it.
 struct ToldText {
@@ -38,7 +38,7 @@ struct ToldText {
 struct FrameRow {
     std::int64_t t_us = 0;
     float ms = 0.0F;
-    std::optional<ErrorEstimate> error; ///< nothing: no part of an artifact is shown
+    std::optional<scene::ErrorEstimate> error; ///< nothing: no part of an artifact is shown
     bool drawn = false;
     std::string_view artifact;
     std::string_view technique;
@@ -67,13 +67,13 @@ private:
 };
 
 /// The contents of the status file, and values for the exhibit's own picture, sound and journal.
-struct RunStatus : StatusReport {
+struct RunStatus : status::StatusReport {
     double hour_of_day = 12.0;               ///< local time
     int camera_width = 0, camera_height = 0; ///< of the camera's frames; 0: unknown
     int louder_db = 0;                       ///< relative to the settings, chosen with the staff's buttons
     bool calibrates = false;                 ///< the staff may start the table's calibration with the buttons
     SharedImport seen_import;                ///< the importer's report; null: none
-    SharedEnvironment environment;           ///< what other programs know; null: not read yet
+    status::SharedEnvironment environment;   ///< what other programs know; null: not read yet
 };
 /// The local time of day, 0 to 24.
 [[nodiscard]] double local_hour();
@@ -87,7 +87,7 @@ void stamp(RunStatus& status);
 class StatusFile {
 public:
     /// Without a status file, posts go nowhere. `written`: called on the writer's thread after each status.
-    explicit StatusFile(StatusPlaces places, std::function<void(const RunStatus&)> written = {});
+    explicit StatusFile(status::StatusPlaces places, std::function<void(const RunStatus&)> written = {});
     ~StatusFile(); ///< writes a pending status
     StatusFile(const StatusFile&) = delete;
     StatusFile& operator=(const StatusFile&) = delete;
@@ -97,21 +97,21 @@ public:
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !places_.status_file.empty(); }
     /// The environment read last; null: none yet, or there is no file.
-    [[nodiscard]] SharedEnvironment environment();
+    [[nodiscard]] status::SharedEnvironment environment();
 
 private:
     void work();
 
-    StatusPlaces places_;
+    status::StatusPlaces places_;
     std::function<void(const RunStatus&)> written_;
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;
-    SharedEnvironment environment_;
+    status::SharedEnvironment environment_;
     bool hangs_ = false;
     bool pending_ = false;
     bool closing_ = false;
     std::jthread writer_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -15,10 +15,10 @@ namespace {
 constexpr Nanoseconds usual_interval = std::chrono::seconds(3);
 
 Sentence what_is_shown(const RunStatus& status) {
-    if (status.state == name_of(State::Fault)) {
+    if (status.state == exhibit::name_of(exhibit::State::Fault)) {
         return Sentence("shows that there is no artifact");
     }
-    if (status.state == name_of(State::Staff) || status.artifact.empty()) {
+    if (status.state == exhibit::name_of(exhibit::State::Staff) || status.artifact.empty()) {
         return Sentence("shows the alignment pattern");
     }
     return format_sentence("shows {} ({}, {})", status.artifact, status.language, status.level);
@@ -39,7 +39,8 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_
                        "watchdog: the picture hangs: nothing was heard of the exhibit for {} s, while it {}",
                        loop_patience / std::chrono::seconds(1), *part)
                  : Sentence("watchdog: the exhibit is heard of again");
-        journal_.note(part ? LogPriority::Error : LogPriority::Notice, line.view(), {{"DEVICE", "watchdog"}});
+        journal_.note(part ? service::LogPriority::Error : service::LogPriority::Notice, line.view(),
+                      {{"DEVICE", "watchdog"}});
         status_file.note_hang(part.has_value());
     });
 }
@@ -50,7 +51,7 @@ void RunWatch::enters(const char* part) {
     }
 }
 
-void RunWatch::presented(MonotonicTime now, const Display& display, bool has_code) {
+void RunWatch::presented(MonotonicTime now, const display::Display& display, bool has_code) {
     if (!ready_ && display.settled()) {
         ready_ = true;
         manager_.ready();
@@ -66,7 +67,7 @@ void RunWatch::presented(MonotonicTime now, const Display& display, bool has_cod
 }
 
 /// A driver that never returned a code cannot read back what it shows; that is no reason to end the exhibit.
-std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
+std::optional<std::uint8_t> RunWatch::code_of(const display::Display& display) {
     std::array<std::byte, probe_bytes> corner{};
     if (display.read_shown(corner)) {
         const std::optional<std::uint8_t> code = read_probe(corner);
@@ -75,10 +76,10 @@ std::optional<std::uint8_t> RunWatch::code_of(const Display& display) {
             return code;
         }
     }
-    return read_probe(display.framebuffer());
+    return render::read_probe(display.framebuffer());
 }
 
-void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inputs) {
+void RunWatch::look(MonotonicTime now, const display::Display& display, const Inputs& inputs) {
     if (!watchdog_) {
         return;
     }
@@ -95,21 +96,23 @@ void RunWatch::look(MonotonicTime now, const Display& display, const Inputs& inp
     add(inputs.tracker.get());
     add(inputs.panel.get());
     add(inputs.sound.get());
-    const Health health = watchdog_->health(now, std::span(promises).first(count));
+    const service::Health health = watchdog_->health(now, std::span(promises).first(count));
     note_health(health);
     if (watchdog_->feed(now, health)) {
         manager_.feed_watchdog();
     }
 }
 
-void RunWatch::note_health(Health health) {
+void RunWatch::note_health(service::Health health) {
     if (health == health_) {
         return;
     }
     health_ = health;
-    const bool well = health == Health::Well;
-    note_state(well ? LogPriority::Notice : LogPriority::Error, "watchdog", sentence_of(health),
-               format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", sentence_of(health)));
+    const bool well = health == service::Health::Well;
+    note_state(
+        well ? service::LogPriority::Notice : service::LogPriority::Error, "watchdog",
+        service::sentence_of(health),
+        format_sentence("watchdog: {}: {}", well ? "fed again" : "not fed", service::sentence_of(health)));
 }
 
 void RunWatch::note(const RunStatus& status) {
@@ -119,7 +122,7 @@ void RunWatch::note(const RunStatus& status) {
     language_ = Sentence(status.language);
     level_ = Sentence(status.level);
     if (other) {
-        note_state(LogPriority::Info, "exhibit", shows.view(), shows);
+        note_state(service::LogPriority::Info, "exhibit", shows.view(), shows);
     }
     note_device("display", status.display, display_);
     note_device("tracker", status.tracker, tracker_);
@@ -135,16 +138,16 @@ void RunWatch::note(const RunStatus& status) {
     }
     if (status.set && status.set != noted_set_) { // the sentence is made only for a new status
         noted_set_ = status.set;
-        note_device("set", Sentence(sentence_of(*status.set)), set_);
+        note_device("set", Sentence(status::sentence_of(*status.set)), set_);
     }
     if (status.library_hangs != library_hung_) {
         library_hung_ = status.library_hangs;
         const std::string_view state =
-            status.library_hangs ? library_hangs_sentence : "the library's disk answers again";
-        note_state(status.library_hangs ? LogPriority::Warning : LogPriority::Notice, "set", state,
-                   format_sentence("set: {}", state));
+            status.library_hangs ? status::library_hangs_sentence : "the library's disk answers again";
+        note_state(status.library_hangs ? service::LogPriority::Warning : service::LogPriority::Notice, "set",
+                   state, format_sentence("set: {}", state));
     }
-    imports_.note(status.seen_import, [this](LogPriority priority, const Sentence& line) {
+    imports_.note(status.seen_import, [this](service::LogPriority priority, const Sentence& line) {
         note_state(priority, "stick", line.view(), line);
     });
     // Most important to a technician first, as a long line is cut.
@@ -157,12 +160,12 @@ void RunWatch::note(const RunStatus& status) {
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {
     if (state != noted) {
         noted = state;
-        note_state(LogPriority::Notice, device, state.view(),
+        note_state(service::LogPriority::Notice, device, state.view(),
                    format_sentence("{}: {}", device, state.view()));
     }
 }
 
-void RunWatch::note_state(LogPriority priority, std::string_view device, std::string_view state,
+void RunWatch::note_state(service::LogPriority priority, std::string_view device, std::string_view state,
                           const Sentence& line) const {
     journal_.note(priority, line.view(),
                   {{"DEVICE", device},
@@ -172,4 +175,4 @@ void RunWatch::note_state(LogPriority priority, std::string_view device, std::st
                    {"LEVEL", level_.view()}});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

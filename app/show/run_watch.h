@@ -20,11 +20,12 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class RunWatch {
 public:
-    RunWatch(ServiceManager& manager, const Journal& journal) : manager_(manager), journal_(journal) {}
+    RunWatch(service::ServiceManager& manager, const service::Journal& journal)
+        : manager_(manager), journal_(journal) {}
 
     /// Silence of the loop that counts as a hang.
     static constexpr Nanoseconds loop_patience = std::chrono::seconds(4);
@@ -35,7 +36,7 @@ public:
     void enters(const char* part);
     /// Call when a picture was presented; `has_code`: it contains a code. Reads the code back from what the projector
     /// shows if possible, otherwise from the display's framebuffer.
-    void presented(MonotonicTime now, const Display& display, bool has_code);
+    void presented(MonotonicTime now, const display::Display& display, bool has_code);
     /// Call when no picture is presented, on purpose.
     void asleep(MonotonicTime now) {
         if (watchdog_) {
@@ -43,10 +44,10 @@ public:
         }
     }
     /// Call in every frame.
-    void look(MonotonicTime now, const Display& display, const Inputs& inputs);
+    void look(MonotonicTime now, const display::Display& display, const Inputs& inputs);
     /// True once the service manager knows that the run is ready; until then every frame is presented.
     [[nodiscard]] bool ready() const { return ready_; }
-    [[nodiscard]] Health health() const { return health_; }
+    [[nodiscard]] service::Health health() const { return health_; }
     /// The code last read back from what the display shows.
     [[nodiscard]] std::optional<std::uint8_t> shown_code() const { return shown_code_; }
     /// Call once a second.
@@ -55,25 +56,25 @@ public:
     void end() { hang_watch_.reset(); }
 
 private:
-    [[nodiscard]] std::optional<std::uint8_t> code_of(const Display& display);
-    void note_health(Health health);
+    [[nodiscard]] std::optional<std::uint8_t> code_of(const display::Display& display);
+    void note_health(service::Health health);
     void note_device(std::string_view device, const Sentence& state, Sentence& noted);
-    void note_state(LogPriority priority, std::string_view device, std::string_view state,
+    void note_state(service::LogPriority priority, std::string_view device, std::string_view state,
                     const Sentence& line) const;
 
-    ServiceManager& manager_;
-    const Journal& journal_;
-    std::optional<WatchdogPolicy> watchdog_;
+    service::ServiceManager& manager_;
+    const service::Journal& journal_;
+    std::optional<service::WatchdogPolicy> watchdog_;
     bool ready_ = false;
     bool shown_is_readable_ = false; ///< a code has been read from what the projector shows
-    Health health_ = Health::Well;
+    service::Health health_ = service::Health::Well;
     std::optional<std::uint8_t> shown_code_;
-    SharedSetStatus noted_set_;
+    status::SharedSetStatus noted_set_;
     bool library_hung_ = false;
     Sentence display_, tracker_, camera_, drift_, panel_, sound_, recording_, hours_, clock_, visits_, set_,
         artifact_, language_, level_;
     ImportJournal imports_;
-    std::optional<HangWatch> hang_watch_; ///< last: its thread uses the other members
+    std::optional<service::HangWatch> hang_watch_; ///< last: its thread uses the other members
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -14,18 +14,18 @@ constexpr Nanoseconds between_looks = std::chrono::milliseconds(5);
 
 } // namespace
 
-void Screenshot::serve(const Display& display) {
+void Screenshot::serve(const display::Display& display) {
     Turn asked = Turn::Asked;
     if (turn_.load(std::memory_order_relaxed) != Turn::Asked ||
         !turn_.compare_exchange_strong(asked, Turn::Copying)) {
         return;
     }
-    read_colour_into(display.framebuffer(), picture_);
-    erase_probe(picture_); // the code is for the watchdog, not part of the picture
+    render::read_colour_into(display.framebuffer(), picture_);
+    render::erase_probe(picture_); // the code is for the watchdog, not part of the picture
     turn_ = Turn::Done;
 }
 
-Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
+Result<const image::Image8*> Screenshot::take(const std::stop_token& stop) {
     while (monotonic_now() < earliest_ && !stop.stop_requested()) {
         std::this_thread::sleep_for(between_looks);
     }
@@ -61,4 +61,4 @@ bool Screenshot::comes(MonotonicTime until, const std::stop_token& stop) {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -13,9 +13,11 @@
 #include <atomic>
 #include <stop_token>
 
-namespace frustumscreen {
-
+namespace frustumscreen::display {
 class Display;
+}
+
+namespace frustumscreen::show {
 
 class Screenshot {
 public:
@@ -27,11 +29,11 @@ public:
         : picture_(width, height), patience_(patience) {}
 
     /// Call in every frame, after it was presented.
-    void serve(const Display& display);
+    void serve(const display::Display& display);
 
     /// Waits until the previous picture is a second old, and then for a frame. The picture is valid until the next
     /// call; the watchdog's code in its corner is black.
-    [[nodiscard]] Result<const Image8*> take(const std::stop_token& stop);
+    [[nodiscard]] Result<const image::Image8*> take(const std::stop_token& stop);
 
 private:
     enum class Turn : std::uint8_t { None, Asked, Copying, Done };
@@ -39,9 +41,9 @@ private:
     [[nodiscard]] bool comes(MonotonicTime until, const std::stop_token& stop);
 
     std::atomic<Turn> turn_ = Turn::None;
-    Image8 picture_; ///< owned by the render thread while it copies, otherwise by the caller of `take`
+    image::Image8 picture_; ///< owned by the render thread while it copies, otherwise by the caller of `take`
     Nanoseconds patience_;
     MonotonicTime earliest_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 SetArrival::SetArrival(std::filesystem::path library, const std::optional<FileStamp>& before)
     : thread_([this, folder = std::move(library), before](const std::stop_token& stop) {
@@ -16,4 +16,4 @@ SetArrival::SetArrival(std::filesystem::path library, const std::optional<FileSt
           }
       }) {}
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

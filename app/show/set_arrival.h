@@ -12,7 +12,7 @@
 #include <optional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class SetArrival {
 public:
@@ -27,4 +27,4 @@ private:
     std::jthread thread_; ///< last, so that it ends first
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
+bool SetSwitch::step(MonotonicTime now, exhibit::State state, exhibit::Exhibit& exhibit) {
     static_cast<void>(library_->news(status_));
     library_hangs_ = now > library_->alive_until();
     release_the_old();
     if (coming_ && exhibit.set_has_left()) {
         const std::size_t first = goal(state, exhibit).value_or(0);
-        std::optional<TableBrowser> browser = std::exchange(coming_->browser, std::nullopt);
+        std::optional<exhibit::TableBrowser> browser = std::exchange(coming_->browser, std::nullopt);
         leaving_ = artifacts_.exchange(std::move(coming_));
         // The exhibit's old catalogue is destroyed where the set is.
         leaving_->catalogue =
@@ -32,7 +32,7 @@ void SetSwitch::release_the_old() {
 }
 
 /// A newer set replaces one that is not shown yet.
-void SetSwitch::take_the_new(Exhibit& exhibit) {
+void SetSwitch::take_the_new(exhibit::Exhibit& exhibit) {
     if (leaving_ || exhibit.leaves_set()) {
         return;
     }
@@ -47,12 +47,12 @@ void SetSwitch::take_the_new(Exhibit& exhibit) {
     }
 }
 
-std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) const {
-    const std::span<const ArtifactState> states = coming_->artifact_cache->states();
+std::optional<std::size_t> SetSwitch::goal(exhibit::State state, const exhibit::Exhibit& exhibit) const {
+    const std::span<const exhibit::ArtifactState> states = coming_->artifact_cache->states();
     const auto can_be_shown = [&](std::size_t artifact) {
-        return states[artifact] != ArtifactState::LeftOut;
+        return states[artifact] != exhibit::ArtifactState::LeftOut;
     };
-    if (state != State::Attract) { // in other states a visitor is looking at it
+    if (state != exhibit::State::Attract) { // in other states a visitor is looking at it
         const std::vector<std::string>& names = coming_->names;
         const auto same = std::find(names.begin(), names.end(), artifacts_.set().names[exhibit.chosen()]);
         const auto artifact = static_cast<std::size_t>(same - names.begin());
@@ -68,7 +68,7 @@ std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) 
     return std::nullopt;
 }
 
-void SetSwitch::bring(State state, Exhibit& exhibit) {
+void SetSwitch::bring(exhibit::State state, exhibit::Exhibit& exhibit) {
     const std::optional<std::size_t> first = goal(state, exhibit);
     if (!first || !coming_->trouble.empty()) {
         give_up(first ? std::string(coming_->trouble) : fault_of(coming_->artifact_cache->left_out(), true),
@@ -76,7 +76,10 @@ void SetSwitch::bring(State state, Exhibit& exhibit) {
         return;
     }
     const std::array<std::size_t, 1> wanted{*first};
-    const CacheRequest request{*first, exhibit.language(), wanted, exhibit.language()};
+    const residency::CacheRequest request{.shown = *first,
+                                          .shown_language = exhibit.language(),
+                                          .wanted = wanted,
+                                          .language = exhibit.language()};
     if (const Result<void> uploaded = coming_->upload(artifacts_.store(), request, frame_bytes); !uploaded) {
         give_up(uploaded.error().message, exhibit);
         return;
@@ -84,7 +87,7 @@ void SetSwitch::bring(State state, Exhibit& exhibit) {
     exhibit.await_set(coming_->ready(request));
 }
 
-void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
+void SetSwitch::give_up(const std::string& trouble, exhibit::Exhibit& exhibit) {
     if (exhibit.leaves_set()) {
         return; // too late: its fault is reported when it is shown
     }
@@ -95,8 +98,11 @@ void SetSwitch::give_up(const std::string& trouble, Exhibit& exhibit) {
     }
 }
 
-void SetSwitch::report(MonotonicTime now, State state) {
-    library_->report({now, artifacts_.set().number, state == State::Fault, artifacts_.left_out()});
+void SetSwitch::report(MonotonicTime now, exhibit::State state) {
+    library_->report({.now = now,
+                      .number = artifacts_.set().number,
+                      .shows_nothing = state == exhibit::State::Fault,
+                      .left_out = artifacts_.left_out()});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -22,7 +22,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class SetSwitch {
 public:
@@ -31,11 +31,11 @@ public:
         : artifacts_(artifacts), library_(std::move(library)) {}
 
     /// Call before the exhibit's step; `state`: of the previous step. True: another set is shown from this step on.
-    bool step(MonotonicTime now, State state, Exhibit& exhibit);
+    bool step(MonotonicTime now, exhibit::State state, exhibit::Exhibit& exhibit);
     /// Call after the exhibit's step.
-    void report(MonotonicTime now, State state);
+    void report(MonotonicTime now, exhibit::State state);
 
-    [[nodiscard]] const SharedSetStatus& status() const { return status_; }
+    [[nodiscard]] const status::SharedSetStatus& status() const { return status_; }
     /// True if, at the latest step, the library's thread was overdue. That is no reason to end a good picture.
     [[nodiscard]] bool library_hangs() const { return library_hangs_; }
 
@@ -45,17 +45,18 @@ private:
     static constexpr std::uint64_t frame_bytes = std::uint64_t{256} << 10U;
 
     void release_the_old();
-    void take_the_new(Exhibit& exhibit);
+    void take_the_new(exhibit::Exhibit& exhibit);
     /// The artifact to show first: the one on show, if the new set has it. None: the set can show no artifact.
-    [[nodiscard]] std::optional<std::size_t> goal(State state, const Exhibit& exhibit) const;
-    void bring(State state, Exhibit& exhibit);
-    void give_up(const std::string& trouble, Exhibit& exhibit);
+    [[nodiscard]] std::optional<std::size_t> goal(exhibit::State state,
+                                                  const exhibit::Exhibit& exhibit) const;
+    void bring(exhibit::State state, exhibit::Exhibit& exhibit);
+    void give_up(const std::string& trouble, exhibit::Exhibit& exhibit);
 
     ArtifactShow& artifacts_;
     std::unique_ptr<LibraryWatch> library_;
     std::unique_ptr<ShownSet> coming_, leaving_;
-    SharedSetStatus status_;
+    status::SharedSetStatus status_;
     bool library_hangs_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

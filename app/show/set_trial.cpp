@@ -4,9 +4,9 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-SetTrial::SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict, Trust trust)
+SetTrial::SetTrial(library::SetChoice choice, const std::optional<library::SetVerdict>& verdict, Trust trust)
     : choice_(std::move(choice)), trust_(choice_.last_good ? trust : Trust::Newest) {
     verdict_.number = choice_.set.number;
     if (verdict && verdict->number == verdict_.number) {
@@ -15,7 +15,7 @@ SetTrial::SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict, T
     begin();
 }
 
-void SetTrial::take(SetChoice choice) {
+void SetTrial::take(library::SetChoice choice) {
     const bool other = choice.set.number != choice_.set.number;
     if (!other && trust_ == Trust::Before && !choice.last_good) {
         choice.last_good = std::move(choice_.last_good);
@@ -23,17 +23,18 @@ void SetTrial::take(SetChoice choice) {
     choice_ = std::move(choice);
     if (other) {
         trust_ = Trust::Newest;
-        verdict_ = {choice_.set.number, TrialState::Trying, 0, {}};
+        verdict_ = {
+            .number = choice_.set.number, .state = library::TrialState::Trying, .starts = 0, .reason = {}};
         since_.reset();
         begin();
     }
 }
 
 void SetTrial::begin() {
-    if (verdict_.state != TrialState::Trying || trust_ == Trust::Before) {
+    if (verdict_.state != library::TrialState::Trying || trust_ == Trust::Before) {
         return; // the exhibit does not begin with it
     }
-    if (choice_.last_good && verdict_.starts >= max_starts) {
+    if (choice_.last_good && verdict_.starts >= library::max_starts) {
         refuse(verdict_.number,
                fmt::format("the exhibit began with it {} times and never came to show it for {} s",
                            verdict_.starts, long_enough / std::chrono::seconds(1)));
@@ -42,12 +43,15 @@ void SetTrial::begin() {
     }
 }
 
-SetVerdict SetTrial::told() const {
-    if (trust_ == Trust::Newest || verdict_.state == TrialState::Bad) {
+library::SetVerdict SetTrial::told() const {
+    if (trust_ == Trust::Newest || verdict_.state == library::TrialState::Bad) {
         return verdict_;
     }
-    return {verdict_.number, TrialState::Bad, verdict_.starts,
-            "the watchdog went back to the set before, and tries this one again after ten good minutes"};
+    return {.number = verdict_.number,
+            .state = library::TrialState::Bad,
+            .starts = verdict_.starts,
+            .reason =
+                "the watchdog went back to the set before, and tries this one again after ten good minutes"};
 }
 
 void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string& fault) {
@@ -63,17 +67,17 @@ void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string&
         since_ = now;
     }
     latest_ = now;
-    if (verdict_.state == TrialState::Trying && now - *since_ >= long_enough) {
-        verdict_.state = TrialState::Good;
+    if (verdict_.state == library::TrialState::Trying && now - *since_ >= long_enough) {
+        verdict_.state = library::TrialState::Good;
     }
 }
 
 void SetTrial::refuse(std::uint64_t number, const std::string& reason) {
-    if (number == verdict_.number && verdict_.state == TrialState::Trying) {
-        verdict_.state = TrialState::Bad;
+    if (number == verdict_.number && verdict_.state == library::TrialState::Trying) {
+        verdict_.state = library::TrialState::Bad;
         verdict_.reason = reason;
         since_.reset();
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 enum class Trust : std::uint8_t {
     Newest,
@@ -28,28 +28,29 @@ public:
     static constexpr Nanoseconds longest_silence = std::chrono::seconds(2);
 
     /// The exhibit starts. `verdict`: as kept; that of another set is ignored. `trust`: in the newest set.
-    SetTrial(SetChoice choice, const std::optional<SetVerdict>& verdict, Trust trust = Trust::Newest);
+    SetTrial(library::SetChoice choice, const std::optional<library::SetVerdict>& verdict,
+             Trust trust = Trust::Newest);
     /// Takes another installed set, which is trusted, or the same set with another `last_good`. A set that is not
     /// trusted keeps the old `last_good` if there is no new one, so it does not return.
-    void take(SetChoice choice);
+    void take(library::SetChoice choice);
 
     /// The set to show. This start is already counted, so `set_to_show` of the verdict refers to the next one.
-    [[nodiscard]] const InstalledSet& target() const {
-        const bool other =
-            trust_ == Trust::Before || verdict_.state == TrialState::Bad || (on_trial() && !is_kept_);
+    [[nodiscard]] const library::InstalledSet& target() const {
+        const bool other = trust_ == Trust::Before || verdict_.state == library::TrialState::Bad ||
+                           (on_trial() && !is_kept_);
         return other && choice_.last_good ? *choice_.last_good : choice_.set;
     }
     /// Tells whether the verdict could be written. The exhibit does not begin with a set on trial whose starts cannot
     /// be counted: the set might end the exhibit again and again.
     void note_kept(bool is_kept) { is_kept_ = is_kept; }
     /// The verdict to keep; write it before `target` is shown.
-    [[nodiscard]] const SetVerdict& verdict() const { return verdict_; }
+    [[nodiscard]] const library::SetVerdict& verdict() const { return verdict_; }
     /// The verdict to report: a set that is not trusted is bad for this run, whatever verdict is kept.
-    [[nodiscard]] SetVerdict told() const;
-    [[nodiscard]] const SetChoice& choice() const { return choice_; }
+    [[nodiscard]] library::SetVerdict told() const;
+    [[nodiscard]] const library::SetChoice& choice() const { return choice_; }
     /// True if there is another set to return to, and no verdict yet.
     [[nodiscard]] bool on_trial() const {
-        return choice_.last_good.has_value() && verdict_.state == TrialState::Trying &&
+        return choice_.last_good.has_value() && verdict_.state == library::TrialState::Trying &&
                trust_ == Trust::Newest;
     }
 
@@ -61,12 +62,12 @@ public:
 private:
     void begin();
 
-    SetChoice choice_;
-    SetVerdict verdict_;
+    library::SetChoice choice_;
+    library::SetVerdict verdict_;
     Trust trust_ = Trust::Newest;
     bool is_kept_ = true;
     std::optional<MonotonicTime> since_; ///< since when it has been on show without interruption
     MonotonicTime latest_;               ///< time of the latest report
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

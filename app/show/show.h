@@ -20,23 +20,23 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The contents of a frame, for the status and the report. The texts live as long as the show.
 struct ShowState {
     std::string_view artifact; ///< title; empty for the pattern
     std::string_view language;
-    LevelState levels;
+    residency::LevelState levels;
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
     /// The prop's pose drawn for, if it is not the known one.
-    std::optional<RigidTransform> stands = {};
-    PacksLeftOut left_out = {};
-    SharedSetStatus set = {};
+    std::optional<geometry::RigidTransform> stands = {};
+    library::PacksLeftOut left_out = {};
+    status::SharedSetStatus set = {};
     bool library_hangs = false;     ///< as RunStatus
     std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
     std::size_t loaded = 0;         ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0; ///< of the loaded artifacts and those being loaded
-    State state = State::Staff;
+    exhibit::State state = exhibit::State::Staff;
     ToldText told = {};
     SharedImport import = {};               ///< the importer's report; null: none
     std::optional<MonotonicTime> used = {}; ///< when it was last used; nothing: never
@@ -48,34 +48,36 @@ class Show {
 public:
     virtual ~Show() = default;
     /// Decides what `draw` draws next. `commands`: those since the previous step, in order.
-    virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-                      const TrackedState& /*on_table*/) {}
+    virtual void step(MonotonicTime /*now*/, std::span<const settings::Command> /*commands*/,
+                      const tracking::TrackedState& /*on_table*/) {}
     /// True if it may be dark by the timetable; an alignment pattern may not.
     [[nodiscard]] virtual bool sleeps() const { return false; }
     /// Sets the factor on all light, 0..1, from the next step on. 0: asleep, silent and not drawn.
     virtual void set_light(double /*light*/) {}
     /// Sets the drift mark that a camera looks for, from the next `step` on; nothing: none.
-    virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
+    virtual void set_mark(const std::optional<drift::ShownMark>& /*mark*/) {}
     /// Sets the camera's picture, from the next `draw` on, for the alignment pattern shown to the staff; null: the
     /// staff do not hold their buttons, or no camera is used.
     virtual void set_viewfinder(Viewfinder* /*viewfinder*/) {}
     /// Sets the tracker's signals of the prop's and the head's sensor; called before each `step` while the staff
     /// picture is shown.
-    virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
+    virtual void set_signal(const tracking::TrackerSignal& /*prop*/,
+                            const tracking::TrackerSignal& /*head*/) {}
     /// The sound to play.
-    [[nodiscard]] virtual const SoundRequest& sound_request() const {
-        static const SoundRequest silence;
+    [[nodiscard]] virtual const sound::SoundRequest& sound_request() const {
+        static const sound::SoundRequest silence;
         return silence;
     }
     /// True if it may ever play a sound.
     [[nodiscard]] virtual bool speaks() const { return false; }
     /// Takes the report of what is being played.
-    virtual void hear(const SoundReport& /*report*/) {}
+    virtual void hear(const sound::SoundReport& /*report*/) {}
     /// Takes the run's status: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
     /// Draws the picture for `now` where it differs from the displayed one; allocates nothing after the start.
-    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const TrackedState& on_table,
-                                          const RenderTarget& target, Redraw redraw) = 0;
+    [[nodiscard]] virtual render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& on_table,
+                                                  const render::RenderTarget& target,
+                                                  render::Redraw redraw) = 0;
     /// Takes the time of the latest picture, from the poll until the drawing was done, without the wait for a
     /// refresh.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
@@ -87,25 +89,29 @@ class ExhibitStage {
 public:
     virtual ~ExhibitStage() = default;
     /// `eye_m`: table frame. Allocates nothing after the start.
-    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
-                                          const glm::dvec3& eye_m, const RenderTarget& target,
-                                          Redraw redraw) = 0;
+    [[nodiscard]] virtual render::DrawResult draw(MonotonicTime now,
+                                                  const exhibit::Presentation& presentation,
+                                                  const glm::dvec3& eye_m, const render::RenderTarget& target,
+                                                  render::Redraw redraw) = 0;
     /// As in Show; the caller has checked that the mark has room.
-    virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
+    virtual void set_mark(const std::optional<drift::ShownMark>& /*mark*/) {}
     /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
-    [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;
+    [[nodiscard]] virtual ShowState state(const exhibit::Presentation& presentation) const = 0;
     /// True if any text can be heard.
     [[nodiscard]] virtual bool speaks() const { return false; }
     /// State of each artifact; empty: all are ready.
-    [[nodiscard]] virtual std::span<const ArtifactState> artifacts() const { return {}; }
+    [[nodiscard]] virtual std::span<const exhibit::ArtifactState> artifacts() const { return {}; }
     /// The triangles that hide an artifact's hotspots; none while it is not loaded.
-    [[nodiscard]] virtual ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
+    [[nodiscard]] virtual exhibit::ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
     /// Null: silent.
-    [[nodiscard]] virtual SharedRecording recording(const WordIndex& /*word*/) const { return nullptr; }
-    [[nodiscard]] virtual SharedRecording recording(const DescriptionIndex& /*description*/) const {
+    [[nodiscard]] virtual residency::SharedRecording recording(const exhibit::WordIndex& /*word*/) const {
+        return nullptr;
+    }
+    [[nodiscard]] virtual residency::SharedRecording
+    recording(const exhibit::DescriptionIndex& /*description*/) const {
         return nullptr;
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

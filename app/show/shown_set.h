@@ -34,17 +34,17 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// Options common to all sets of a run.
 struct SetOptions {
     std::string technique =
         "auto"; ///< `technique`, `samples`, `cull_kinds`, `program` and `waits`: as ArtifactShowOptions
     int samples = 1;
-    unsigned cull_kinds = AllCullKinds;
+    unsigned cull_kinds = scene::AllCullKinds;
     std::string_view program = "frustumscreen";
     bool waits = false;
-    DevicePlan devices;
+    scene::DevicePlan devices;
     std::uint32_t max_blocks_on_gpu = 0;   ///< as SceneRequest
     std::uint64_t gpu_bytes_that_stay = 0; ///< part of the memory's budget that every set needs
 };
@@ -57,37 +57,38 @@ struct SetRequest {
 };
 /// The cost of frames on this GPU, and the view that they are expected for.
 struct ExpectedFrames {
-    FrameCost cost;
-    PropShape prop;
-    PlanView view;
+    scene::FrameCost cost;
+    geometry::PropShape prop;
+    scene::PlanView view;
     glm::dvec3 eye_m{0.0};
 };
 
 struct ShownSet {
     std::uint64_t number = 0;
-    Catalogue catalogue; ///< as opened; the exhibit has its own
+    exhibit::Catalogue catalogue; ///< as opened; the exhibit has its own
     std::vector<std::string>
         names; ///< by artifact: its id, or its file without one; equal names in two sets mean the same artifact
     std::vector<std::string> languages; ///< of all captions
     std::string trouble;                ///< why the set cannot be shown; empty: it can
     std::vector<std::string> notes;     ///< sentences about settings that may be unintended
-    RenderNeeds needs;
-    std::unique_ptr<ArtifactCache> artifact_cache;
+    scene::RenderNeeds needs;
+    std::unique_ptr<residency::ArtifactCache> artifact_cache;
     AdviceWords words;
-    LoadedTexts word_pictures;
+    residency::LoadedTexts word_pictures;
     TableShow table;
-    std::optional<TableBrowser>
+    std::optional<exhibit::TableBrowser>
         browser; ///< from lay_out_catalogue; the exhibit takes it. A run's first set has none
 
     /// Uploads about `max_bytes` more of what `request` needs to be shown, or a little more.
-    [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& request, std::uint64_t max_bytes);
-    [[nodiscard]] bool ready(const CacheRequest& request) const;
+    [[nodiscard]] Result<void> upload(render::GpuStore& store, const residency::CacheRequest& request,
+                                      std::uint64_t max_bytes);
+    [[nodiscard]] bool ready(const residency::CacheRequest& request) const;
     /// Releases a part of the store's contents. False: nothing is left in the store. After the first call nothing can
     /// be shown.
-    bool release_some(GpuStore& store);
+    bool release_some(render::GpuStore& store);
 
-    [[nodiscard]] TextureId word(const WordIndex& word, std::size_t shape) const;
-    [[nodiscard]] SharedRecording recording(const WordIndex& word) const;
+    [[nodiscard]] scene::TextureId word(const exhibit::WordIndex& word, std::size_t shape) const;
+    [[nodiscard]] residency::SharedRecording recording(const exhibit::WordIndex& word) const;
     /// True if anything of the set can be heard.
     [[nodiscard]] bool speaks() const;
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const {
@@ -99,8 +100,8 @@ private:
 };
 
 /// `frames`: the set's reader begins at once; none: call ArtifactCache::start later.
-[[nodiscard]] Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOptions& options,
-                                                         const SetRequest& request,
+[[nodiscard]] Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings,
+                                                         const SetOptions& options, const SetRequest& request,
                                                          const std::optional<ExpectedFrames>& frames);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

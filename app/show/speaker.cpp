@@ -5,21 +5,21 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-void Speaker::begin(PromptReader::Answer answer) {
+void Speaker::begin(residency::PromptReader::Answer answer) {
     reader_.emplace(answer);
     tone_ = test_tone();
 }
 
-bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
-                   const SharedRecording& announcement) {
+bool Speaker::step(const exhibit::Presentation& presentation, const ExhibitStage& stage,
+                   const residency::SharedRecording& announcement) {
     if (!reader_) {
         return false;
     }
-    reader_->want(SpokenUse::Word,
+    reader_->want(residency::SpokenUse::Word,
                   presentation.prepares_word ? stage.recording(*presentation.prepares_word) : announcement);
-    reader_->want(SpokenUse::Description,
+    reader_->want(residency::SpokenUse::Description,
                   presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
     if (presentation.staff) {
         fall_silent();
@@ -45,9 +45,9 @@ void Speaker::play_tones(std::uint32_t asked) {
     tone_number_ = request_.say(tone_);
 }
 
-bool Speaker::announce(const SharedRecording& announcement) {
+bool Speaker::announce(const residency::SharedRecording& announcement) {
     const bool another = speaks() || word_ || comes_ || is_alive(std::max(description_, advice_));
-    const SharedReading reading = another ? nullptr : reader_->find(announcement);
+    const residency::SharedReading reading = another ? nullptr : reader_->find(announcement);
     if (reading && reading->prompt) {
         advice_ = request_.say(reading->prompt);
     }
@@ -69,7 +69,7 @@ void Speaker::end_description(bool at_pause) {
     }
 }
 
-void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) {
+void Speaker::tell(const exhibit::Presentation& presentation, const ExhibitStage& stage) {
     if (told_ != presentation.tells) {
         end_description(!presentation.tells && presentation.leaves);
         told_ = presentation.tells;
@@ -91,7 +91,7 @@ void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) 
     if (!told_ || description_ != 0) {
         return;
     }
-    const SharedRecording recording = stage.recording(*told_);
+    const residency::SharedRecording recording = stage.recording(*told_);
     reading_ = recording ? reader_->find(recording) : nullptr;
     comes_ = recording && !reading_;
     if (reading_ && reading_->prompt) {
@@ -102,7 +102,7 @@ void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) 
     }
 }
 
-void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage) {
+void Speaker::advise(const exhibit::Presentation& presentation, const ExhibitStage& stage) {
     if (presentation.falls_silent) {
         word_.reset();
         if (is_alive(advice_) && advice_ > description_) {
@@ -115,8 +115,8 @@ void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage
     if (!word_) {
         return;
     }
-    const SharedRecording recording = stage.recording(*word_);
-    const SharedReading reading = recording ? reader_->find(recording) : nullptr;
+    const residency::SharedRecording recording = stage.recording(*word_);
+    const residency::SharedReading reading = recording ? reader_->find(recording) : nullptr;
     if (recording && !reading) {
         word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // not needed any more
         return;
@@ -139,24 +139,24 @@ void Speaker::fall_silent() {
     forget();
 }
 
-void Speaker::hear(const SoundReport& report) {
+void Speaker::hear(const sound::SoundReport& report) {
     report_ = report;
 }
 
-SpeechProgress Speaker::narration() const {
+exhibit::SpeechProgress Speaker::narration() const {
     if (description_ == 0) {
-        return {comes_ ? SpeechProgress::State::Coming : SpeechProgress::State::Silent, 0};
+        return {comes_ ? exhibit::SpeechProgress::State::Coming : exhibit::SpeechProgress::State::Silent, 0};
     }
     if (!is_alive(description_)) {
-        return {SpeechProgress::State::Over, 0};
+        return {exhibit::SpeechProgress::State::Over, 0};
     }
     if (report_.number != description_) {
-        return {SpeechProgress::State::Coming, 0};
+        return {exhibit::SpeechProgress::State::Coming, 0};
     }
     const std::vector<Nanoseconds>& begins = reading_->portions;
     const auto next = std::upper_bound(begins.begin(), begins.end(), report_.heard);
-    return {SpeechProgress::State::Heard,
+    return {exhibit::SpeechProgress::State::Heard,
             static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - begins.begin(), 1) - 1)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -19,52 +19,52 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class Speaker {
 public:
     /// Starts the reader. Without this call nothing is played and no thread is started.
-    void begin(PromptReader::Answer answer);
+    void begin(residency::PromptReader::Answer answer);
     /// `announcement`: to be played when nothing else is, or is about to be; null: none. Returns true if it begins in
     /// this step.
-    bool step(const Presentation& presentation, const ExhibitStage& stage,
-              const SharedRecording& announcement = nullptr);
-    void hear(const SoundReport& report);
+    bool step(const exhibit::Presentation& presentation, const ExhibitStage& stage,
+              const residency::SharedRecording& announcement = nullptr);
+    void hear(const sound::SoundReport& report);
     /// Call when another set is shown: forgets the previous set's decisions and ends its speech.
     void forget();
     /// Ends all speech, including what waits.
     void fall_silent();
     void set_gain_db(double gain_db) { request_.set_gain_db(gain_db); }
 
-    [[nodiscard]] const SoundRequest& request() const { return request_; }
+    [[nodiscard]] const sound::SoundRequest& request() const { return request_; }
     /// True while something is heard.
     [[nodiscard]] bool speaks() const { return report_.number != 0; }
     /// Playback of the description that the latest step told or left.
-    [[nodiscard]] SpeechProgress narration() const;
+    [[nodiscard]] exhibit::SpeechProgress narration() const;
 
 private:
     /// Plays only the tones that the staff asked for.
     void play_tones(std::uint32_t asked);
     void end_description(bool at_pause);
-    void tell(const Presentation& presentation, const ExhibitStage& stage);
-    void advise(const Presentation& presentation, const ExhibitStage& stage);
-    [[nodiscard]] bool announce(const SharedRecording& announcement);
+    void tell(const exhibit::Presentation& presentation, const ExhibitStage& stage);
+    void advise(const exhibit::Presentation& presentation, const ExhibitStage& stage);
+    [[nodiscard]] bool announce(const residency::SharedRecording& announcement);
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 
-    std::optional<PromptReader> reader_;
-    SoundRequest request_;
-    SoundReport report_;
-    std::optional<DescriptionIndex> told_;
-    std::uint64_t description_ = 0; ///< its number; 0: it was not played
-    SharedReading reading_;         ///< of the description being played
-    bool comes_ = false;            ///< it is being decoded
+    std::optional<residency::PromptReader> reader_;
+    sound::SoundRequest request_;
+    sound::SoundReport report_;
+    std::optional<exhibit::DescriptionIndex> told_;
+    std::uint64_t description_ = 0;    ///< its number; 0: it was not played
+    residency::SharedReading reading_; ///< of the description being played
+    bool comes_ = false;               ///< it is being decoded
     enum class Ending : std::uint8_t { None, Left, Stopped };
-    Ending ending_ = Ending::None;  ///< how it was ended early
-    std::optional<WordIndex> word_; ///< waits until it is decoded
-    std::uint64_t advice_ = 0;      ///< the number of the latest advice
-    SharedPrompt tone_;             ///< the staff's
-    std::uint64_t tone_number_ = 0; ///< of the latest tone
-    std::uint32_t tones_ = 0;       ///< number requested so far
+    Ending ending_ = Ending::None;           ///< how it was ended early
+    std::optional<exhibit::WordIndex> word_; ///< waits until it is decoded
+    std::uint64_t advice_ = 0;               ///< the number of the latest advice
+    sound::SharedPrompt tone_;               ///< the staff's
+    std::uint64_t tone_number_ = 0;          ///< of the latest tone
+    std::uint32_t tones_ = 0;                ///< number requested so far
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -21,13 +21,13 @@ constexpr const char* calibration_name = "calibration in use";
 
 /// The verdict as other programs judge it.
 std::string verdict(const RunStatus& status) {
-    KnownExhibit known;
-    known.status.fields = nlohmann::json::parse(status_json(status), nullptr, false);
+    status::KnownExhibit known;
+    known.status.fields = nlohmann::json::parse(status::status_json(status), nullptr, false);
     known.status.age_s = 0.0;
     if (status.environment) {
         known.environment = *status.environment;
     }
-    return verdict_of(known).sentence;
+    return status::verdict_of(known).sentence;
 }
 
 /// Days since "2026-11-25 10:12 UTC"; nothing: there is no date, or it is in the future.
@@ -53,40 +53,41 @@ std::string named(const char* name, std::string_view text) {
 
 } // namespace
 
-std::string calibration_line(const CalibrationSettings& settings, std::time_t now) {
+std::string calibration_line(const settings::CalibrationSettings& settings, std::time_t now) {
     if (!settings.used) {
         return "none; projector and tracker stand as the settings say";
     }
-    const Calibration& used = *settings.used;
+    const settings::Calibration& used = *settings.used;
     const std::optional<int> days = age_days(used.made, now);
     return fmt::format(
         "{}, made {}{}, with {} places ({}); {:.1f} mm on average, {:.1f} mm at the worst of them",
         settings.used_name, used.made, days ? fmt::format(", {} days ago", *days) : std::string(),
-        used.places, name_of(used.method), used.mean_mm, used.worst_mm);
+        used.places, settings::name_of(used.method), used.mean_mm, used.worst_mm);
 }
 
-StaffFacts staff_facts(const RunStatus& status, const Settings& settings, std::string_view driver,
-                       State before, std::time_t now) {
+StaffFacts staff_facts(const RunStatus& status, const settings::Settings& settings, std::string_view driver,
+                       exhibit::State before, std::time_t now) {
     StaffFacts facts;
-    std::vector<StatusLine> lines = status_lines(&status, 0.0, status.environment.get(), now);
+    std::vector<status::StatusLine> lines = status::status_lines(&status, 0.0, status.environment.get(), now);
     const std::string calibration = calibration_line(settings.calibration, now);
-    const auto after = std::find_if(lines.begin(), lines.end(), [](const StatusLine& line) {
+    const auto after = std::find_if(lines.begin(), lines.end(), [](const status::StatusLine& line) {
         return line.name == "calibration" || line.name == "buttons";
     });
     lines.insert(after, {calibration_name, calibration, true});
     const std::string judged = verdict(status);
     facts.lines = {judged};
-    if (settings.exhibit.unsigned_packs == UnsignedPacks::Allow) {
+    if (settings.exhibit.unsigned_packs == pack::UnsignedPacks::Allow) {
         facts.lines.emplace_back("unsigned packs are allowed: for the bench only");
     }
-    for (const StatusLine& line : lines) {
+    for (const status::StatusLine& line : lines) {
         if (line.for_staff) {
             facts.lines.push_back(line.name.empty() ? line.text
                                                     : fmt::format("{}: {}", line.name, line.text));
         }
     }
-    facts.lines.push_back(fmt::format("OpenGL: {}; before this picture: {}", driver, name_of(before)));
-    facts.card = status_card(judged, status, lines, now);
+    facts.lines.push_back(
+        fmt::format("OpenGL: {}; before this picture: {}", driver, exhibit::name_of(before)));
+    facts.card = status::status_card(judged, status, lines, now);
     facts.calibration = named(calibration_name, calibration);
     facts.drift = named("calibration", status.drift.view());
     facts.tracker = named("tracker", status.tracker.view().empty() ? "there is none" : status.tracker.view());
@@ -94,10 +95,10 @@ StaffFacts staff_facts(const RunStatus& status, const Settings& settings, std::s
         status.camera.view().empty() ? std::string() : fmt::format("camera: {}", viewfinder_line(status));
     facts.panel = named("buttons", status.panel.view());
     facts.sound = named("sound", status.sound.view());
-    facts.buttons = std::clamp<std::size_t>(settings.panel.buttons(), 2, button_commands.size());
+    facts.buttons = std::clamp<std::size_t>(settings.panel.buttons(), 2, settings::button_commands.size());
     facts.tracks_head = settings.eye.tracked;
     facts.calibrates = status.calibrates;
     return facts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The facts on the pages; empty sentences are left out.
 struct StaffFacts {
@@ -25,7 +25,7 @@ struct StaffFacts {
     std::string calibration;        ///< the one in use
     std::string drift;
     std::string tracker, camera, panel, sound;
-    TrackerSignal prop, head;
+    tracking::TrackerSignal prop, head;
     double settings_gain_db = 0.0; ///< the settings' volume for this hour
     std::size_t buttons = 2;       ///< of the panel
     bool tracks_head = false;
@@ -37,9 +37,9 @@ struct StaffFacts {
 
 /// The facts from a status. `driver`: the display's name for itself. `before`: the state before the staff picture.
 /// `now`: the wall clock.
-[[nodiscard]] StaffFacts staff_facts(const RunStatus& status, const Settings& settings,
-                                     std::string_view driver, State before, std::time_t now);
+[[nodiscard]] StaffFacts staff_facts(const RunStatus& status, const settings::Settings& settings,
+                                     std::string_view driver, exhibit::State before, std::time_t now);
 /// The calibration in use, its age and its quality.
-[[nodiscard]] std::string calibration_line(const CalibrationSettings& settings, std::time_t now);
+[[nodiscard]] std::string calibration_line(const settings::CalibrationSettings& settings, std::time_t now);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

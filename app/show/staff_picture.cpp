@@ -11,21 +11,21 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
-constexpr Colour white{255, 255, 255};
-constexpr Colour lit_colour{255, 184, 92};
-constexpr Colour ring_colour{126, 158, 196};
+constexpr typography::Colour white{255, 255, 255};
+constexpr typography::Colour lit_colour{255, 184, 92};
+constexpr typography::Colour ring_colour{126, 158, 196};
 constexpr double smallest_em_px = 8.0;
 
 /// 1 px of a picture of 1280 x 800, scaled to the projector's.
-double unit_px(const PatternScene& scene) {
+double unit_px(const typography::PatternScene& scene) {
     return std::min(scene.projector.width / 1280.0, scene.projector.height / 800.0);
 }
 
-std::string circled(std::size_t button, const StaffView& view) {
+std::string circled(std::size_t button, const exhibit::StaffView& view) {
     constexpr std::array open{"\u2460", "\u2461", "\u2462", "\u2463", "\u2464"};
     constexpr std::array full{"\u2776", "\u2777", "\u2778", "\u2779", "\u277a"};
     return view.pressed == button ? full.at(button) : open.at(button);
@@ -34,22 +34,27 @@ std::string circled(std::size_t button, const StaffView& view) {
 /// The words of a page, from its title to the buttons' functions.
 class PageWords {
 public:
-    PageWords(const StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
+    PageWords(const exhibit::StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
         const auto page = static_cast<std::size_t>(view.page);
-        add(fmt::format("{} of {}: {}", page + 1, staff_page_names.size(), staff_page_names.at(page)), 1.3,
-            true);
+        add(fmt::format("{} of {}: {}", page + 1, exhibit::staff_page_names.size(),
+                        exhibit::staff_page_names.at(page)),
+            1.3, true);
         add_page();
         add_buttons();
         add_end();
     }
     /// Sets the words as large as fits the room, `em_px` at most.
-    [[nodiscard]] Image<std::uint8_t> set(const Typesetter& typesetter, const glm::dvec2& room,
-                                          double em_px) const {
-        std::vector<Paragraph> paragraphs;
+    [[nodiscard]] image::Image<std::uint8_t> set(const typography::Typesetter& typesetter,
+                                                 const glm::dvec2& room, double em_px) const {
+        std::vector<typography::Paragraph> paragraphs;
         for (;; em_px *= 0.93) {
             paragraphs.clear();
             for (const Line& line : lines_) {
-                paragraphs.push_back({line.text, em_px * line.size, line.bold, 1.0, em_px * line.space});
+                paragraphs.push_back({.text = line.text,
+                                      .em_px = em_px * line.size,
+                                      .bold = line.bold,
+                                      .brightness = 1.0,
+                                      .space_before_px = em_px * line.space});
             }
             if (em_px <= smallest_em_px || typesetter.extent(paragraphs, room.x).y <= room.y) {
                 return typesetter.set(paragraphs, room.x);
@@ -66,32 +71,32 @@ private:
     };
     void add(std::string text, double size = 1.0, bool bold = false, double space = 0.3) {
         if (!text.empty()) {
-            lines_.push_back({std::move(text), size, bold, space});
+            lines_.push_back({.text = std::move(text), .size = size, .bold = bold, .space = space});
         }
     }
 
     void add_page() {
         switch (view_.page) {
-        case StaffPage::Status:
+        case exhibit::StaffPage::Status:
             for (const std::string& line : facts_.lines) {
                 add(line);
             }
             break;
-        case StaffPage::Place:
+        case exhibit::StaffPage::Place:
             add("The bright edge must lie on the table's edge, and the numbered edges on the prop's.");
             add(facts_.calibration);
             add(facts_.drift);
             break;
-        case StaffPage::Focus:
+        case exhibit::StaffPage::Focus:
             add("Every star must be sharp to its middle, on paper held half as high as the prop.");
             break;
-        case StaffPage::Light:
+        case exhibit::StaffPage::Light:
             add_light();
             break;
-        case StaffPage::Sound:
+        case exhibit::StaffPage::Sound:
             add_sound();
             break;
-        case StaffPage::Tracker:
+        case exhibit::StaffPage::Tracker:
             add(facts_.tracker);
             add_signal("prop", facts_.prop);
             if (facts_.tracks_head) {
@@ -100,7 +105,7 @@ private:
             add("Let them lie still: noise is how much they trembled in the last second.");
             add(facts_.camera);
             break;
-        case StaffPage::Buttons:
+        case exhibit::StaffPage::Buttons:
             add("Press each button: it lights up and is counted, and does nothing else here.");
             add(facts_.panel);
             break;
@@ -109,13 +114,13 @@ private:
 
     void add_light() {
         switch (view_.light) {
-        case StaffLight::White:
+        case exhibit::StaffLight::White:
             add("All white, for a lux meter. These words go after five seconds.");
             break;
-        case StaffLight::Black:
+        case exhibit::StaffLight::Black:
             add("All black, for a lux meter. These words go after five seconds.");
             break;
-        case StaffLight::Greys:
+        case exhibit::StaffLight::Greys:
             add("Each step must be seen, also at both ends of the lower row.");
             break;
         }
@@ -132,7 +137,7 @@ private:
         add("It is kept until settings with another volume come.");
     }
 
-    void add_signal(const char* sensor, const TrackerSignal& signal) {
+    void add_signal(const char* sensor, const tracking::TrackerSignal& signal) {
         add(signal.rate_hz <= 0.0 ? fmt::format("{}: nothing comes", sensor)
                                   : fmt::format("{}: {:.0f} samples a second, {:.0f} % of them can be used",
                                                 sensor, signal.rate_hz, 100.0 * signal.usable),
@@ -145,17 +150,17 @@ private:
     }
 
     [[nodiscard]] std::string action_of(std::size_t button) const {
-        if (view_.page == StaffPage::Buttons) {
+        if (view_.page == exhibit::StaffPage::Buttons) {
             return {};
         }
         if (button == 1) {
             return "next page";
         }
         const bool is_first = button == 0;
-        if (view_.page == StaffPage::Light && button <= 2) {
+        if (view_.page == exhibit::StaffPage::Light && button <= 2) {
             return is_first ? "white, black and greys in turn" : "the one before";
         }
-        if (view_.page == StaffPage::Sound && button <= 2) {
+        if (view_.page == exhibit::StaffPage::Sound && button <= 2) {
             return is_first ? "louder, with a tone; after the loudest comes the quietest"
                             : "quieter, with a tone";
         }
@@ -172,11 +177,11 @@ private:
                 add_button(fmt::format("{} {}", circled(button, view_), action));
             }
         }
-        const bool measures = view_.page == StaffPage::Place && facts_.calibrates;
+        const bool measures = view_.page == exhibit::StaffPage::Place && facts_.calibrates;
         if (measures) {
             add_button(fmt::format("{} held for two seconds: the table is measured anew", circled(0, view_)));
         }
-        if (!view_.kept && !view_.stays && view_.page != StaffPage::Buttons) {
+        if (!view_.kept && !view_.stays && view_.page != exhibit::StaffPage::Buttons) {
             add_button(fmt::format("{} held for two seconds: this picture is kept for half an hour",
                                    measures ? circled(1, view_) : "any button"));
         }
@@ -190,23 +195,24 @@ private:
                          : "It goes by itself a minute after the last press.");
     }
 
-    const StaffView& view_;
+    const exhibit::StaffView& view_;
     const StaffFacts& facts_;
     std::vector<Line> lines_;
 };
 
-void put(Canvas& canvas, const Image<std::uint8_t>& words, const glm::ivec2& corner) {
+void put(typography::Canvas& canvas, const image::Image<std::uint8_t>& words, const glm::ivec2& corner) {
     constexpr int margin_px = 8;
     const glm::dvec2 low(corner - margin_px);
-    canvas.fill(low, low + glm::dvec2(words.width + 2 * margin_px, words.height + 2 * margin_px), Colour(0));
+    canvas.fill(low, low + glm::dvec2(words.width + 2 * margin_px, words.height + 2 * margin_px),
+                typography::Colour(0));
     canvas.coverage(words, corner, white);
 }
 
 /// Puts the QR code at the upper right; returns its left edge. Below three pixels a module, which no telephone reads,
 /// it is left out.
-double put_code(Canvas& canvas, const std::string& card, double margin_px) {
-    const Image<std::uint8_t> code = qr_code(card);
-    const Image8& picture = canvas.image();
+double put_code(typography::Canvas& canvas, const std::string& card, double margin_px) {
+    const image::Image<std::uint8_t> code = qr_code(card);
+    const image::Image8& picture = canvas.image();
     if (code.width == 0) {
         return picture.width;
     }
@@ -220,15 +226,15 @@ double put_code(Canvas& canvas, const std::string& card, double margin_px) {
     for (int y = 0; y < code.height; ++y) {
         for (int x = 0; x < code.width; ++x) {
             const glm::dvec2 low = corner + static_cast<double>(module_px) * glm::dvec2(x, y);
-            canvas.fill(low, low + static_cast<double>(module_px), Colour(code.at(x, y)));
+            canvas.fill(low, low + static_cast<double>(module_px), typography::Colour(code.at(x, y)));
         }
     }
     return corner.x;
 }
 
 /// Puts each button with its number, its press count, and whether it is pressed.
-void put_buttons(Canvas& canvas, const StaffView& view, std::size_t count, double unit,
-                 const Typesetter& typesetter) {
+void put_buttons(typography::Canvas& canvas, const exhibit::StaffView& view, std::size_t count, double unit,
+                 const typography::Typesetter& typesetter) {
     const double width = canvas.image().width, height = canvas.image().height;
     const double radius = 60.0 * unit;
     for (std::size_t button = 0; button < count; ++button) {
@@ -241,7 +247,7 @@ void put_buttons(Canvas& canvas, const StaffView& view, std::size_t count, doubl
         }
         canvas.circle(centre, radius, 4.0 * unit, counts ? lit_colour : ring_colour);
         canvas.text(typesetter, fmt::format("{}", button + 1), centre, 44.0 * unit,
-                    is_lit ? Colour(0) : white, {0.5, 0.5}, true);
+                    is_lit ? typography::Colour(0) : white, {0.5, 0.5}, true);
         const std::string said = is_lit && view.held ? "held"
                                  : counts            ? fmt::format("{}\u00d7", view.presses.at(button))
                                                      : "not yet";
@@ -252,56 +258,58 @@ void put_buttons(Canvas& canvas, const StaffView& view, std::size_t count, doubl
 
 } // namespace
 
-Image8 staff_background(const StaffView& view, const PatternScene& scene, const Typesetter& typesetter) {
+image::Image8 staff_background(const exhibit::StaffView& view, const typography::PatternScene& scene,
+                               const typography::Typesetter& typesetter) {
     const int width = scene.projector.width, height = scene.projector.height;
-    const bool is_white = view.page == StaffPage::Light && view.light == StaffLight::White;
-    if (view.page == StaffPage::Place) {
-        return table_pattern(scene, typesetter);
+    const bool is_white = view.page == exhibit::StaffPage::Light && view.light == exhibit::StaffLight::White;
+    if (view.page == exhibit::StaffPage::Place) {
+        return typography::table_pattern(scene, typesetter);
     }
-    if (view.page == StaffPage::Focus) {
-        return focus_picture(width, height);
+    if (view.page == exhibit::StaffPage::Focus) {
+        return typography::focus_picture(width, height);
     }
-    if (view.page == StaffPage::Light && view.light == StaffLight::Greys) {
-        return grey_picture(width, height, typesetter);
+    if (view.page == exhibit::StaffPage::Light && view.light == exhibit::StaffLight::Greys) {
+        return typography::grey_picture(width, height, typesetter);
     }
     return {width, height, glm::u8vec4(glm::u8vec3(is_white ? 255 : 0), 255)};
 }
 
-Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const PatternScene& scene,
-                     const Image8& background, const Typesetter& typesetter) {
+image::Image8 staff_picture(const exhibit::StaffView& view, const StaffFacts& facts,
+                            const typography::PatternScene& scene, const image::Image8& background,
+                            const typography::Typesetter& typesetter) {
     const double unit = unit_px(scene);
     const double width = scene.projector.width, height = scene.projector.height;
     const double margin = 34.0 * unit;
-    Canvas canvas(background);
+    typography::Canvas canvas(background);
     const PageWords words(view, facts);
     const auto put_words = [&](const glm::dvec2& corner, const glm::dvec2& room, double em) {
         put(canvas, words.set(typesetter, room, em * unit), glm::ivec2(glm::round(corner)));
     };
     const double wide = width - 2.0 * margin;
     switch (view.page) {
-    case StaffPage::Status: {
+    case exhibit::StaffPage::Status: {
         const double right = put_code(canvas, facts.card, margin);
         put_words({margin, margin}, {right - 2.0 * margin, height - 2.0 * margin}, 16.0);
         break;
     }
-    case StaffPage::Place: // below the pattern's own text
+    case exhibit::StaffPage::Place: // below the pattern's own text
         put_words({30.0, 84.0}, {0.5 * wide, 0.5 * height}, 16.0);
         break;
-    case StaffPage::Focus: // between the stars
+    case exhibit::StaffPage::Focus: // between the stars
         put_words({0.08 * width, 0.235 * height}, {0.5 * wide, 0.18 * height}, 16.0);
         break;
-    case StaffPage::Light:
-        if (view.light == StaffLight::Greys) {
+    case exhibit::StaffPage::Light:
+        if (view.light == exhibit::StaffLight::Greys) {
             put_words({margin, 0.73 * height}, {wide, 0.25 * height}, 18.0);
         } else if (view.has_words) {
             put_words({margin, 0.6 * height}, {wide, 0.36 * height}, 18.0);
         }
         break;
-    case StaffPage::Sound:
-    case StaffPage::Tracker:
+    case exhibit::StaffPage::Sound:
+    case exhibit::StaffPage::Tracker:
         put_words({margin, margin}, {wide, height - 2.0 * margin}, 22.0);
         break;
-    case StaffPage::Buttons:
+    case exhibit::StaffPage::Buttons:
         put_words({margin, margin}, {wide, 0.5 * height}, 22.0);
         put_buttons(canvas, view, facts.buttons, unit, typesetter);
         break;
@@ -309,4 +317,4 @@ Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const Patte
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -9,13 +9,16 @@
 #include "app/show/staff_facts.h"
 #include "app/typography/pattern.h"
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The part of the picture below a page's words, which depends on page and light alone.
-[[nodiscard]] Image8 staff_background(const StaffView& view, const PatternScene& scene,
-                                      const Typesetter& typesetter);
+[[nodiscard]] image::Image8 staff_background(const exhibit::StaffView& view,
+                                             const typography::PatternScene& scene,
+                                             const typography::Typesetter& typesetter);
 /// The page without the prop's edges, which are drawn on top of StaffPage::Place.
-[[nodiscard]] Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const PatternScene& scene,
-                                   const Image8& background, const Typesetter& typesetter);
+[[nodiscard]] image::Image8 staff_picture(const exhibit::StaffView& view, const StaffFacts& facts,
+                                          const typography::PatternScene& scene,
+                                          const image::Image8& background,
+                                          const typography::Typesetter& typesetter);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

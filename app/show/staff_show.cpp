@@ -2,14 +2,15 @@
 
 #include <chrono>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-StaffShow::StaffShow(const Settings& settings, Typesetter typesetter, std::unique_ptr<PatternShow> pattern)
+StaffShow::StaffShow(const settings::Settings& settings, typography::Typesetter typesetter,
+                     std::unique_ptr<PatternShow> pattern)
     : settings_(settings), typesetter_(std::move(typesetter)), pattern_(std::move(pattern)) {}
 
-Result<std::unique_ptr<StaffShow>> StaffShow::create(const Settings& settings, bool speaks,
-                                                     std::string driver, State before) {
-    TRY(Typesetter typesetter, Typesetter::open());
+Result<std::unique_ptr<StaffShow>> StaffShow::create(const settings::Settings& settings, bool speaks,
+                                                     std::string driver, exhibit::State before) {
+    TRY(typography::Typesetter typesetter, typography::Typesetter::open());
     TRY(std::unique_ptr<PatternShow> pattern, PatternShow::create(settings));
     std::unique_ptr<StaffShow> show(new StaffShow(settings, std::move(typesetter), std::move(pattern)));
     show->driver_ = std::move(driver);
@@ -32,9 +33,10 @@ void StaffShow::tell(const RunStatus& status, double gain_db) {
     pattern_->tell(status);
 }
 
-void StaffShow::show(MonotonicTime now, const StaffView& view, const TrackerSignal& prop,
-                     const TrackerSignal& head) {
-    if (view.page == StaffPage::Tracker && (now - signals_at_ >= between_signals || drawn_ != view) &&
+void StaffShow::show(MonotonicTime now, const exhibit::StaffView& view, const tracking::TrackerSignal& prop,
+                     const tracking::TrackerSignal& head) {
+    if (view.page == exhibit::StaffPage::Tracker &&
+        (now - signals_at_ >= between_signals || drawn_ != view) &&
         (facts_.prop != prop || facts_.head != head)) {
         facts_.prop = prop;
         facts_.head = head;
@@ -44,14 +46,14 @@ void StaffShow::show(MonotonicTime now, const StaffView& view, const TrackerSign
     if (drawn_ == view) {
         return;
     }
-    const PatternScene& scene = pattern_->scene();
+    const typography::PatternScene& scene = pattern_->scene();
     if (const std::pair of(view.page, view.light); background_of_ != of) {
         background_ = staff_background(view, scene, typesetter_);
         background_of_ = of;
     }
     pattern_->set_picture(staff_picture(view, facts_, scene, background_, typesetter_),
-                          view.page == StaffPage::Place);
+                          view.page == exhibit::StaffPage::Place);
     drawn_ = view;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class StaffShow {
 public:
@@ -25,32 +25,34 @@ public:
 
     /// `speaks`: a sound device is used. `driver`: the display's name for itself. `before`: the state before the
     /// staff picture.
-    [[nodiscard]] static Result<std::unique_ptr<StaffShow>> create(const Settings& settings, bool speaks,
-                                                                   std::string driver, State before);
+    [[nodiscard]] static Result<std::unique_ptr<StaffShow>>
+    create(const settings::Settings& settings, bool speaks, std::string driver, exhibit::State before);
 
     /// `gain_db`: the settings' volume for this hour.
     void tell(const RunStatus& status, double gain_db);
     void set_viewfinder(Viewfinder* viewfinder) { pattern_->set_viewfinder(viewfinder); }
     /// Draws the picture again if it has changed.
-    void show(MonotonicTime now, const StaffView& view, const TrackerSignal& prop, const TrackerSignal& head);
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
-                                  const RenderTarget& target, Redraw redraw) {
+    void show(MonotonicTime now, const exhibit::StaffView& view, const tracking::TrackerSignal& prop,
+              const tracking::TrackerSignal& head);
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                                          const render::RenderTarget& target, render::Redraw redraw) {
         return pattern_->draw(now, tracked_state, target, redraw);
     }
 
 private:
-    StaffShow(const Settings& settings, Typesetter typesetter, std::unique_ptr<PatternShow> pattern);
+    StaffShow(const settings::Settings& settings, typography::Typesetter typesetter,
+              std::unique_ptr<PatternShow> pattern);
 
-    const Settings& settings_;
-    Typesetter typesetter_;
+    const settings::Settings& settings_;
+    typography::Typesetter typesetter_;
     std::unique_ptr<PatternShow> pattern_;
     std::string driver_;
-    State before_ = State::View;
+    exhibit::State before_ = exhibit::State::View;
     StaffFacts facts_;
-    Image8 background_; ///< of the page drawn last
-    std::optional<std::pair<StaffPage, StaffLight>> background_of_;
-    std::optional<StaffView> drawn_; ///< nothing: the drawn picture is out of date
+    image::Image8 background_; ///< of the page drawn last
+    std::optional<std::pair<exhibit::StaffPage, exhibit::StaffLight>> background_of_;
+    std::optional<exhibit::StaffView> drawn_; ///< nothing: the drawn picture is out of date
     MonotonicTime signals_at_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

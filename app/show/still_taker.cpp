@@ -5,16 +5,17 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-StillTaker::StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start, Display& display)
+StillTaker::StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start,
+                       display::Display& display)
     : display_(display), length_(length), start_(start) {
     for (int k = 0; k < count; ++k) {
-        stills_.push_back({Image8(display.width(), display.height()), {}, {}});
+        stills_.push_back({image::Image8(display.width(), display.height()), {}, {}});
     }
 }
 
-void StillTaker::take(MonotonicTime now, const TrackedState& shown, bool settled) {
+void StillTaker::take(MonotonicTime now, const tracking::TrackedState& shown, bool settled) {
     if (taken_ >= stills_.size() || !length_) {
         return;
     }
@@ -27,12 +28,12 @@ void StillTaker::take(MonotonicTime now, const TrackedState& shown, bool settled
     }
 }
 
-void StillTaker::keep(MonotonicTime now, const TrackedState& shown) {
+void StillTaker::keep(MonotonicTime now, const tracking::TrackedState& shown) {
     Still& still = stills_.at(taken_++);
     still.tracked_state = shown;
     still.time = MonotonicTime(now - start_);
-    read_colour_into(display_.framebuffer(), still.picture);
-    erase_probe(still.picture); // the code is for the watchdog, not part of the picture
+    render::read_colour_into(display_.framebuffer(), still.picture);
+    render::erase_probe(still.picture); // the code is for the watchdog, not part of the picture
 }
 
 std::vector<Still> StillTaker::finish() && {
@@ -40,4 +41,4 @@ std::vector<Still> StillTaker::finish() && {
     return std::move(stills_);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -11,33 +11,33 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 struct Still {
-    Image8 picture;
-    TrackedState tracked_state;
+    image::Image8 picture;
+    tracking::TrackedState tracked_state;
     MonotonicTime time; ///< since the run's start
 };
 
 class StillTaker {
 public:
     /// `count` pictures, spread over `length`; without a length only `keep` takes one.
-    StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start, Display& display);
+    StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start, display::Display& display);
 
     /// Keeps the shown picture if one is due. `settled`: nothing in it fades.
-    void take(MonotonicTime now, const TrackedState& shown, bool settled);
+    void take(MonotonicTime now, const tracking::TrackedState& shown, bool settled);
     /// Keeps the shown picture, whatever the time.
-    void keep(MonotonicTime now, const TrackedState& shown);
+    void keep(MonotonicTime now, const tracking::TrackedState& shown);
     /// True if none was taken and at least one was wanted.
     [[nodiscard]] bool lacks_all() const { return taken_ == 0 && !stills_.empty(); }
     [[nodiscard]] std::vector<Still> finish() &&;
 
 private:
-    Display& display_;
+    display::Display& display_;
     std::optional<Nanoseconds> length_;
     MonotonicTime start_;
     std::vector<Still> stills_; ///< room for all of them
     std::size_t taken_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

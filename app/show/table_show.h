@@ -23,7 +23,7 @@
 #include <variant>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 class TableShow {
 public:
@@ -33,20 +33,21 @@ public:
     };
     TableShow() = default; ///< shows nothing
     /// Reads the packs; nothing is in the store yet.
-    [[nodiscard]] static TableShow read(const Settings& settings, const Request& request);
+    [[nodiscard]] static TableShow read(const settings::Settings& settings, const Request& request);
     /// Uploads about `max_bytes` more, or a little more. Pictures that the driver refuses are not shown.
-    void upload(GpuStore& store, std::uint64_t max_bytes);
+    void upload(render::GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == textures_.size(); }
     /// Releases a part of the store's contents; false: nothing was left. Nothing can be placed afterwards.
-    bool release_some(GpuStore& store);
+    bool release_some(render::GpuStore& store);
 
     /// `shadow`: the prop's.
-    void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
-               OnTable& on_table) const;
+    void place(const exhibit::Presentation& presentation,
+               const std::optional<typography::TablePolygon>& shadow, residency::OnTable& on_table) const;
     /// The picture that grows into the prop's place. It lies on the prop, and the prop does not hide it.
-    void place_placeholder(const PresentedPlaceholder& placeholder, OnTable& on_table) const;
+    void place_placeholder(const exhibit::PresentedPlaceholder& placeholder,
+                           residency::OnTable& on_table) const;
     /// Places one picture of each kind, so that drivers compile for them before the first frame.
-    void place_samples(const glm::dvec2& at_m, OnTable& on_table) const;
+    void place_samples(const glm::dvec2& at_m, residency::OnTable& on_table) const;
 
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const { return planned_gpu_bytes_; }
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
@@ -54,8 +55,9 @@ public:
 private:
     /// A texture in the store, or one to be uploaded, whose picture is kept until then.
     struct Texture {
-        std::variant<Image<std::uint8_t>, std::vector<Image8>> picture; ///< coverage; light with mip levels
-        TextureId id = TextureId::None;
+        std::variant<image::Image<std::uint8_t>, std::vector<image::Image8>>
+            picture; ///< coverage; light with mip levels
+        scene::TextureId id = scene::TextureId::None;
     };
     static constexpr std::size_t no_texture = ~std::size_t{0};
     struct Picture {
@@ -72,17 +74,18 @@ private:
         std::vector<Title> titles; ///< by language
     };
     struct Loader;
-    [[nodiscard]] TextureId id(std::size_t texture) const {
-        return texture < textures_.size() ? textures_[texture].id : TextureId::None;
+    [[nodiscard]] scene::TextureId id(std::size_t texture) const {
+        return texture < textures_.size() ? textures_[texture].id : scene::TextureId::None;
     }
 
-    void place_card(const PlacedPicture& placed, const Presentation& presentation, OnTable& on_table) const;
-    void place_title(const PlacedPicture& placed, const Title& title, bool within, double brightness,
-                     OnTable& on_table) const;
+    void place_card(const exhibit::PlacedPicture& placed, const exhibit::Presentation& presentation,
+                    residency::OnTable& on_table) const;
+    void place_title(const exhibit::PlacedPicture& placed, const Title& title, bool within, double brightness,
+                     residency::OnTable& on_table) const;
 
     std::vector<glm::dvec2> room_; ///< the part of the table that the projector's picture covers
-    Pinhole projector_;
-    RigidTransform table_from_projector_;
+    geometry::Pinhole projector_;
+    geometry::RigidTransform table_from_projector_;
     double text_brightness_ = 0.6; ///< fraction of the projector's light
     std::vector<Card> cards_;
     std::vector<Texture> textures_;
@@ -95,4 +98,4 @@ private:
     std::vector<std::string> notes_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

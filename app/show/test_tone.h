@@ -6,8 +6,8 @@
 
 #include "firmware_host/sound/prompt.h"
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
-[[nodiscard]] SharedPrompt test_tone();
+[[nodiscard]] sound::SharedPrompt test_tone();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -17,8 +17,8 @@ int quarter_of(const glm::dvec3& direction) {
 
 /// Quarter turns that put what is higher or farther away at the top, for a viewer at the front who looks down at the
 /// table.
-int turns_of(const Settings& settings) {
-    const CameraSettings& camera = settings.camera;
+int turns_of(const settings::Settings& settings) {
+    const settings::CameraSettings& camera = settings.camera;
     if (camera.pinhole.fx <= 0.0 || camera.table_from_camera.translation == glm::dvec3(0.0)) {
         return 0; // the camera's pose has not been measured
     }
@@ -48,15 +48,15 @@ Walk walk_of(const glm::ivec2& frame, int quarter_turns) {
 
 } // namespace
 
-glm::ivec2 viewfinder_room(const Pinhole& projector) {
+glm::ivec2 viewfinder_room(const geometry::Pinhole& projector) {
     return {std::min(Viewfinder::max_width, projector.width / 3),
             std::min(Viewfinder::max_height, projector.height * 3 / 10)};
 }
 
-Viewfinder::Viewfinder(const Settings& settings)
+Viewfinder::Viewfinder(const settings::Settings& settings)
     : Viewfinder(viewfinder_room(settings.projector.pinhole), turns_of(settings)) {}
 
-void Viewfinder::use(const CameraFrame& frame) {
+void Viewfinder::use(const camera::CameraFrame& frame) {
     if (!wanted_.load(std::memory_order_relaxed)) {
         return;
     }
@@ -73,7 +73,7 @@ void Viewfinder::use(const CameraFrame& frame) {
     changed_ = true;
 }
 
-void Viewfinder::shrink(const CameraFrame& frame, int by) {
+void Viewfinder::shrink(const camera::CameraFrame& frame, int by) {
     const Walk walk = walk_of({frame.width, frame.height}, quarter_turns_);
     const int pixels = by * by;
     std::size_t next = 0;
@@ -106,7 +106,7 @@ void Viewfinder::want(bool wanted) {
     }
 }
 
-bool Viewfinder::take(Image8& picture) {
+bool Viewfinder::take(image::Image8& picture) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock.owns_lock() || !changed_) {
         return false;
@@ -125,4 +125,4 @@ bool Viewfinder::take(Image8& picture) {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

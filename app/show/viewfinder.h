@@ -20,10 +20,10 @@
 #include <cstdint>
 #include <mutex>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The largest part of a projector's picture that it takes, in pixels.
-[[nodiscard]] glm::ivec2 viewfinder_room(const Pinhole& projector);
+[[nodiscard]] glm::ivec2 viewfinder_room(const geometry::Pinhole& projector);
 
 class Viewfinder {
 public:
@@ -31,19 +31,19 @@ public:
 
     /// `room`: in pixels, after the turn. `quarter_turns`: of the frame, clockwise.
     Viewfinder(const glm::ivec2& room, int quarter_turns) : room_(room), quarter_turns_(quarter_turns) {}
-    explicit Viewfinder(const Settings& settings);
+    explicit Viewfinder(const settings::Settings& settings);
 
-    void use(const CameraFrame& frame);
+    void use(const camera::CameraFrame& frame);
 
     /// Call in every frame.
     void want(bool wanted);
     /// Draws the latest frame into the upper part of `picture`, which is as wide as the room and at least as high:
     /// the frame at the middle of the room's lower edge, black around it. False: nothing has changed since the last
     /// call.
-    [[nodiscard]] bool take(Image8& picture);
+    [[nodiscard]] bool take(image::Image8& picture);
 
 private:
-    void shrink(const CameraFrame& frame, int by);
+    void shrink(const camera::CameraFrame& frame, int by);
 
     glm::ivec2 room_;
     int quarter_turns_;
@@ -56,4 +56,4 @@ private:
     std::array<std::uint8_t, std::size_t{max_width} * max_height> luma_{}; ///< [size_.y][size_.x]
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

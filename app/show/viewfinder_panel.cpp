@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 namespace {
 
@@ -27,20 +27,21 @@ std::string viewfinder_line(const RunStatus& status) {
                        status.camera_width, status.camera_height, status.camera_hz);
 }
 
-ViewfinderPanel::ViewfinderPanel(const Pinhole& projector)
+ViewfinderPanel::ViewfinderPanel(const geometry::Pinhole& projector)
     : room_(viewfinder_room(projector)),
       place_(glm::ivec2(projector.width, projector.height) - room_ - glm::ivec2(0, line_px) - margin_px),
       picture_(room_.x, room_.y + line_px, black), upload_(picture_.width, picture_.height) {}
 
-void ViewfinderPanel::set_line(std::string line, const Typesetter& typesetter) {
+void ViewfinderPanel::set_line(std::string line, const typography::Typesetter& typesetter) {
     if (line == line_) {
         return;
     }
     line_ = std::move(line);
     line_is_new_ = true;
-    const std::array paragraphs{Paragraph{line_, em_px, false, 1.0, 0.0}};
-    Canvas canvas(Image8(room_.x, line_px, black));
-    canvas.coverage(typesetter.set(paragraphs, room_.x - 8.0), {4, 4}, Colour(255));
+    const std::array paragraphs{typography::Paragraph{
+        .text = line_, .em_px = em_px, .bold = false, .brightness = 1.0, .space_before_px = 0.0}};
+    typography::Canvas canvas(image::Image8(room_.x, line_px, black));
+    canvas.coverage(typesetter.set(paragraphs, room_.x - 8.0), {4, 4}, typography::Colour(255));
     std::copy(canvas.image().texels.begin(), canvas.image().texels.end(),
               picture_.texels.begin() + static_cast<std::ptrdiff_t>(room_.x) * room_.y);
 }
@@ -64,4 +65,4 @@ void ViewfinderPanel::forget() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

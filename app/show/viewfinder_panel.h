@@ -14,19 +14,19 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 
 /// The camera's state, its frame size and frame rate.
 [[nodiscard]] std::string viewfinder_line(const RunStatus& status);
 
 class ViewfinderPanel {
 public:
-    explicit ViewfinderPanel(const Pinhole& projector);
+    explicit ViewfinderPanel(const geometry::Pinhole& projector);
     ~ViewfinderPanel() { forget(); }
     ViewfinderPanel(const ViewfinderPanel&) = delete;
     ViewfinderPanel& operator=(const ViewfinderPanel&) = delete;
 
-    void set_line(std::string line, const Typesetter& typesetter);
+    void set_line(std::string line, const typography::Typesetter& typesetter);
     /// True if the picture has changed since the last call.
     [[nodiscard]] bool follow(Viewfinder& viewfinder);
     /// Clears the camera's picture.
@@ -35,12 +35,12 @@ public:
 
 private:
     glm::ivec2 room_;
-    glm::ivec2 place_; ///< of its upper left corner in the projector's picture
-    Image8 picture_;   ///< the camera's picture above, the line below
-    PictureUpload upload_;
+    glm::ivec2 place_;      ///< of its upper left corner in the projector's picture
+    image::Image8 picture_; ///< the camera's picture above, the line below
+    render::PictureUpload upload_;
     std::string line_;
     bool line_is_new_ = true; ///< the uploaded picture has another line, or nothing was uploaded
     bool has_seen_ = false;   ///< the picture may hold a part of a frame
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -2,7 +2,7 @@
 
 #include "app/simulation/room_light.h"
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3&
     return blocks;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 
 inline constexpr double prop_albedo = 0.85;
 inline constexpr double table_albedo = 0.40;
@@ -30,8 +30,8 @@ inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a 
 }
 
 /// Factor of the projector's light.
-[[nodiscard]] inline double exposure_of(const PropShape& prop, const glm::dvec3& lens_m) {
-    const PropFace& side = prop.faces.front();
+[[nodiscard]] inline double exposure_of(const geometry::PropShape& prop, const glm::dvec3& lens_m) {
+    const geometry::PropFace& side = prop.faces.front();
     const double light = received_from(lens_m, side.middle(), side.plane.normal);
     return 1.0 / (light > 0.0 ? light : received_from(lens_m, glm::dvec3(0.0), glm::dvec3(0, 0, 1)));
 }
@@ -41,4 +41,4 @@ inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a 
     return brightest_room_light * (0.35 + 0.65 * std::max(0.0, glm::dot(normal, from)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

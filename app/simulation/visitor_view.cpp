@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 
 namespace {
 
@@ -61,7 +61,7 @@ BlockHit first_block(const std::vector<Block>& blocks, const glm::dvec3& origin,
 
 class Room {
 public:
-    Room(const VisitorScene& scene, const Image8& picture, const VisitorViewOptions& options)
+    Room(const VisitorScene& scene, const image::Image8& picture, const VisitorViewOptions& options)
         : scene_(scene), picture_(picture), options_(options),
           prop_from_table_(scene.table_from_prop.inverse()),
           projector_from_table_(scene.table_from_projector.inverse()),
@@ -72,29 +72,38 @@ public:
 
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
         const glm::dvec3 in_prop = prop_from_table_.direction(direction);
-        PropHit hit;
+        geometry::PropHit hit;
         const BlockHit block = first_block(scene_.blocks, scene_.eye_m, direction);
-        if (enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < block.t) {
+        if (geometry::enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < block.t) {
             const auto bound = static_cast<std::size_t>(hit.face);
-            const Plane& plane = scene_.prop.bounds[bound];
-            return Place{scene_.eye_m + hit.t * direction, scene_.table_from_prop.direction(plane.normal),
-                         bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
-                         prop_albedo};
+            const geometry::Plane& plane = scene_.prop.bounds[bound];
+            return Place{.point_m = scene_.eye_m + hit.t * direction,
+                         .normal = scene_.table_from_prop.direction(plane.normal),
+                         .lit = bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
+                         .albedo = prop_albedo};
         }
         const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
         const glm::dvec3 point = scene_.eye_m + t * direction;
         if (block.block != nullptr && (t <= 0.0 || block.t < t || !on_table(point))) {
             const glm::dvec3 meets = scene_.eye_m + block.t * direction;
-            return Place{meets, block.normal, false, block.block->albedo, fading(meets)};
+            return Place{.point_m = meets,
+                         .normal = block.normal,
+                         .lit = false,
+                         .albedo = block.block->albedo,
+                         .room_share = fading(meets)};
         }
         if (t <= 0.0 || !on_table(point)) {
             return std::nullopt;
         }
-        PropHit shade;
-        const bool shadowed =
-            enter(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
-            shade.t < 1.0;
-        return Place{point, glm::dvec3(0, 0, 1), !shadowed, table_albedo, contact_shadow(point)};
+        geometry::PropHit shade;
+        const bool shadowed = geometry::enter(scene_.prop, lens_in_prop_,
+                                              prop_from_table_.point(point) - lens_in_prop_, shade) &&
+                              shade.t < 1.0;
+        return Place{.point_m = point,
+                     .normal = glm::dvec3(0, 0, 1),
+                     .lit = !shadowed,
+                     .albedo = table_albedo,
+                     .room_share = contact_shadow(point)};
     }
 
     /// Linear light that a point reflects to the eye.
@@ -143,7 +152,7 @@ private:
     [[nodiscard]] glm::dvec3 texel(int x, int y) const {
         const glm::u8vec4& code =
             picture_.at(std::clamp(x, 0, picture_.width - 1), std::clamp(y, 0, picture_.height - 1));
-        const std::array<float, 256>& linear = linear_from_srgb8();
+        const std::array<float, 256>& linear = image::linear_from_srgb8();
         return {linear[code.r], linear[code.g], linear[code.b]};
     }
     [[nodiscard]] bool on_table(const glm::dvec3& point_m) const {
@@ -163,10 +172,10 @@ private:
     }
 
     const VisitorScene& scene_;
-    const Image8& picture_;
+    const image::Image8& picture_;
     VisitorViewOptions options_;
-    RigidTransform prop_from_table_;
-    RigidTransform projector_from_table_;
+    geometry::RigidTransform prop_from_table_;
+    geometry::RigidTransform projector_from_table_;
     glm::dvec3 eye_in_prop_;
     glm::dvec3 lens_in_prop_;
     double exposure_ = 1.0;
@@ -174,7 +183,7 @@ private:
 
 } // namespace
 
-VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
+VisitorCamera visitor_camera(const geometry::PropShape& prop, const geometry::RigidTransform& table_from_prop,
                              const glm::dvec3& eye_m, int width, int height) {
     double radius = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
@@ -193,10 +202,10 @@ VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_
             {glm::normalize(glm::quat_cast(glm::dmat3(right, down, forward))), eye_m}};
 }
 
-Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const VisitorCamera& camera,
-                    const VisitorViewOptions& options) {
+image::Image8 visitor_view(const VisitorScene& scene, const image::Image8& projected,
+                           const VisitorCamera& camera, const VisitorViewOptions& options) {
     const Room room(scene, projected, options);
-    Image8 view(camera.pinhole.width, camera.pinhole.height, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 view(camera.pinhole.width, camera.pinhole.height, glm::u8vec4(0, 0, 0, 255));
     const int rays = std::max(1, options.rays_per_side);
     const auto pixel_colour = [&](int x, int y) {
         glm::dvec3 sum(0.0);
@@ -215,8 +224,9 @@ Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const Vi
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < view.width; ++x) {
                 const glm::dvec3 colour = pixel_colour(x, y);
-                view.at(x, y) = glm::u8vec4(srgb8_from_linear(colour.r), srgb8_from_linear(colour.g),
-                                            srgb8_from_linear(colour.b), 255);
+                view.at(x, y) =
+                    glm::u8vec4(image::srgb8_from_linear(colour.r), image::srgb8_from_linear(colour.g),
+                                image::srgb8_from_linear(colour.b), 255);
             }
         }
     });
@@ -226,7 +236,7 @@ Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const Vi
 std::string visitor_cameras_json(std::span<const VisitorFrame> frames) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const VisitorFrame& frame : frames) {
-        const Pinhole& pinhole = frame.camera.pinhole;
+        const geometry::Pinhole& pinhole = frame.camera.pinhole;
         const glm::dmat4 matrix = frame.camera.table_from_camera.matrix();
         nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
         for (int k = 0; k < 16; ++k) {
@@ -246,4 +256,4 @@ std::string visitor_cameras_json(std::span<const VisitorFrame> frames) {
     return nlohmann::ordered_json{{"frames", list}}.dump(1) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

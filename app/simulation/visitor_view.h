@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 
 /// An object of the room, axis-aligned in the table frame, which only the room's light reaches.
 struct Block {
@@ -35,18 +35,18 @@ struct Block {
 
 /// Everything around the visitor.
 struct VisitorScene {
-    Pinhole projector; ///< of the given picture, with its width and height
-    RigidTransform table_from_projector;
-    PropShape prop;
-    RigidTransform table_from_prop;
+    geometry::Pinhole projector; ///< of the given picture, with its width and height
+    geometry::RigidTransform table_from_projector;
+    geometry::PropShape prop;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
     glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
     std::vector<Block> blocks = {};    ///< they cast no shadows; empty for pictures that are measured
 };
 
 struct VisitorCamera {
-    Pinhole pinhole;
-    RigidTransform table_from_camera;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform table_from_camera;
 };
 
 /// The camera at the eye E that looks at the prop's centre C = table_from_prop (0, 0, height / 2):
@@ -56,7 +56,8 @@ struct VisitorCamera {
 ///     fx = fy = 0.62 * min(width, height) / 2 / tan(asin(r / |C - E|)),  cx = width / 2,  cy = height / 2,
 /// where r is the distance from C to the prop's farthest corner: the prop's sphere takes 0.62 of the
 /// picture's shorter side. r / |C - E| counts as at most 0.9.
-[[nodiscard]] VisitorCamera visitor_camera(const PropShape& prop, const RigidTransform& table_from_prop,
+[[nodiscard]] VisitorCamera visitor_camera(const geometry::PropShape& prop,
+                                           const geometry::RigidTransform& table_from_prop,
                                            const glm::dvec3& eye_m, int width, int height);
 
 struct VisitorViewOptions {
@@ -72,8 +73,8 @@ struct VisitorViewOptions {
     return {false, 1, false};
 }
 
-[[nodiscard]] Image8 visitor_view(const VisitorScene& scene, const Image8& projected,
-                                  const VisitorCamera& camera, const VisitorViewOptions& options = {});
+[[nodiscard]] image::Image8 visitor_view(const VisitorScene& scene, const image::Image8& projected,
+                                         const VisitorCamera& camera, const VisitorViewOptions& options = {});
 
 /// One picture's camera, for the file next to the pictures.
 struct VisitorFrame {
@@ -88,4 +89,4 @@ inline constexpr std::string_view visitor_cameras_name = "visitor_cameras.json";
 /// "table_from_camera"[16, column-major]}]}; ends with a line break.
 [[nodiscard]] std::string visitor_cameras_json(std::span<const VisitorFrame> frames);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

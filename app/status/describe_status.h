@@ -14,10 +14,11 @@
 #include <array>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
-inline constexpr std::array all_healths{Health::Well, Health::NoPicture, Health::FrozenCode,
-                                        Health::ThreadHangs, Health::Hangs};
+inline constexpr std::array all_healths{service::Health::Well, service::Health::NoPicture,
+                                        service::Health::FrozenCode, service::Health::ThreadHangs,
+                                        service::Health::Hangs};
 /// Millimetres, to 0.1 micrometre: a finest level is off by less than a micrometre.
 inline constexpr Digits error_digits{1.0, 1e4};
 /// Metres in the report, millimetres in the file.
@@ -26,8 +27,11 @@ inline constexpr Digits thousandths{1e3, 1e3};
 inline constexpr Digits millionths{1e6, 1e3};
 
 inline Metric share_of_frames(std::string_view share) {
-    return {"frame_time_seconds", "The time within which this share of the latest pictures was drawn.", 1e-3,
-            "share", share};
+    return {.name = "frame_time_seconds",
+            .help = "The time within which this share of the latest pictures was drawn.",
+            .scale = 1e-3,
+            .label = "share",
+            .of = share};
 }
 
 void set_fields(auto& fields, auto& set, bool library_hangs) {
@@ -40,7 +44,7 @@ void set_fields(auto& fields, auto& set, bool library_hangs) {
     });
     fields.object("newest", {}, [&](auto& newest) {
         newest.field("number", set.newest.number);
-        newest.choice("verdict", set.newest.state, trial_state_names);
+        newest.choice("verdict", set.newest.state, library::trial_state_names);
         newest.field("on_trial", set.on_trial);
         newest.field("starts", set.newest.starts);
         newest.field("reason", set.newest.reason);
@@ -53,17 +57,17 @@ void set_fields(auto& fields, auto& set, bool library_hangs) {
 void import_fields(auto& fields, auto& report) {
     fields.field("import_id", report.import_id);
     fields.field("stick", report.stick);
-    fields.choice("stage", report.stage, import_stage_names);
+    fields.choice("stage", report.stage, library::import_stage_names);
     fields.field("done_bytes", report.done_bytes);
     fields.field("total_bytes", report.total_bytes);
-    fields.choice("refusal", report.refusal, import_refusal_names);
+    fields.choice("refusal", report.refusal, library::import_refusal_names);
     fields.field("reason", report.reason);
     fields.field("set_number", report.set_number);
     fields.objects("packs", report.packs, {}, Metric{}, [](auto& item, auto& pack) {
         item.field("file", pack.file);
         item.field("title", pack.title);
-        item.choice("outcome", pack.outcome, import_outcome_names);
-        item.choice("refusal", pack.refusal, import_refusal_names);
+        item.choice("outcome", pack.outcome, library::import_outcome_names);
+        item.choice("refusal", pack.refusal, library::import_refusal_names);
         item.field("reason", pack.reason);
     });
 }
@@ -99,9 +103,11 @@ void written_fields(auto& fields, auto& status) {
                   "`program`, of the exhibit that runs; `pack_format`, the newest that it reads; `system`, "
                   "the operating system and its kernel",
                   [&](auto& versions) {
-                      versions.field(
-                          "program", status.versions.program, {},
-                          Metric{"build_info", "1; the label is the exhibit's version.", 1.0, "version"});
+                      versions.field("program", status.versions.program, {},
+                                     Metric{.name = "build_info",
+                                            .help = "1; the label is the exhibit's version.",
+                                            .scale = 1.0,
+                                            .label = "version"});
                       versions.field("pack_format", status.versions.pack_format);
                       versions.field("system", status.versions.system);
                   });
@@ -110,8 +116,11 @@ void written_fields(auto& fields, auto& status) {
         "`well`; `no_picture`: none is presented any more; `frozen`: what is shown is not what was drawn; "
         "`thread_hangs`: a device's thread broke its promise; `hangs`: the exhibit itself was not heard of "
         "for four seconds, and another thread wrote this",
-        all_healths, [](Health health) { return word_of(health); },
-        Metric{"health", "1 for the word that says how the exhibit is.", 1.0, "health"});
+        all_healths, [](service::Health health) { return service::word_of(health); },
+        Metric{.name = "health",
+               .help = "1 for the word that says how the exhibit is.",
+               .scale = 1.0,
+               .label = "health"});
 }
 
 void shown_fields(auto& fields, auto& status) {
@@ -158,9 +167,12 @@ void shown_fields(auto& fields, auto& status) {
         Metric{}, [&](auto& inner, auto& set) { set_fields(inner, set, status.library_hangs); });
     fields.word(
         "state", status.state,
-        "what the exhibit is doing, one of the states in [states.md](states.md), or `asleep`", state_notes,
-        [](const StateNote& state) { return state.name; },
-        Metric{"state", "1 for the state that the exhibit is in.", 1.0, "state"});
+        "what the exhibit is doing, one of the states in [states.md](states.md), or `asleep`",
+        exhibit::state_notes, [](const exhibit::StateNote& state) { return state.name; },
+        Metric{.name = "state",
+               .help = "1 for the state that the exhibit is in.",
+               .scale = 1.0,
+               .label = "state"});
     fields.field("asleep", status.hours.asleep,
                  "by its timetable: the projector is dark, nothing is drawn or said. `health` stays `well`, "
                  "and `frames` go on");
@@ -175,9 +187,11 @@ void shown_fields(auto& fields, auto& status) {
                       hours.field("why", status.hours.why);
                       hours.field("clock", status.hours.clock);
                   });
-    fields.field(
-        "artifact", status.artifact, "title of what is shown; empty where nothing can be",
-        Metric{"artifact_info", "1; the label is the title of the artifact that is shown.", 1.0, "artifact"});
+    fields.field("artifact", status.artifact, "title of what is shown; empty where nothing can be",
+                 Metric{.name = "artifact_info",
+                        .help = "1; the label is the title of the artifact that is shown.",
+                        .scale = 1.0,
+                        .label = "artifact"});
     fields.field("shown_since", status.shown_since,
                  "since when this artifact is shown, UTC, by the wall clock");
     fields.field("shown_for_s", status.shown_for_s,
@@ -209,8 +223,9 @@ void drawing_fields(auto& fields, auto& status) {
         "how far what the last picture shows lies from what the scan would show, along the eye's rays, on "
         "average: an estimate of that picture ([error_estimate.h](../app/scene/error_estimate.h)). `null` "
         "where it shows nothing of an artifact",
-        Metric{"estimated_error_meters", "Mean distance of the drawn surface from the scan, on the prop.",
-               1e-3},
+        Metric{.name = "estimated_error_meters",
+               .help = "Mean distance of the drawn surface from the scan, on the prop.",
+               .scale = 1e-3},
         error_digits);
     fields.field("p95_error_mm", status.p95_error_mm, "the same: 95 of 100 places lie nearer", {},
                  error_digits);
@@ -246,8 +261,11 @@ void drawing_fields(auto& fields, auto& status) {
 void condition_fields(auto& fields, const char* device, auto& report) {
     fields.object(device, {}, [&](auto& inner) {
         inner.field("ok", report.ok, {},
-                    Metric{"device_ok", "1: this device, which the settings ask for, can be used.", 1.0,
-                           "device", device});
+                    Metric{.name = "device_ok",
+                           .help = "1: this device, which the settings ask for, can be used.",
+                           .scale = 1.0,
+                           .label = "device",
+                           .of = device});
         inner.field("impaired", report.impaired);
         inner.field("id", report.id);
     });
@@ -350,7 +368,9 @@ void device_fields(auto& fields, auto& status) {
     fields.field("uptime_s", status.uptime_s, "seconds since everything was loaded",
                  Metric{"uptime_seconds", "Time since everything was loaded."});
     fields.field("resident_mib", status.resident_mib, "memory that the program takes, MiB",
-                 Metric{"resident_memory_bytes", "Memory that the exhibit takes.", 1024.0 * 1024.0});
+                 Metric{.name = "resident_memory_bytes",
+                        .help = "Memory that the exhibit takes.",
+                        .scale = 1024.0 * 1024.0});
 }
 
 void all_status_fields(auto& fields, auto& status) {
@@ -360,4 +380,4 @@ void all_status_fields(auto& fields, auto& status) {
     device_fields(fields, status);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

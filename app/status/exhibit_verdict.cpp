@@ -14,12 +14,12 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
 ExhibitVerdict not_running(MessageId id, std::string sentence) {
-    return {false, false, std::move(sentence), std::string(id.view())};
+    return {.runs = false, .well = false, .sentence = std::move(sentence), .id = std::string(id.view())};
 }
 
 /// Why the status is not current; nothing if it is.
@@ -45,16 +45,17 @@ std::optional<ExhibitVerdict> why_not_running(const StatusDocument& status) {
 }
 
 ExhibitVerdict not_well(std::string id, std::string sentence) {
-    return {true, false, std::move(sentence), std::move(id)};
+    return {.runs = true, .well = false, .sentence = std::move(sentence), .id = std::move(id)};
 }
 
 ExhibitVerdict unhealthy(const std::string& word) {
-    const auto* const known = std::find_if(all_healths.begin(), all_healths.end(),
-                                           [&](Health health) { return word_of(health) == word; });
+    const auto* const known =
+        std::find_if(all_healths.begin(), all_healths.end(),
+                     [&](service::Health health) { return service::word_of(health) == word; });
     const bool is_known = known != all_healths.end();
     return not_well(is_known ? "exhibit." + word : "exhibit.unheard_of",
                     "The exhibit runs, and is not well: " + (is_known
-                                                                 ? std::string(sentence_of(*known))
+                                                                 ? std::string(service::sentence_of(*known))
                                                                  : fmt::format("its health is '{}'", word)));
 }
 
@@ -68,7 +69,7 @@ std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog)
         return not_well(watchdog_id(watchdog),
                         "The exhibit runs, and its watchdog says: " + status.trouble->sentence);
     }
-    if (!status.mode.empty() && status.mode != word_of(Mode::Normal)) {
+    if (!status.mode.empty() && status.mode != watch::word_of(watch::Mode::Normal)) {
         return not_well(watchdog_id(watchdog),
                         fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(status.mode)));
     }
@@ -116,8 +117,8 @@ std::pair<Complaints, Complaints> complaints_of(const StatusReport& status) {
 } // namespace
 
 std::string_view sentence_of_mode(std::string_view word) {
-    const std::optional<Mode> mode = mode_named(word);
-    return mode ? sentence_of(*mode) : word;
+    const std::optional<watch::Mode> mode = watch::mode_named(word);
+    return mode ? watch::sentence_of(*mode) : word;
 }
 
 ExhibitVerdict verdict_of(const KnownExhibit& known) {
@@ -125,10 +126,10 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
         return std::move(*why);
     }
     const StatusReport report = read_status_report(known.status.fields);
-    if (report.health != word_of(Health::Well)) {
+    if (report.health != service::word_of(service::Health::Well)) {
         return unhealthy(report.health);
     }
-    if (report.state == name_of(State::Fault)) {
+    if (report.state == exhibit::name_of(exhibit::State::Fault)) {
         return not_well("exhibit.no_artifact", "The exhibit runs, and has no artifact that it can show");
     }
     if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.environment.watchdog)) {
@@ -139,10 +140,15 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
         return not_well(missing.id, "The exhibit runs, but: " + missing.clauses);
     }
     return impaired.clauses.empty()
-               ? ExhibitVerdict{true, true, "The exhibit runs and is well", "exhibit.well"}
-               : ExhibitVerdict{true, true,
-                                "The exhibit runs and is well, but look at this: " + impaired.clauses,
-                                impaired.id};
+               ? ExhibitVerdict{.runs = true,
+                                .well = true,
+                                .sentence = "The exhibit runs and is well",
+                                .id = "exhibit.well"}
+               : ExhibitVerdict{.runs = true,
+                                .well = true,
+                                .sentence =
+                                    "The exhibit runs and is well, but look at this: " + impaired.clauses,
+                                .id = impaired.id};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 /// What the watchdog does in the mode with this word; `word` itself if there is no such mode.
 [[nodiscard]] std::string_view sentence_of_mode(std::string_view word);
@@ -23,4 +23,4 @@ struct ExhibitVerdict {
 };
 [[nodiscard]] ExhibitVerdict verdict_of(const KnownExhibit& known);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

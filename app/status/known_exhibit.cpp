@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -54,8 +54,8 @@ StatusClock status_clock() {
 
 StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     StatusDocument document;
-    pack_format::Refusal refusal{{}, "the file"};
-    nlohmann::json fields = pack_format::parse_json(refusal, json, max_depth);
+    pack::Refusal refusal{{}, "the file"};
+    nlohmann::json fields = pack::parse_json(refusal, json, max_depth);
     if (refusal.error || !fields.is_object()) {
         document.why = "this is not a status: " +
                        printable(refusal.error ? refusal.error->message : "no object { ... }", 200);
@@ -94,11 +94,11 @@ void renew_environment(Environment& known, const StatusPlaces& places, const Sta
     known.monotonic_s = to_seconds(clock.now.time_since_epoch());
     if (known.system.empty()) {
         known.system = system_name();
-        known.crashes = read_crashes(places.crash_folder); // a later crash ends this process
+        known.crashes = watch::read_crashes(places.crash_folder); // a later crash ends this process
     }
     if (MachineState& machine = known.machine;
         !machine.seen || clock.now - *machine.seen >= between_looks_at_machine) {
-        machine = {clock.now, hottest_c(places.root), disk_space(places.data_folder)};
+        machine = {clock.now, watch::hottest_c(places.root), watch::disk_space(places.data_folder)};
     }
     const std::filesystem::path file = places.status_file.parent_path() / "ends";
     std::error_code missing;
@@ -112,7 +112,7 @@ void renew_environment(Environment& known, const StatusPlaces& places, const Sta
     known.ends_trouble.clear();
     const Result<Bytes> text = read_file(file, max_ends_bytes);
     if (text) {
-        known.ends = parse_service_ends(as_text(*text));
+        known.ends = watch::parse_service_ends(as_text(*text));
     } else if (bytes > 0) {
         known.ends_trouble = printable(text.error().message, 300);
     }
@@ -124,4 +124,4 @@ KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& c
     return known;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

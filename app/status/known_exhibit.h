@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 inline constexpr std::string_view usual_status_file = "/run/frustumscreen/status.json";
 inline constexpr std::string_view usual_watchdog_file = "/run/frustumscreen-watchdog/status.json";
@@ -39,7 +39,7 @@ struct StatusDocument {
     std::string why;             ///< one sentence if `fields` is null
     std::optional<double> age_s; ///< none: the time of writing is missing or impossible
     bool other_boot = false;     ///< written before the machine was started
-    [[nodiscard]] bool fresh() const { return age_s && *age_s <= to_seconds(fresh_for); }
+    [[nodiscard]] bool fresh() const { return age_s && *age_s <= to_seconds(watch::fresh_for); }
 };
 [[nodiscard]] StatusDocument parse_status(std::string_view json, const StatusClock& clock);
 [[nodiscard]] StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock);
@@ -48,28 +48,28 @@ struct StatusDocument {
 struct MachineState {
     std::optional<MonotonicTime> seen;
     std::optional<double> hottest_c;
-    std::optional<DiskSpace> disk; ///< of the disk with all data
+    std::optional<watch::DiskSpace> disk; ///< of the disk with all data
 };
 inline constexpr Nanoseconds between_looks_at_machine = std::chrono::seconds(10);
 
 /// What other programs know of the exhibit's run; it never changes.
 struct Environment {
     StatusDocument watchdog;
-    ServiceEnds ends;
+    watch::ServiceEnds ends;
     std::uintmax_t ends_bytes = 0; ///< of the ends' file, which only grows
     std::string ends_trouble;      ///< why the ends' file could not be read; a missing file means no ends
     double monotonic_s = 0.0;      ///< time since the machine's start, when this was read
     MachineState machine;
-    std::string system;         ///< name and version of the operating system and of the kernel
-    SystemImage image;          ///< of an appliance
-    std::vector<Crash> crashes; ///< the last ones, the latest first
+    std::string system;                ///< name and version of the operating system and of the kernel
+    SystemImage image;                 ///< of an appliance
+    std::vector<watch::Crash> crashes; ///< the last ones, the latest first
 };
 using SharedEnvironment = std::shared_ptr<const Environment>;
 struct StatusPlaces {
     std::filesystem::path status_file = usual_status_file; ///< the ends' file is beside it
     std::filesystem::path watchdog_file = usual_watchdog_file;
     std::filesystem::path boot_folder = usual_boot_folder;
-    std::filesystem::path crash_folder = usual_crash_folder;
+    std::filesystem::path crash_folder = watch::usual_crash_folder;
     std::filesystem::path data_folder = "/var/lib/frustumscreen"; ///< on the disk with the packs
     std::filesystem::path root = "/";                             ///< the folder that holds sys
 };
@@ -84,4 +84,4 @@ struct KnownExhibit {
 };
 [[nodiscard]] KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& clock);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 /// A Prometheus family, or one sample of several. A text is the sample 1 with the text as label value. A word from
 /// a list has a sample for each word; its own is 1. A list is its length. A field that may be null in the file is 1
@@ -23,4 +23,4 @@ struct Digits {
     double steps = 1e3; ///< steps within 1 of the file's unit: a number is rounded to whole steps
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -58,9 +58,12 @@ void add_ends(Metrics& metrics, const Environment& environment) {
     if (!environment.ends_trouble.empty()) {
         return;
     }
-    for (std::size_t k = 0; k < service_results.size(); ++k) {
-        metrics.add({"ends_total", "How often the exhibit's process ended, by systemd's SERVICE_RESULT.", 1.0,
-                     "result", service_results.at(k).word},
+    for (std::size_t k = 0; k < watch::service_results.size(); ++k) {
+        metrics.add({.name = "ends_total",
+                     .help = "How often the exhibit's process ended, by systemd's SERVICE_RESULT.",
+                     .scale = 1.0,
+                     .label = "result",
+                     .of = watch::service_results.at(k).word},
                     static_cast<double>(environment.ends.counts.at(k)));
     }
 }
@@ -89,7 +92,10 @@ void add_machine(Metrics& metrics, const Environment& environment) {
 
 void add_system(Metrics& metrics, const SystemImage& image) {
     if (image.there()) {
-        metrics.add({"system_info", "1; the label is the version of the appliance's system.", 1.0, "version"},
+        metrics.add({.name = "system_info",
+                     .help = "1; the label is the version of the appliance's system.",
+                     .scale = 1.0,
+                     .label = "version"},
                     image.version, 1.0);
         metrics.add({"system_notes", "What was wrong when it started, such as an update that did not start."},
                     static_cast<double>(image.notes.size()));
@@ -119,4 +125,4 @@ std::string prometheus_text(const KnownExhibit& known) {
     return metrics.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -9,9 +9,9 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 /// If the exhibit does not run, its own metrics are left out and frustumscreen_up is 0.
 [[nodiscard]] std::string prometheus_text(const KnownExhibit& known);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -4,19 +4,19 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
 std::string verdict_of(const SetStatus& status) {
-    const SetVerdict& newest = status.newest;
-    if (newest.state == TrialState::Bad) {
+    const library::SetVerdict& newest = status.newest;
+    if (newest.state == library::TrialState::Bad) {
         return fmt::format("; set {} is bad: {}", newest.number, newest.reason);
     }
     if (newest.number != status.shown) {
         return fmt::format("; set {} comes", newest.number);
     }
-    return newest.state == TrialState::Good ? ", good" : status.on_trial ? ", on trial" : "";
+    return newest.state == library::TrialState::Good ? ", good" : status.on_trial ? ", on trial" : "";
 }
 
 } // namespace
@@ -32,4 +32,4 @@ std::string sentence_of(const SetStatus& status) {
     return status.trouble.empty() ? sentence : sentence + "; " + status.trouble;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

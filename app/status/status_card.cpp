@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -31,7 +31,7 @@ std::string packs_line(const StatusReport& status) {
         return fmt::format("packs: {}", "the packs of the settings");
     }
     std::string text = fmt::format("packs: set {}:", status.set->shown);
-    for (const InstalledPack& pack : status.set->packs) {
+    for (const library::InstalledPack& pack : status.set->packs) {
         text += " " + (pack.id.empty() ? pack.sha256.substr(0, 8) : pack.id);
     }
     return text;
@@ -68,4 +68,4 @@ std::string status_card(std::string_view verdict, const StatusReport& status,
     return card;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 inline constexpr std::size_t max_card_bytes = 900, max_card_line_bytes = 110;
 
@@ -25,4 +25,4 @@ inline constexpr std::size_t max_card_bytes = 900, max_card_line_bytes = 110;
 [[nodiscard]] std::string status_card(std::string_view verdict, const StatusReport& status,
                                       std::span<const StatusLine> lines, std::time_t now);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

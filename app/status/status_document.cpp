@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -38,22 +38,22 @@ Json json_of_machine(const Environment& environment) {
 }
 
 Json json_of(const Environment& environment) {
-    const ServiceEnds& ends = environment.ends;
+    const watch::ServiceEnds& ends = environment.ends;
     Json last = nullptr;
     if (ends.last) {
         last = {{"ago_s", rounded_or_null(environment.monotonic_s - ends.last->monotonic_s)},
-                {"result", service_results.at(ends.last->result).word},
+                {"result", watch::service_results.at(ends.last->result).word},
                 {"code", ends.last->code},
                 {"exit_status", ends.last->exit_status}};
     }
     return {{"count", ends.count()}, {"last", last}, {"why_unknown", environment.ends_trouble}};
 }
 
-Json json_of(const std::vector<Crash>& crashes) {
+Json json_of(const std::vector<watch::Crash>& crashes) {
     Json all = Json::array();
-    for (const Crash& crash : crashes) {
+    for (const watch::Crash& crash : crashes) {
         all.push_back({{"unix_s", crash.unix_s},
-                       {"sentence", sentence_of(crash)},
+                       {"sentence", watch::sentence_of(crash)},
                        {"signal", crash.signal},
                        {"thread", crash.thread},
                        {"program", crash.program},
@@ -89,4 +89,4 @@ std::string status_document(const KnownExhibit& known) {
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -7,8 +7,8 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 [[nodiscard]] std::string status_document(const KnownExhibit& known);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ctime>
 
-namespace frustumscreen::status_json_values {
+namespace frustumscreen::status::status_json_values {
 
 namespace {
 
@@ -100,9 +100,9 @@ bool read(const nlohmann::json& json, std::vector<std::string>& values, Digits) 
     return json.is_array();
 }
 
-} // namespace frustumscreen::status_json_values
+} // namespace frustumscreen::status::status_json_values
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 const nlohmann::json& StatusReader::find(const char* key) const {
     static const nlohmann::json nothing;
@@ -110,4 +110,4 @@ const nlohmann::json& StatusReader::find(const char* key) const {
     return found != json_->end() ? *found : nothing;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

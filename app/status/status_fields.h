@@ -27,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace status_json_values {
 
@@ -238,4 +238,4 @@ private:
     NoteMetric note_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

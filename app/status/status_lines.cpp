@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -68,7 +68,7 @@ std::string screen_line(const StatusReport& status, std::optional<double> age_s,
     if (has_artifact && !status.language.empty()) {
         what += fmt::format(" ({})", status.language);
     }
-    if (status.state == name_of(State::Staff)) {
+    if (status.state == exhibit::name_of(exhibit::State::Staff)) {
         what = has_artifact ? "the alignment pattern, over " + what : "the alignment pattern";
     }
     if (status.shown_for_s) {
@@ -79,9 +79,11 @@ std::string screen_line(const StatusReport& status, std::optional<double> age_s,
 }
 
 std::string state_line(const StatusReport& status) {
-    const auto* const note = std::find_if(state_notes.begin(), state_notes.end(),
-                                          [&](const StateNote& each) { return each.name == status.state; });
-    return note != state_notes.end() ? fmt::format("{}: {}", status.state, note->shows) : status.state;
+    const auto* const note =
+        std::find_if(exhibit::state_notes.begin(), exhibit::state_notes.end(),
+                     [&](const exhibit::StateNote& each) { return each.name == status.state; });
+    return note != exhibit::state_notes.end() ? fmt::format("{}: {}", status.state, note->shows)
+                                              : status.state;
 }
 
 std::string picture_line(const StatusReport& status) {
@@ -108,7 +110,7 @@ std::string frames_line(const StatusReport& status) {
 }
 
 std::string errors_line(const StatusReport& status) {
-    const TrackerCounts& tracker = status.tracker_counts;
+    const tracker::TrackerCounts& tracker = status.tracker_counts;
     std::string text = counted(status.device_errors, "error of a device", "errors of devices");
     if (tracker.frames > 0) {
         text += fmt::format("; tracker: {} of {} samples lost, {} broken, opened {}", tracker.lost,
@@ -157,9 +159,9 @@ std::string set_line(const StatusReport& status) {
         text += fmt::format(", {}: {}{}", counted(set.packs.size(), "pack", "packs"), titles,
                             set.packs.size() > max_titles ? ", ..." : "");
     }
-    if (const SetVerdict& newest = set.newest; newest.number != 0) {
+    if (const library::SetVerdict& newest = set.newest; newest.number != 0) {
         text += fmt::format("; the newest is set {}, {}{}{}", newest.number,
-                            trial_state_names.at(static_cast<std::size_t>(newest.state)),
+                            library::trial_state_names.at(static_cast<std::size_t>(newest.state)),
                             newest.reason.empty() ? "" : ": ", brief(newest.reason));
     }
     const std::string trouble = trouble_of(set, status.library_hangs);
@@ -176,7 +178,7 @@ std::string left_out_line(const StatusReport& status) {
     if (!status.left_out) {
         return {};
     }
-    const std::vector<PackLeftOut>& packs = *status.left_out;
+    const std::vector<library::PackLeftOut>& packs = *status.left_out;
     std::string text;
     for (std::size_t k = 0; k < std::min(packs.size(), max_told); ++k) {
         text += fmt::format("{}{}: {}", k == 0 ? "" : "; ", brief(packs[k].pack), brief(packs[k].reason));
@@ -188,12 +190,13 @@ std::string stick_line(const StatusReport& status) {
     if (!status.import) {
         return "none since the machine was started";
     }
-    const ImportReport& import = *status.import;
+    const library::ImportReport& import = *status.import;
     const auto refused =
-        std::count_if(import.packs.begin(), import.packs.end(),
-                      [](const ImportedPack& pack) { return pack.outcome == ImportOutcome::Refused; });
+        std::count_if(import.packs.begin(), import.packs.end(), [](const library::ImportedPack& pack) {
+            return pack.outcome == library::ImportOutcome::Refused;
+        });
     return fmt::format("\"{}\": {}{}{}; {}, {} refused", brief(import.stick),
-                       import_stage_names.at(static_cast<std::size_t>(import.stage)),
+                       library::import_stage_names.at(static_cast<std::size_t>(import.stage)),
                        import.reason.empty() ? "" : ": ", brief(import.reason),
                        counted(import.packs.size(), "pack", "packs"), refused);
 }
@@ -210,11 +213,11 @@ std::string starts_line(const StatusReport* status, std::optional<double> age_s,
     if (!around.ends.last) {
         return text + "it has not ended since the computer was started";
     }
-    const ServiceEnd& last = *around.ends.last;
+    const watch::ServiceEnd& last = *around.ends.last;
     return fmt::format("{}it has ended {}, last {} ago: {} ({} {})", text,
                        counted(around.ends.count(), "time", "times"),
                        words_of_time(around.monotonic_s - last.monotonic_s),
-                       service_results.at(last.result).sentence, last.code, last.exit_status);
+                       watch::service_results.at(last.result).sentence, last.code, last.exit_status);
 }
 
 std::string watchdog_line(const StatusDocument& watchdog) {
@@ -303,13 +306,13 @@ void add_faults(Lines& lines, const StatusDocument& watchdog) {
     }
 }
 
-void add_crashes(Lines& lines, const std::vector<Crash>& crashes) {
+void add_crashes(Lines& lines, const std::vector<watch::Crash>& crashes) {
     const char* name = "last crashes";
-    for (const Crash& crash : crashes) {
+    for (const watch::Crash& crash : crashes) {
         const std::string driver = crash.driver.empty() ? std::string() : ", " + crash.driver;
         lines.add(name, fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} (FrustumScreen {}{})",
-                                    fmt::gmtime(static_cast<std::time_t>(crash.unix_s)), sentence_of(crash),
-                                    crash.program, driver));
+                                    fmt::gmtime(static_cast<std::time_t>(crash.unix_s)),
+                                    watch::sentence_of(crash), crash.program, driver));
         name = "";
     }
 }
@@ -383,4 +386,4 @@ std::string status_text(const KnownExhibit& known, std::time_t now) {
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

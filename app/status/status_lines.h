@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 struct StatusLine {
     std::string name; ///< such as 'tracker'
@@ -27,4 +27,4 @@ struct StatusLine {
 /// One screen of text: the verdict, then the lines.
 [[nodiscard]] std::string status_text(const KnownExhibit& known, std::time_t now);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string status_field_table() {
     return fields.text();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -27,7 +27,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 /// When a status was written: the exhibit's or its watchdog's.
 struct StatusStamp {
@@ -38,7 +38,7 @@ struct StatusStamp {
 
 struct StatusVersions {
     std::string program = std::string(project_version());
-    int pack_format = pack_format_version;
+    int pack_format = pack::pack_format_version;
     std::string system; ///< operating system and kernel
 };
 
@@ -93,16 +93,23 @@ struct VisitsReport {
     [[nodiscard]] bool operator==(const VisitsReport&) const = default;
 };
 
-struct StatusReport {
+/// The program that writes the report.
+struct ProgramStatus {
     StatusStamp written;
     StatusVersions versions;
     std::string health{"well"}; ///< word_of(Health)
+    std::optional<double> uptime_s = 0.0;
+    std::optional<double> resident_mib = 0.0;
+};
+
+/// What is shown, and where it comes from.
+struct ShownStatus {
     PresentedPicture presented;
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     std::string mode{"normal"};             ///< word_of(Mode)
     Sentence settings;
-    PacksLeftOut left_out;      ///< null: none
-    SharedSetStatus set;        ///< null: no set is installed, and none is looked for
+    library::PacksLeftOut left_out; ///< null: none
+    SharedSetStatus set;            ///< null: no set is installed, and none is looked for
     bool library_hangs = false; ///< the thread that looks for another set hangs on the disk; see trouble_of
     std::string state;          ///< name_of(State), or asleep_name
     HoursStatus hours;
@@ -111,47 +118,75 @@ struct StatusReport {
     std::optional<double> shown_for_s = 0.0;           ///< the same, by the run's own clock
     std::size_t loaded = 0;                            ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0;
+    std::string language;
+};
+
+/// How the artifact is drawn.
+struct DrawingStatus {
     std::string technique; ///< as asked for; "auto": the governor chooses
     std::string level;
-    int samples = 0; ///< per pixel
-    std::string language;
+    int samples = 0;                          ///< per pixel
     std::optional<double> estimated_error_mm; ///< of the last picture; nothing: it shows no artifact
     std::optional<double> p95_error_mm;
     FrameQuantiles frame_ms;
     std::uint64_t missed_deadlines = 0; ///< drawn frames that took longer than one refresh
     std::uint64_t level_switches = 0;   ///< of level or samples, by the governors
     std::uint64_t ignored_times = 0;    ///< impossible frame times, see Governor
+};
+
+/// Looks at the devices, one for each display time.
+struct LookCounts {
     std::uint64_t frames = 0;
     std::uint64_t drawn = 0;
     std::uint64_t unchanged = 0;     ///< nothing had changed, so nothing was drawn
     std::uint64_t probes = 0;        ///< pictures at rest that were presented again
     std::uint64_t skipped = 0;       ///< display times that passed without a new frame
     std::uint64_t device_errors = 0; ///< samples that were no pose; polls answered with an error
+};
+
+/// State of the devices.
+struct DeviceStatus {
     DeviceReports devices;
     Sentence display; ///< state of the device, as those below; empty: nothing to report
     Sentence tracker;
     bool tracker_hangs = false; ///< Tracker::hangs
-    TrackerCounts tracker_counts;
-    Sentence camera;               ///< empty: there is none
-    double camera_hz = 0.0;        ///< recent frame rate
-    std::string camera_for;        ///< camera_uses()
-    Sentence drift;                ///< whether the picture lies where it was calibrated; empty: not measured
-    std::optional<double> drift_m; ///< distance from there; nothing: unknown
-    bool drifted = false;          ///< too far: the exhibit must be calibrated again
-    std::string prop_by;           ///< tracker or tags; empty: neither is there
-    std::uint64_t hand_overs = 0;
+    tracker::TrackerCounts tracker_counts;
+    Sentence camera;        ///< empty: there is none
+    double camera_hz = 0.0; ///< recent frame rate
+    std::string camera_for; ///< camera_uses()
     Sentence panel;
     Sentence sound;
     std::uint64_t sound_underruns = 0; ///< how often the loudspeaker had nothing to play
     Sentence recording;
-    std::shared_ptr<const ImportReport> import; ///< the importer's report; null: none
-    std::optional<VisitsReport> visits;         ///< nothing: visits are not counted
+};
+
+/// Whether the picture lies where it was calibrated.
+struct DriftStatus {
+    Sentence drift;                ///< whether the picture lies where it was calibrated; empty: not measured
+    std::optional<double> drift_m; ///< distance from there; nothing: unknown
+    bool drifted = false;          ///< too far: the exhibit must be calibrated again
+};
+
+/// What is known of prop and eye, and from where.
+struct TrackedStatus {
+    std::string prop_by; ///< tracker or tags; empty: neither is there
+    std::uint64_t hand_overs = 0;
     bool prop_known = false;
     bool head_known = false;
     std::string eye_by{"settings"}; ///< sensor, camera or settings
     std::optional<double> eye_sd_m; ///< of an eye measured by the camera, Situation::eye_sd_m
-    std::optional<double> uptime_s = 0.0;
-    std::optional<double> resident_mib = 0.0;
+};
+
+/// The fields in groups by subject.
+struct StatusReport : ProgramStatus,
+                      ShownStatus,
+                      DrawingStatus,
+                      LookCounts,
+                      DeviceStatus,
+                      DriftStatus,
+                      TrackedStatus {
+    std::shared_ptr<const library::ImportReport> import; ///< the importer's report; null: none
+    std::optional<VisitsReport> visits;                  ///< nothing: visits are not counted
 };
 
 /// The status file's text.
@@ -169,4 +204,4 @@ struct StatusReport {
     return set.trouble;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

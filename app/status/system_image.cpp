@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 namespace {
 
@@ -55,4 +55,4 @@ SystemImage read_system_image(const std::filesystem::path& folder) {
     return image;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

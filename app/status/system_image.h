@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 inline constexpr std::string_view usual_boot_folder = "/run/frustumscreen-boot";
 
@@ -23,4 +23,4 @@ struct SystemImage {
 };
 [[nodiscard]] SystemImage read_system_image(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

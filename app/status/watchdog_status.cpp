@@ -3,7 +3,7 @@
 #include "app/status/status_fields.h"
 #include "app/watch/cause.h"
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 WatchdogStatus read_watchdog_status(const nlohmann::json& document) {
     StatusReader fields(document);
@@ -21,9 +21,10 @@ std::string watchdog_id(const StatusDocument& watchdog) {
     }
     const WatchdogStatus status = read_watchdog_status(watchdog.fields);
     if (status.trouble) {
-        return cause_named(status.trouble->cause) ? "watchdog." + status.trouble->cause : "watchdog.trouble";
+        return watch::cause_named(status.trouble->cause) ? "watchdog." + status.trouble->cause
+                                                         : "watchdog.trouble";
     }
-    return mode_named(status.mode) ? "watchdog." + status.mode : "watchdog.unheard_of";
+    return watch::mode_named(status.mode) ? "watchdog." + status.mode : "watchdog.unheard_of";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 
 struct WatchdogTrouble {
     std::string cause; ///< word_of(Cause)
@@ -37,14 +37,17 @@ struct WatchdogStatus {
     std::vector<WatchdogFault> faults;
 };
 
-inline constexpr std::array all_modes{Mode::Normal, Mode::LastGoodSet, Mode::Plain, Mode::BuiltIn,
-                                      Mode::Safe};
-static_assert(all_modes.size() == mode_count);
+inline constexpr std::array all_modes{watch::Mode::Normal, watch::Mode::LastGoodSet, watch::Mode::Plain,
+                                      watch::Mode::BuiltIn, watch::Mode::Safe};
+static_assert(all_modes.size() == watch::mode_count);
 
 void watchdog_fields(auto& fields, auto& status) {
     fields.word(
-        "mode", status.mode, {}, all_modes, [](Mode mode) { return word_of(mode); },
-        Metric{"watchdog_mode", "1 for what the watchdog lets the exhibit show.", 1.0, "mode"});
+        "mode", status.mode, {}, all_modes, [](watch::Mode mode) { return watch::word_of(mode); },
+        Metric{.name = "watchdog_mode",
+               .help = "1 for what the watchdog lets the exhibit show.",
+               .scale = 1.0,
+               .label = "mode"});
     fields.object_or_null("trouble", status.trouble, {},
                           Metric{"watchdog_trouble", "1: it sees something wrong."},
                           [](auto& trouble, auto& value) {
@@ -74,4 +77,4 @@ void watchdog_fields(auto& fields, auto& status) {
 /// watchdog.no_picture; or the mode of the exhibit, such as watchdog.normal.
 [[nodiscard]] std::string watchdog_id(const StatusDocument& watchdog);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -8,12 +8,12 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 struct PropTag {
     int id = 0;
     double size_m = 0.03; ///< side of the black square
-    RigidTransform prop_from_tag;
+    geometry::RigidTransform prop_from_tag;
 
     /// Corners in the order of FoundTag::corners_px, in the prop's frame.
     [[nodiscard]] std::array<glm::dvec3, 4> corners() const {
@@ -23,4 +23,4 @@ struct PropTag {
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 namespace {
 
@@ -37,15 +37,15 @@ struct SeenTag {
 using SeenTags = std::vector<SeenTag>;
 
 struct Fit {
-    RigidTransform pose;
+    geometry::RigidTransform pose;
     double cost = infinite;         ///< sum of squared distances, pixels^2
     Matrix normal = Matrix::Zero(); ///< normal matrix at the pose, in pixels
 };
 
 /// The camera; for a rolling shutter also the previous pose of the prop.
 struct View {
-    const Pinhole& camera;
-    std::optional<RigidTransform> before;
+    const geometry::Pinhole& camera;
+    std::optional<geometry::RigidTransform> before;
     double since_s = 1.0; ///< from `before` to the unknown pose
 };
 
@@ -53,9 +53,9 @@ struct View {
 /// one.
 class SeenProp {
 public:
-    SeenProp(const RigidTransform& pose, const View& view) : pose_(pose), view_(view) {
+    SeenProp(const geometry::RigidTransform& pose, const View& view) : pose_(pose), view_(view) {
         if (view.before) {
-            step_ = step_between(*view.before, pose);
+            step_ = tracking::step_between(*view.before, pose);
         }
     }
     [[nodiscard]] std::optional<glm::dvec2> pixel(const Corner& corner) const {
@@ -63,14 +63,15 @@ public:
             return view_.camera.pixel(pose_.point(corner.prop_m));
         }
         const double times = corner.later_s / view_.since_s;
-        const RigidTransform then = moved(pose_, {times * step_.shift_m, times * step_.turn_rad});
+        const geometry::RigidTransform then =
+            tracking::moved(pose_, {times * step_.shift_m, times * step_.turn_rad});
         return view_.camera.pixel(then.point(corner.prop_m));
     }
 
 private:
-    RigidTransform pose_;
+    geometry::RigidTransform pose_;
     const View& view_;
-    PoseStep step_;
+    tracking::PoseStep step_;
 };
 
 double cost_of(const SeenTag& tag, const SeenProp& prop) {
@@ -83,7 +84,7 @@ double cost_of(const SeenTag& tag, const SeenProp& prop) {
     return sum;
 }
 
-double cost_of(const SeenTags& tags, const RigidTransform& pose, const View& view) {
+double cost_of(const SeenTags& tags, const geometry::RigidTransform& pose, const View& view) {
     const SeenProp prop(pose, view);
     double sum = 0.0;
     for (const SeenTag& tag : tags) {
@@ -92,7 +93,7 @@ double cost_of(const SeenTags& tags, const RigidTransform& pose, const View& vie
     return sum;
 }
 
-PoseStep step_of(const Vector& v) {
+tracking::PoseStep step_of(const Vector& v) {
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
@@ -104,12 +105,12 @@ struct Neighbours {
     std::vector<SeenProp> more, less;
 };
 
-Neighbours beside(const RigidTransform& pose, const View& view) {
+Neighbours beside(const geometry::RigidTransform& pose, const View& view) {
     Neighbours all{SeenProp(pose, view), {}, {}};
     for (int k = 0; k < unknowns; ++k) {
         const Vector ahead = Neighbours::step * Vector::Unit(k);
-        all.more.emplace_back(moved(pose, step_of(ahead)), view);
-        all.less.emplace_back(moved(pose, step_of(-ahead)), view);
+        all.more.emplace_back(tracking::moved(pose, step_of(ahead)), view);
+        all.less.emplace_back(tracking::moved(pose, step_of(-ahead)), view);
     }
     return all;
 }
@@ -131,7 +132,7 @@ void add_corner(const Corner& corner, const Neighbours& props, Matrix& normal, V
 }
 
 /// Descends from `start`.
-Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view) {
+Fit refined(const SeenTags& tags, const geometry::RigidTransform& start, const View& view) {
     constexpr int max_rounds = 40;
     constexpr double min_gain = 1e-9; // of the cost: converged
     Fit fit{start, cost_of(tags, start, view)};
@@ -154,7 +155,7 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view)
             if (factor.info() != Eigen::Success) {
                 continue;
             }
-            const RigidTransform next = moved(fit.pose, step_of(factor.solve(gradient)));
+            const geometry::RigidTransform next = tracking::moved(fit.pose, step_of(factor.solve(gradient)));
             const double cost = cost_of(tags, next, view);
             if (cost < fit.cost) {
                 done = fit.cost - cost <= min_gain * fit.cost;
@@ -170,7 +171,7 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view)
 
 /// Squared distance of two poses in units of the corners' accuracy; below one they are equal.
 double apart(const Fit& a, const Fit& b, double variance) {
-    const PoseStep step = step_between(a.pose, b.pose);
+    const tracking::PoseStep step = tracking::step_between(a.pose, b.pose);
     Vector v;
     v << step.shift_m.x, step.shift_m.y, step.shift_m.z, step.turn_rad.x, step.turn_rad.y, step.turn_rad.z;
     return v.dot(a.normal * v) / variance;
@@ -188,8 +189,8 @@ BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
         if (!start) {
             continue;
         }
-        const RigidTransform& prop_from_tag = seen.tag->prop_from_tag;
-        const RigidTransform tag_from_prop = prop_from_tag.inverse();
+        const geometry::RigidTransform& prop_from_tag = seen.tag->prop_from_tag;
+        const geometry::RigidTransform tag_from_prop = prop_from_tag.inverse();
         fits.push_back(refined(tags, *start * tag_from_prop, view));
         fits.push_back(refined(tags, mirrored(*start) * tag_from_prop, view));
         // The mirror image of a fitted pose is nearer to the other pose than that of a start.
@@ -207,7 +208,8 @@ BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
     return found;
 }
 
-SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> prop, const Pinhole& camera) {
+SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> prop,
+                   const geometry::Pinhole& camera) {
     SeenTags seen;
     for (const FoundTag& tag : found) {
         const auto same_id = [&tag](const auto& other) { return other.id == tag.id; };
@@ -234,7 +236,7 @@ SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> pro
 }
 
 /// Sets each corner's time by its row, and returns the time of their mean row, after the frame's first.
-double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
+double set_moments(SeenTags& tags, const geometry::Pinhole& camera, double readout_s) {
     const double corners = 4.0 * static_cast<double>(tags.size());
     double moment_s = 0.0;
     for (const SeenTag& tag : tags) {
@@ -253,7 +255,10 @@ double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
 /// The spread of the best fit, with the contribution of the second one.
 TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance) {
     const double corners = 4.0 * static_cast<double>(tags.size());
-    TagPose pose{fits.best.pose, infinite, infinite, tags.size()};
+    TagPose pose{.camera_from_prop = fits.best.pose,
+                 .place_sd_m = infinite,
+                 .turn_sd_rad = infinite,
+                 .tags = tags.size()};
     const Eigen::LLT<Matrix> factor(fits.best.normal);
     if (factor.info() != Eigen::Success) {
         return pose;
@@ -268,7 +273,7 @@ TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance)
         // correlated.
         const double odds = std::exp(-0.25 * (fits.second.cost - fits.best.cost) / inflated);
         const double share = odds / (1.0 + odds);
-        const PoseStep other = step_between(fits.best.pose, fits.second.pose);
+        const tracking::PoseStep other = tracking::step_between(fits.best.pose, fits.second.pose);
         place += share * glm::dot(other.shift_m, other.shift_m);
         turn += share * glm::dot(other.turn_rad, other.turn_rad);
     }
@@ -280,7 +285,7 @@ TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance)
 } // namespace
 
 std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span<const PropTag> prop,
-                                      const Pinhole& camera, double corner_sd_px,
+                                      const geometry::Pinhole& camera, double corner_sd_px,
                                       const RollingShutter& shutter) {
     const double variance = corner_sd_px * corner_sd_px;
     const double max_cost = 4.0 * std::pow(std::fmax(max_sd_off * corner_sd_px, min_px_off), 2.0);
@@ -314,4 +319,4 @@ std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span
     return std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

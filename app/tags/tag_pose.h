@@ -22,10 +22,10 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 struct TagPose {
-    RigidTransform camera_from_prop;
+    geometry::RigidTransform camera_from_prop;
     double place_sd_m = 0.0;  ///< RMS distance of the prop's origin from the true one
     double turn_sd_rad = 0.0; ///< RMS angle from the true rotation
     std::size_t tags = 0;     ///< used
@@ -35,9 +35,9 @@ struct TagPose {
 
 /// Timing of a camera's rows, and the previous pose of the prop.
 struct RollingShutter {
-    double readout_s = 0.0;               ///< from the first row to the last; 0: global shutter
-    std::optional<RigidTransform> before; ///< camera_from_prop; nullopt: the prop is taken to rest
-    double before_s = 0.0;                ///< its time relative to this frame's first row: below 0
+    double readout_s = 0.0;                         ///< from the first row to the last; 0: global shutter
+    std::optional<geometry::RigidTransform> before; ///< camera_from_prop; nullopt: the prop is taken to rest
+    double before_s = 0.0;                          ///< its time relative to this frame's first row: below 0
 };
 
 /// Standard deviation of each coordinate of a corner; docs/tags.md has the values for rendered scenes.
@@ -54,7 +54,8 @@ inline constexpr double usual_corner_sd_px = 0.2;
 /// nullopt: no tag of the prop was found, or the tags contradict each other. Ignores unknown ids, and ids
 /// that were found twice. `corner_sd_px`: of each coordinate.
 [[nodiscard]] std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found,
-                                                    std::span<const PropTag> prop, const Pinhole& camera,
-                                                    double corner_sd_px, const RollingShutter& shutter = {});
+                                                    std::span<const PropTag> prop,
+                                                    const geometry::Pinhole& camera, double corner_sd_px,
+                                                    const RollingShutter& shutter = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 namespace {
 
@@ -22,12 +22,12 @@ Nanoseconds nanoseconds_of(double seconds) {
 TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
     : set_up_(std::move(set_up)), pace_(max_share, std::move(busy)), half_({.decimate = 2.0}) {}
 
-std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
+std::optional<tracking::UncertainPose> TagReader::read(const camera::CameraFrame& frame) {
     if (!pace_.begin(frame.time)) {
         ++counts_.passed_over;
         return std::nullopt;
     }
-    const std::optional<UncertainPose> pose = look(frame);
+    const std::optional<tracking::UncertainPose> pose = look(frame);
     follow_size(pose.has_value(), pace_.end());
     ++counts_.looked_at;
     counts_.posed += pose ? 1 : 0;
@@ -52,13 +52,13 @@ void TagReader::follow_size(bool posed, double took_s) {
     }
 }
 
-std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {
-    const Pinhole& measured = set_up_.camera;
+std::optional<tracking::UncertainPose> TagReader::look(const camera::CameraFrame& frame) {
+    const geometry::Pinhole& measured = set_up_.camera;
     if (frame.width * measured.height != frame.height * measured.width) {
         ++counts_.misshapen;
         return std::nullopt;
     }
-    const Pinhole camera = measured.scaled_to(frame.width, frame.height);
+    const geometry::Pinhole camera = measured.scaled_to(frame.width, frame.height);
     (half_for_ > 0 ? half_ : whole_).find(frame.luma, frame.width, frame.height, found_);
     const double readout_s = set_up_.readout_s;
     const MonotonicTime first_row = frame.time - nanoseconds_of(0.5 * readout_s);
@@ -73,8 +73,10 @@ std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {
         return std::nullopt;
     }
     before_ = Before{pose->camera_from_prop, first_row + nanoseconds_of(pose->moment_s)};
-    return UncertainPose{before_->time, set_up_.table_from_camera * pose->camera_from_prop, pose->place_sd_m,
-                         pose->turn_sd_rad};
+    return tracking::UncertainPose{.time = before_->time,
+                                   .table_from_prop = set_up_.table_from_camera * pose->camera_from_prop,
+                                   .place_sd_m = pose->place_sd_m,
+                                   .turn_sd_rad = pose->turn_sd_rad};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -24,11 +24,11 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 struct TagSetUp {
-    Pinhole camera;
-    RigidTransform table_from_camera;
+    geometry::Pinhole camera;
+    geometry::RigidTransform table_from_camera;
     std::vector<PropTag> tags;
     double readout_s = 0.0; ///< of the camera's rows, from the first to the last; 0: global shutter
 };
@@ -47,25 +47,25 @@ public:
     static constexpr double max_share = 0.25; ///< of one core
 
     /// `busy` returns the processor time of this thread in seconds.
-    explicit TagReader(TagSetUp set_up, std::function<double()> busy = thread_seconds);
+    explicit TagReader(TagSetUp set_up, std::function<double()> busy = camera::thread_seconds);
 
-    [[nodiscard]] std::optional<UncertainPose> read(const CameraFrame& frame);
+    [[nodiscard]] std::optional<tracking::UncertainPose> read(const camera::CameraFrame& frame);
     [[nodiscard]] const TagCounts& counts() const { return counts_; }
 
 private:
-    [[nodiscard]] std::optional<UncertainPose> look(const CameraFrame& frame);
+    [[nodiscard]] std::optional<tracking::UncertainPose> look(const camera::CameraFrame& frame);
     /// Chooses the search size of the next picture, from the result and the time of this one.
     void follow_size(bool posed, double took_s);
 
     TagSetUp set_up_;
-    CpuThrottle pace_;
+    camera::CpuThrottle pace_;
     TagDetector whole_;
     TagDetector half_;
     int half_for_ = 0;         ///< frames still to be searched at half size
     int whole_for_ = 0;        ///< frames still to be searched whole, whatever they cost
     bool whole_posed_ = false; ///< the latest whole search gave a pose
     struct Before {
-        RigidTransform camera_from_prop;
+        geometry::RigidTransform camera_from_prop;
         MonotonicTime time;
     };
     std::optional<Before> before_; ///< the latest returned pose
@@ -73,4 +73,4 @@ private:
     TagCounts counts_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

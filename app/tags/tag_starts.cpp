@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 namespace {
 
@@ -24,7 +24,7 @@ std::optional<glm::dmat3> homography(const std::array<glm::dvec2, 4>& c) {
 
 } // namespace
 
-RigidTransform mirrored(const RigidTransform& camera_from_tag) {
+geometry::RigidTransform mirrored(const geometry::RigidTransform& camera_from_tag) {
     const glm::dvec3 sight = glm::normalize(camera_from_tag.translation);
     const glm::dvec3 normal = camera_from_tag.direction({0.0, 0.0, 1.0});
     const glm::dvec3 other = 2.0 * glm::dot(normal, sight) * sight - normal;
@@ -37,7 +37,7 @@ RigidTransform mirrored(const RigidTransform& camera_from_tag) {
     return {glm::normalize(turn * camera_from_tag.rotation), camera_from_tag.translation};
 }
 
-std::optional<RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners, double size_m) {
+std::optional<geometry::RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners, double size_m) {
     const std::optional<glm::dmat3> h = homography(corners);
     if (!h) {
         return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners
     }
     const glm::dvec3 up = -glm::normalize(down_raw);
     const glm::dmat3 axes(right, up, glm::cross(right, up));
-    return RigidTransform{glm::normalize(glm::dquat(axes)), scale * middle};
+    return geometry::RigidTransform{glm::normalize(glm::dquat(axes)), scale * middle};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

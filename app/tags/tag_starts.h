@@ -13,12 +13,12 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 /// camera_from_tag from the homography.
-[[nodiscard]] std::optional<RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners,
-                                                      double size_m);
+[[nodiscard]] std::optional<geometry::RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners,
+                                                                double size_m);
 /// The second one of the two poses.
-[[nodiscard]] RigidTransform mirrored(const RigidTransform& camera_from_tag);
+[[nodiscard]] geometry::RigidTransform mirrored(const geometry::RigidTransform& camera_from_tag);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -2,11 +2,11 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
-void TagTracker::use(const CameraFrame& frame) {
+void TagTracker::use(const camera::CameraFrame& frame) {
     const std::uint64_t misshapen = reader_.counts().misshapen;
-    if (const std::optional<UncertainPose> pose = reader_.read(frame)) {
+    if (const std::optional<tracking::UncertainPose> pose = reader_.read(frame)) {
         mailbox_.put(std::span(&*pose, 1));
     }
     misshapen_ = reader_.counts().misshapen > misshapen;
@@ -19,4 +19,4 @@ std::string_view TagTracker::trouble() const {
                : std::string_view{};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -15,22 +15,22 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 class TagTracker {
 public:
     explicit TagTracker(TagSetUp set_up) : reader_(std::move(set_up)) {}
 
-    void use(const CameraFrame& frame);
+    void use(const camera::CameraFrame& frame);
     /// Appends every pose with time <= now that was not returned yet, in ascending time.
-    void poll(MonotonicTime now, std::vector<UncertainPose>& poses) { mailbox_.take(now, poses); }
+    void poll(MonotonicTime now, std::vector<tracking::UncertainPose>& poses) { mailbox_.take(now, poses); }
     /// A fault in one plain sentence; empty: no fault.
     [[nodiscard]] std::string_view trouble() const;
 
 private:
     TagReader reader_; ///< the camera's thread only
-    Mailbox<UncertainPose, 16> mailbox_;
+    Mailbox<tracking::UncertainPose, 16> mailbox_;
     std::atomic<bool> misshapen_{false};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 bool ActiveVisitor::see(const SeenHead& head, const glm::dvec3& prop_m) {
     const auto same = std::find_if(people_.begin(), people_.end(),
@@ -39,4 +39,4 @@ bool ActiveVisitor::see(const SeenHead& head, const glm::dvec3& prop_m) {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

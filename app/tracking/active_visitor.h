@@ -12,7 +12,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 class ActiveVisitor {
 public:
@@ -34,4 +34,4 @@ private:
     MonotonicTime nearer_since_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

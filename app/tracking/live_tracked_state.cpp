@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -33,7 +33,11 @@ constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.
 MotionFilterOptions seen_head_filter() {
     constexpr double scatter_m = 0.010;
     MotionFilterOptions options = exhibit_filter();
-    options.place = {seen_head_models, scatter_m, 0.5, 0.0, 0.2};
+    options.place = {.models = seen_head_models,
+                     .measured_sd = scatter_m,
+                     .first_velocity_sd = 0.5,
+                     .first_acceleration_sd = 0.0,
+                     .changes_per_s = 0.2};
     return options;
 }
 
@@ -56,12 +60,12 @@ LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever
       source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
       shown_head_({.lever_m = head_lever_m}) {}
 
-bool LiveTrackedState::take(const PoseSample& sample) {
-    if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
+bool LiveTrackedState::take(const tracker::PoseSample& sample) {
+    if (!sample.ok || (sample.station != tracker::prop_station && sample.station != tracker::head_station)) {
         return true;
     }
-    PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
-    const RigidTransform table_from_station{sample.rotation, sample.position_m}; // perhaps not unit
+    PoseEstimator& estimator = sample.station == tracker::prop_station ? prop_ : head_;
+    const geometry::RigidTransform table_from_station{sample.rotation, sample.position_m}; // perhaps not unit
     const Taken taken = estimator.take(sample.time, table_from_station);
     return taken == Taken::Used || taken == Taken::Late;
 }
@@ -95,7 +99,7 @@ bool LiveTrackedState::take_visitor(const SeenHead& head) {
 
 SourcePose LiveTrackedState::by_tracker(MonotonicTime lit) const {
     const PoseSpread spread = prop_.spread(lit);
-    const double metal = health_ == TrackerHealth::MetalNear ? metal_off_m : 0.0;
+    const double metal = health_ == tracker::TrackerHealth::MetalNear ? metal_off_m : 0.0;
     const glm::dvec3 parts(spread.place_m + lever_m_ * spread.turn_rad, tracker_off_m, metal);
     return {prop_.at(lit), glm::length(parts), tracker_lost_after};
 }
@@ -139,7 +143,10 @@ void LiveTrackedState::look_for_eye(TrackedState& tracked_state) {
         eye_m = eye_of_head(visitor.pose.translation, middle_of_prop());
         tracked_state.eye_sd_m = std::hypot(visitor_.spread(tracked_state.time).place_m, visitor_sd_m_);
     }
-    PoseEstimate goal{{{1.0, 0.0, 0.0, 0.0}, eye_m}, PoseStatus::Exact, Nanoseconds(0), 0};
+    PoseEstimate goal{.pose = {{1.0, 0.0, 0.0, 0.0}, eye_m},
+                      .status = PoseStatus::Exact,
+                      .age = Nanoseconds(0),
+                      .reinitialisations = 0};
     eye_goals_ += of != eye_of_ ? 1 : 0;
     eye_of_ = of;
     goal.reinitialisations = head.reinitialisations + visitor.reinitialisations + eye_goals_;
@@ -147,7 +154,7 @@ void LiveTrackedState::look_for_eye(TrackedState& tracked_state) {
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {
-    const double share = last_ ? follow_share(to_seconds(now - *last_), time_constant_s) : 1.0;
+    const double share = last_ ? geometry::follow_share(to_seconds(now - *last_), time_constant_s) : 1.0;
     flip_s_ += share * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
     last_ = last_ ? std::max(*last_, now) : now;
 }
@@ -156,4 +163,4 @@ Nanoseconds LightDelay::from_now() const {
     return display_latency_ + Nanoseconds(std::llround(flip_s_ * 1e9));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

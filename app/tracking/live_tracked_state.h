@@ -19,7 +19,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 class LiveTrackedState {
 public:
@@ -27,13 +27,13 @@ public:
     LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m);
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
-    bool take(const PoseSample& sample);
+    bool take(const tracker::PoseSample& sample);
     /// As `take`, for a pose from the tags.
     bool take_tags(const UncertainPose& pose);
     /// Takes a head; heads come in ascending time. Returns false if its position is invalid.
     bool take_visitor(const SeenHead& head);
     /// Sets the tracker's health; metal near the tracker increases the spread of its poses.
-    void tracker_is(TrackerHealth health) { health_ = health; }
+    void tracker_is(tracker::TrackerHealth health) { health_ = health; }
     /// Number of changes between tracker and tags.
     [[nodiscard]] std::uint64_t hand_overs() const { return source_arbiter_.changes(); }
     /// The tracked state at `lit`. A lost prop stays where it was; `prop_known` becomes false after a while.
@@ -58,11 +58,11 @@ private:
     double visitor_sd_m_ = 0.0; ///< from its latest sighting
     ActiveVisitor active_visitor_;
     double lever_m_;
-    TrackerHealth health_ = TrackerHealth::Well;
+    tracker::TrackerHealth health_ = tracker::TrackerHealth::Well;
     double tags_sd_m_ = 0.0; ///< from the latest pose of the tags
     SourceArbiter source_arbiter_;
     ShownPose shown_prop_;
-    RigidTransform prop_is_at_; ///< in the latest tracked state
+    geometry::RigidTransform prop_is_at_; ///< in the latest tracked state
     ShownPose shown_head_;
     EyeOf eye_of_ = EyeOf::Default;
     std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
@@ -88,4 +88,4 @@ private:
     std::optional<MonotonicTime> last_; ///< start of the last frame
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -45,21 +45,21 @@ MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {
 MotionFilter::MotionFilter(const MotionFilterOptions& options)
     : place_(options.place), turn_(options.turn), manoeuvre_lasts_s_(options.manoeuvre_lasts_s) {}
 
-void MotionFilter::restart(const RigidTransform& measured) {
+void MotionFilter::restart(const geometry::RigidTransform& measured) {
     place_.restart();
     turn_.restart();
     pose_ = measured;
 }
 
-void MotionFilter::take(const RigidTransform& measured, double dt_s) {
+void MotionFilter::take(const geometry::RigidTransform& measured, double dt_s) {
     const PoseStep expected{place_.advance(dt_s), turn_.advance(dt_s)};
     pose_ = moved(pose_, expected);
     const PoseStep off = step_between(pose_, measured);
     pose_ = moved(pose_, {place_.correct(off.shift_m), turn_.correct(off.turn_rad)});
 }
 
-RigidTransform MotionFilter::ahead(double ahead_s) const {
+geometry::RigidTransform MotionFilter::ahead(double ahead_s) const {
     return moved(pose_, {way(place_, ahead_s, manoeuvre_lasts_s_), way(turn_, ahead_s, manoeuvre_lasts_s_)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -11,7 +11,7 @@
 #include "app/tracking/motion_track.h"
 #include "app/tracking/pose_filter.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
@@ -33,9 +33,9 @@ class MotionFilter final : public PoseFilter {
 public:
     explicit MotionFilter(const MotionFilterOptions& options);
 
-    void restart(const RigidTransform& measured) override;
-    void take(const RigidTransform& measured, double dt_s) override;
-    [[nodiscard]] RigidTransform ahead(double ahead_s) const override;
+    void restart(const geometry::RigidTransform& measured) override;
+    void take(const geometry::RigidTransform& measured, double dt_s) override;
+    [[nodiscard]] geometry::RigidTransform ahead(double ahead_s) const override;
     [[nodiscard]] PoseSpread spread(double ahead_s) const override {
         return {place_.place_sd(ahead_s), turn_.place_sd(ahead_s)};
     }
@@ -44,7 +44,7 @@ private:
     MotionTrack place_;
     MotionTrack turn_;
     double manoeuvre_lasts_s_;
-    RigidTransform pose_; ///< reference of both tracks
+    geometry::RigidTransform pose_; ///< reference of both tracks
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -210,4 +210,4 @@ glm::dvec3 MotionTrack::rebase() {
     return place;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

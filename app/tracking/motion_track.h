@@ -22,7 +22,7 @@
 #include <array>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 /// One model of a hand's motion.
 struct MotionModel {
@@ -89,4 +89,4 @@ private:
     glm::dvec3 acceleration_{0.0};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -40,8 +40,8 @@ Taken PoseEstimator::take_up(const Moment& measured) {
     return Taken::Used;
 }
 
-bool PoseEstimator::plausible(const RigidTransform& expected, const RigidTransform& measured,
-                              double dt_s) const {
+bool PoseEstimator::plausible(const geometry::RigidTransform& expected,
+                              const geometry::RigidTransform& measured, double dt_s) const {
     const PoseStep off = step_between(expected, measured);
     return glm::length(off.shift_m) <= options_.surprise_m + options_.speed_m_s * dt_s &&
            glm::length(off.turn_rad) <= options_.surprise_rad + options_.turn_rad_s * dt_s;
@@ -55,8 +55,8 @@ Taken PoseEstimator::doubt(const Moment& measured) {
     return outliers_ >= options_.convinced_by ? take_up(measured) : Taken::Outlier;
 }
 
-Taken PoseEstimator::take(MonotonicTime time, const RigidTransform& measured) {
-    const std::optional<glm::dquat> rotation = normalised(measured.rotation);
+Taken PoseEstimator::take(MonotonicTime time, const geometry::RigidTransform& measured) {
+    const std::optional<glm::dquat> rotation = geometry::normalised(measured.rotation);
     if (!rotation || !finite(measured.translation)) {
         return Taken::NoPose;
     }
@@ -84,7 +84,7 @@ Taken PoseEstimator::take(MonotonicTime time, const RigidTransform& measured) {
     return Taken::Used;
 }
 
-RigidTransform PoseEstimator::predicted(double age_s) const {
+geometry::RigidTransform PoseEstimator::predicted(double age_s) const {
     const double full_s = to_seconds(options_.predicted_for);
     const double stand_s = to_seconds(options_.stand_within);
     const double over_s = std::fmax(0.0, age_s - full_s);
@@ -100,7 +100,10 @@ PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     if (count_ == 0) {
         return {};
     }
-    PoseEstimate estimate{moment(0).pose, PoseStatus::Exact, time - moment(0).time, reinitialisations_};
+    PoseEstimate estimate{.pose = moment(0).pose,
+                          .status = PoseStatus::Exact,
+                          .age = time - moment(0).time,
+                          .reinitialisations = reinitialisations_};
     if (options_.predicts && estimate.age > Nanoseconds(0)) {
         estimate.pose = predicted(to_seconds(estimate.age));
         estimate.status = PoseStatus::Predicted;
@@ -117,7 +120,7 @@ PoseSpread PoseEstimator::spread(MonotonicTime time) const {
     return count_ > 0 ? filter_->spread(std::fmax(0.0, to_seconds(time - moment(0).time))) : PoseSpread{};
 }
 
-std::pair<RigidTransform, PoseStatus> PoseEstimator::remembered_at(MonotonicTime time) const {
+std::pair<geometry::RigidTransform, PoseStatus> PoseEstimator::remembered_at(MonotonicTime time) const {
     std::size_t back = 0;
     while (back + 1 < count_ && moment(back).time > time) {
         ++back;
@@ -134,4 +137,4 @@ std::pair<RigidTransform, PoseStatus> PoseEstimator::remembered_at(MonotonicTime
     return {between(before.pose, after.pose, share), PoseStatus::Interpolated};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

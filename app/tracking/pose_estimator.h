@@ -15,7 +15,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 enum class PoseStatus {
     Exact,        ///< a sample of exactly that time, smoothed
@@ -25,7 +25,7 @@ enum class PoseStatus {
 };
 
 struct PoseEstimate {
-    RigidTransform pose;
+    geometry::RigidTransform pose;
     PoseStatus status = PoseStatus::Stale;
     Nanoseconds age{0}; ///< from the latest sample to the requested time
     /// Number of restarts, perhaps with a jump; 0 = no pose was ever seen.
@@ -67,7 +67,7 @@ public:
     explicit PoseEstimator(std::unique_ptr<PoseFilter> filter, const PoseEstimatorOptions& options = {});
 
     /// The caller selects the station and must have checked `ok`.
-    Taken take(MonotonicTime time, const RigidTransform& measured);
+    Taken take(MonotonicTime time, const geometry::RigidTransform& measured);
     /// The next pose restarts the filter: it belongs to another object.
     void forget() { count_ = 0; }
     [[nodiscard]] PoseEstimate at(MonotonicTime time) const;
@@ -78,19 +78,19 @@ public:
 private:
     struct Moment {
         MonotonicTime time;
-        RigidTransform pose;
+        geometry::RigidTransform pose;
     };
 
     [[nodiscard]] const Moment& moment(std::size_t back) const; ///< 0 = the latest
     void remember(const Moment& moment);
     [[nodiscard]] Nanoseconds stale_after() const;
     Taken take_up(const Moment& measured);
-    [[nodiscard]] bool plausible(const RigidTransform& expected, const RigidTransform& measured,
-                                 double dt_s) const;
+    [[nodiscard]] bool plausible(const geometry::RigidTransform& expected,
+                                 const geometry::RigidTransform& measured, double dt_s) const;
     Taken doubt(const Moment& measured);
-    [[nodiscard]] RigidTransform predicted(double age_s) const;
+    [[nodiscard]] geometry::RigidTransform predicted(double age_s) const;
     /// `time` is not after the latest sample.
-    [[nodiscard]] std::pair<RigidTransform, PoseStatus> remembered_at(MonotonicTime time) const;
+    [[nodiscard]] std::pair<geometry::RigidTransform, PoseStatus> remembered_at(MonotonicTime time) const;
 
     std::unique_ptr<PoseFilter> filter_;
     PoseEstimatorOptions options_;
@@ -105,4 +105,4 @@ private:
     std::uint64_t reinitialisations_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

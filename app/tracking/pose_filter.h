@@ -8,7 +8,7 @@
 
 #include "app/geometry/transform.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 /// Error of a pose on each axis, standard deviation.
 struct PoseSpread {
@@ -20,13 +20,13 @@ class PoseFilter {
 public:
     virtual ~PoseFilter() = default;
     /// Restarts: only this pose is known.
-    virtual void restart(const RigidTransform& measured) = 0;
+    virtual void restart(const geometry::RigidTransform& measured) = 0;
     /// The next pose, `dt_s` after the previous one.
-    virtual void take(const RigidTransform& measured, double dt_s) = 0;
+    virtual void take(const geometry::RigidTransform& measured, double dt_s) = 0;
     /// The pose `ahead_s` after the latest one taken; 0 = smoothed only.
-    [[nodiscard]] virtual RigidTransform ahead(double ahead_s) const = 0;
+    [[nodiscard]] virtual geometry::RigidTransform ahead(double ahead_s) const = 0;
     /// Error of `ahead(ahead_s)` by the filter's own model; zero without a model.
     [[nodiscard]] virtual PoseSpread spread(double /*ahead_s*/) const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -2,12 +2,13 @@
 
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
-std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples, const glm::dvec3& default_eye_m) {
+std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> samples,
+                                      const glm::dvec3& default_eye_m) {
     std::map<MonotonicTime, TrackedState> frames;
-    for (const PoseSample& sample : samples) {
-        if (sample.ok && sample.station == prop_station) {
+    for (const tracker::PoseSample& sample : samples) {
+        if (sample.ok && sample.station == tracker::prop_station) {
             TrackedState frame;
             frame.table_from_prop = {sample.rotation, sample.position_m};
             frame.eye_m = default_eye_m;
@@ -16,9 +17,9 @@ std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples, const
             frames.emplace(sample.time, frame);
         }
     }
-    for (const PoseSample& sample : samples) {
+    for (const tracker::PoseSample& sample : samples) {
         const auto frame = frames.find(sample.time);
-        if (sample.ok && sample.station == head_station && frame != frames.end() &&
+        if (sample.ok && sample.station == tracker::head_station && frame != frames.end() &&
             !frame->second.head_known) {
             frame->second.eye_m = sample.position_m;
             frame->second.head_known = true;
@@ -32,4 +33,4 @@ std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples, const
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

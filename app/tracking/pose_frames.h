@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
-[[nodiscard]] std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples,
+[[nodiscard]] std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> samples,
                                                     const glm::dvec3& default_eye_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

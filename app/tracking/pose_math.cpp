@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -25,15 +25,16 @@ glm::dvec3 rotation_vector(const glm::dquat& rotation) {
     return (sine > small_angle ? angle / sine : 2.0) * axis;
 }
 
-PoseStep step_between(const RigidTransform& from, const RigidTransform& to) {
+PoseStep step_between(const geometry::RigidTransform& from, const geometry::RigidTransform& to) {
     return {to.translation - from.translation, rotation_vector(to.rotation * glm::conjugate(from.rotation))};
 }
 
-RigidTransform moved(const RigidTransform& pose, const PoseStep& step) {
+geometry::RigidTransform moved(const geometry::RigidTransform& pose, const PoseStep& step) {
     return {glm::normalize(rotation_of(step.turn_rad) * pose.rotation), pose.translation + step.shift_m};
 }
 
-RigidTransform between(const RigidTransform& from, const RigidTransform& to, double share) {
+geometry::RigidTransform between(const geometry::RigidTransform& from, const geometry::RigidTransform& to,
+                                 double share) {
     const PoseStep step = step_between(from, to);
     return moved(from, {share * step.shift_m, share * step.turn_rad});
 }
@@ -42,4 +43,4 @@ double slip_m(const PoseStep& step, double lever_m) {
     return glm::length(step.shift_m) + lever_m * glm::length(step.turn_rad);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

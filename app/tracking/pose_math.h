@@ -8,7 +8,7 @@
 
 #include "app/geometry/transform.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 /// The rotation about `vector` by its length.
 [[nodiscard]] glm::dquat rotation_of(const glm::dvec3& vector);
@@ -20,13 +20,14 @@ struct PoseStep {
     glm::dvec3 shift_m{0.0};
     glm::dvec3 turn_rad{0.0};
 };
-[[nodiscard]] PoseStep step_between(const RigidTransform& from, const RigidTransform& to);
-[[nodiscard]] RigidTransform moved(const RigidTransform& pose, const PoseStep& step);
+[[nodiscard]] PoseStep step_between(const geometry::RigidTransform& from, const geometry::RigidTransform& to);
+[[nodiscard]] geometry::RigidTransform moved(const geometry::RigidTransform& pose, const PoseStep& step);
 
 /// 0 = `from`, 1 = `to`; the shift is linear, the rotation the shortest one at a constant rate (slerp).
-[[nodiscard]] RigidTransform between(const RigidTransform& from, const RigidTransform& to, double share);
+[[nodiscard]] geometry::RigidTransform between(const geometry::RigidTransform& from,
+                                               const geometry::RigidTransform& to, double share);
 
 /// Bound of the displacement at `lever_m` from the prop's origin: shift plus rotation times the lever.
 [[nodiscard]] double slip_m(const PoseStep& step, double lever_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -14,34 +14,34 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 /// Transforms poses from a device's own frame to the table: those of the prop's sensor become the prop's,
 /// those of the head's the eye's; those of other sensors stay the sensor's. A pose that is not ok is
 /// unchanged.
-void place_on_table(std::span<PoseSample> samples, const Registration& registration);
+void place_on_table(std::span<tracker::PoseSample> samples, const geometry::Registration& registration);
 
-class RegisteredTracker final : public Tracker {
+class RegisteredTracker final : public tracker::Tracker {
 public:
     /// `registration` is ignored if the device reports in table coordinates.
-    RegisteredTracker(std::unique_ptr<Tracker> device, const Registration& registration);
+    RegisteredTracker(std::unique_ptr<tracker::Tracker> device, const geometry::Registration& registration);
 
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<tracker::PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return device_->name(); }
     [[nodiscard]] bool reports_table_frame() const override { return true; }
     [[nodiscard]] std::string_view state() const override { return device_->state(); }
     [[nodiscard]] DeviceCondition condition() const override { return device_->condition(); }
-    [[nodiscard]] TrackerHealth health() const override { return device_->health(); }
+    [[nodiscard]] tracker::TrackerHealth health() const override { return device_->health(); }
     [[nodiscard]] bool hangs() const override { return device_->hangs(); }
-    [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
+    [[nodiscard]] tracker::TrackerCounts counts() const override { return device_->counts(); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 
     /// The applied registration; nullopt: the device reports in table coordinates.
-    [[nodiscard]] const std::optional<Registration>& registration() const { return registration_; }
+    [[nodiscard]] const std::optional<geometry::Registration>& registration() const { return registration_; }
 
 private:
-    std::unique_ptr<Tracker> device_;
-    std::optional<Registration> registration_;
+    std::unique_ptr<tracker::Tracker> device_;
+    std::optional<geometry::Registration> registration_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -22,4 +22,4 @@ glm::dvec3 eye_of_head(const glm::dvec3& middle_m, const glm::dvec3& looked_at_m
     return middle_m + ahead_m * ahead + down_m * down;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct SeenHead {
     MonotonicTime time;
@@ -23,4 +23,4 @@ struct SeenHead {
 /// of the way, and the eyes the rest.
 [[nodiscard]] glm::dvec3 eye_of_head(const glm::dvec3& middle_m, const glm::dvec3& looked_at_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -2,9 +2,9 @@
 
 #include "app/geometry/time_curves.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
-const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
+const geometry::RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
     if (reinitialisations_ == 0) {
         shown_ = estimate.pose; // there is no shown pose yet to glide from
     }
@@ -16,8 +16,8 @@ const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicT
         return_ = time;
         reinitialisations_ = estimate.reinitialisations;
     }
-    const double gone = ease(to_seconds(time - return_) / to_seconds(options_.return_time));
-    const RigidTransform goal =
+    const double gone = geometry::ease(to_seconds(time - return_) / to_seconds(options_.return_time));
+    const geometry::RigidTransform goal =
         moved(estimate.pose, {(1.0 - gone) * left_.shift_m, (1.0 - gone) * left_.turn_rad});
     const double off_m = slip_m(step_between(shown_, goal), options_.lever_m);
     if (off_m > options_.slack_m) {
@@ -26,4 +26,4 @@ const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicT
     return shown_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -11,7 +11,7 @@
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/pose_math.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct ShownPoseOptions {
     double slack_m = 0.00005;
@@ -24,14 +24,14 @@ public:
     explicit ShownPose(const ShownPoseOptions& options = {}) : options_(options) {}
 
     /// The pose to draw at `time`. A stale estimate has no effect.
-    [[nodiscard]] const RigidTransform& follow(const PoseEstimate& estimate, MonotonicTime time);
+    [[nodiscard]] const geometry::RigidTransform& follow(const PoseEstimate& estimate, MonotonicTime time);
 
 private:
     ShownPoseOptions options_;
-    RigidTransform shown_;
+    geometry::RigidTransform shown_;
     PoseStep left_;        ///< from the estimate to the old pose at the start of the return
     MonotonicTime return_; ///< start of the return
     std::uint64_t reinitialisations_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

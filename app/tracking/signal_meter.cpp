@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
-void SignalMeter::take(const PoseSample& sample) {
+void SignalMeter::take(const tracker::PoseSample& sample) {
     samples_[count_++ % max_samples] = sample;
 }
 
@@ -15,7 +15,7 @@ TrackerSignal SignalMeter::at(MonotonicTime now) const {
     const std::size_t kept = std::min(count_, max_samples);
     const auto each = [&](const auto& use) {
         for (std::size_t k = 0; k < kept; ++k) {
-            if (const PoseSample& sample = samples_[k]; now - sample.time < window) {
+            if (const tracker::PoseSample& sample = samples_[k]; now - sample.time < window) {
                 use(sample);
             }
         }
@@ -23,7 +23,7 @@ TrackerSignal SignalMeter::at(MonotonicTime now) const {
     std::size_t all = 0, usable = 0;
     glm::dvec3 middle(0.0);
     glm::dquat turn(0.0, 0.0, 0.0, 0.0);
-    each([&](const PoseSample& sample) {
+    each([&](const tracker::PoseSample& sample) {
         ++all;
         if (sample.ok) {
             ++usable;
@@ -40,10 +40,10 @@ TrackerSignal SignalMeter::at(MonotonicTime now) const {
     middle /= static_cast<double>(usable);
     turn = glm::normalize(turn);
     double squares_m2 = 0.0, squares_rad2 = 0.0;
-    each([&](const PoseSample& sample) {
+    each([&](const tracker::PoseSample& sample) {
         if (sample.ok) {
             const glm::dvec3 off_m = sample.position_m - middle;
-            const double off_rad = rotation_angle(sample.rotation, turn);
+            const double off_rad = geometry::rotation_angle(sample.rotation, turn);
             squares_m2 += glm::dot(off_m, off_m);
             squares_rad2 += off_rad * off_rad;
         }
@@ -53,4 +53,4 @@ TrackerSignal SignalMeter::at(MonotonicTime now) const {
     return signal;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

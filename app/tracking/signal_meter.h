@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct TrackerSignal {
     double rate_hz = 0.0;                      ///< of all samples
@@ -31,12 +31,12 @@ public:
         512; ///< no tracker sends more in the window; of faster ones the latest count
     static constexpr std::size_t min_samples = 8;
 
-    void take(const PoseSample& sample);
+    void take(const tracker::PoseSample& sample);
     [[nodiscard]] TrackerSignal at(MonotonicTime now) const;
 
 private:
-    std::array<PoseSample, max_samples> samples_{}; ///< a ring
-    std::size_t count_ = 0;                         ///< taken since the start
+    std::array<tracker::PoseSample, max_samples> samples_{}; ///< a ring
+    std::size_t count_ = 0;                                  ///< taken since the start
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

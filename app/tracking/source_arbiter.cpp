@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 namespace {
 
@@ -38,8 +38,8 @@ bool SourceArbiter::gives_way(const SourcePose& leading, const SourcePose& other
     return time - *better_since_ >= options_.dwell;
 }
 
-RigidTransform SourceArbiter::shown(const PoseEstimate& leading, MonotonicTime time) const {
-    const double gone = fades_s_ > 0.0 ? ease(to_seconds(time - changed_) / fades_s_) : 1.0;
+geometry::RigidTransform SourceArbiter::shown(const PoseEstimate& leading, MonotonicTime time) const {
+    const double gone = fades_s_ > 0.0 ? geometry::ease(to_seconds(time - changed_) / fades_s_) : 1.0;
     if (gone >= 1.0) {
         return leading.pose;
     }
@@ -81,4 +81,4 @@ PoseEstimate SourceArbiter::follow(const SourcePose& tracker, const SourcePose& 
     return estimate;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

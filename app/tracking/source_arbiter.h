@@ -22,7 +22,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 enum class Source : std::size_t { Tracker, Tags };
 
@@ -55,7 +55,7 @@ public:
 private:
     [[nodiscard]] bool gives_way(const SourcePose& leading, const SourcePose& other, MonotonicTime time);
     void change(const PoseEstimate& leading, const PoseEstimate& other, MonotonicTime time);
-    [[nodiscard]] RigidTransform shown(const PoseEstimate& leading, MonotonicTime time) const;
+    [[nodiscard]] geometry::RigidTransform shown(const PoseEstimate& leading, MonotonicTime time) const;
 
     SourceArbiterOptions options_;
     Source leader_ = Source::Tracker;
@@ -68,4 +68,4 @@ private:
     std::uint64_t reinitialisations_ = 0; ///< of the shown pose
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -2,21 +2,21 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 TrackedStateTracker::TrackedStateTracker(const glm::dvec3& default_eye_m, const TrackedStateLimits& limits)
     : default_eye_m_(default_eye_m), limits_(limits) {}
 
-bool TrackedStateTracker::take(const PoseSample& sample) {
-    if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
+bool TrackedStateTracker::take(const tracker::PoseSample& sample) {
+    if (!sample.ok || (sample.station != tracker::prop_station && sample.station != tracker::head_station)) {
         return true;
     }
-    const std::optional<glm::dquat> rotation = normalised(sample.rotation);
+    const std::optional<glm::dquat> rotation = geometry::normalised(sample.rotation);
     const glm::dvec3& p = sample.position_m;
     if (!rotation || !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
         return false;
     }
-    std::optional<Latest>& latest = sample.station == prop_station ? prop_ : head_;
+    std::optional<Latest>& latest = sample.station == tracker::prop_station ? prop_ : head_;
     if (!latest || sample.time >= latest->time) {
         latest = Latest{{*rotation, p}, sample.time};
     }
@@ -39,4 +39,4 @@ TrackedState TrackedStateTracker::at(MonotonicTime now) const {
     return tracked_state;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

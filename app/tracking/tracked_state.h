@@ -12,10 +12,10 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct TrackedState {
-    RigidTransform table_from_prop;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
     MonotonicTime time;      ///< time of this state
     bool prop_known = false; ///< a usable pose of the prop was seen and is not too old
@@ -24,7 +24,7 @@ struct TrackedState {
         false; ///< eye from a camera; if neither, `eye_m` is the default eye, or easing towards it
     double eye_sd_m = 0.0; ///< of a seen head: error of `eye_m` across its line to the prop, RMS on each axis
     Nanoseconds prop_age{0}; ///< of the pose used
-    TrackerHealth tracker = TrackerHealth::Well;
+    tracker::TrackerHealth tracker = tracker::TrackerHealth::Well;
     bool by_tags = false; ///< `table_from_prop` is from the tags
 
     [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
@@ -42,13 +42,13 @@ public:
     /// Samples with ok = false, of other stations, or older than the last one of their station are ignored.
     /// Rotations are normalised. Returns false for a sample that claims to be usable but is not a pose (not
     /// finite, or a zero quaternion); it is ignored too.
-    bool take(const PoseSample& sample);
+    bool take(const tracker::PoseSample& sample);
     /// The latest pose, neither filtered nor predicted.
     [[nodiscard]] TrackedState at(MonotonicTime now) const;
 
 private:
     struct Latest {
-        RigidTransform table_from_station;
+        geometry::RigidTransform table_from_station;
         MonotonicTime time;
     };
 
@@ -58,4 +58,4 @@ private:
     std::optional<Latest> head_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

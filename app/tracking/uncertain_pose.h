@@ -7,13 +7,13 @@
 #include "app/geometry/transform.h"
 #include "firmware_host/base/time.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 
 struct UncertainPose {
     MonotonicTime time;
-    RigidTransform table_from_prop;
+    geometry::RigidTransform table_from_prop;
     double place_sd_m = 0.0;  ///< RMS distance from the true position
     double turn_sd_rad = 0.0; ///< RMS angle from the true rotation
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -11,24 +11,26 @@ struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0; ///< x1, y1 excluded
 };
 
-PixelBox around(const glm::dvec2& low, const glm::dvec2& high, const Image8& image) {
+PixelBox around(const glm::dvec2& low, const glm::dvec2& high, const image::Image8& image) {
     const auto clamp = [](double v, int most) {
         return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most)));
     };
-    return {clamp(std::floor(low.x), image.width), clamp(std::floor(low.y), image.height),
-            clamp(std::ceil(high.x), image.width), clamp(std::ceil(high.y), image.height)};
+    return {.x0 = clamp(std::floor(low.x), image.width),
+            .y0 = clamp(std::floor(low.y), image.height),
+            .x1 = clamp(std::ceil(high.x), image.width),
+            .y1 = clamp(std::ceil(high.y), image.height)};
 }
 
-glm::dvec3 linear_texel(const Image8& image, int x, int y) {
+glm::dvec3 linear_texel(const image::Image8& image, int x, int y) {
     if (x < 0 || y < 0 || x >= image.width || y >= image.height) {
         return glm::dvec3(0.0);
     }
     const glm::u8vec4& code = image.at(x, y);
-    const std::array<float, 256>& linear = linear_from_srgb8();
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     return {linear[code.r], linear[code.g], linear[code.b]};
 }
 
-glm::dvec3 bilinear(const Image8& image, const glm::dvec2& at) {
+glm::dvec3 bilinear(const image::Image8& image, const glm::dvec2& at) {
     const glm::dvec2 corner = glm::floor(at - 0.5);
     const glm::dvec2 f = at - 0.5 - corner;
     const int x = static_cast<int>(corner.x);
@@ -51,10 +53,11 @@ void Canvas::blend(int x, int y, Colour colour, double opacity) {
         texel = glm::u8vec4(colour, 255);
         return;
     }
-    const std::array<float, 256>& linear = linear_from_srgb8();
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     for (int k = 0; k < 3; ++k) {
         const double below = linear[texel[k]];
-        texel[k] = srgb8_from_linear(below + opacity * (static_cast<double>(linear[colour[k]]) - below));
+        texel[k] =
+            image::srgb8_from_linear(below + opacity * (static_cast<double>(linear[colour[k]]) - below));
     }
 }
 
@@ -104,7 +107,7 @@ void Canvas::circle(const glm::dvec2& centre, double radius_px, double width_px,
     }
 }
 
-void Canvas::coverage(const Image<std::uint8_t>& coverage, const glm::ivec2& corner, Colour colour) {
+void Canvas::coverage(const image::Image<std::uint8_t>& coverage, const glm::ivec2& corner, Colour colour) {
     for (int y = std::max(0, -corner.y); y < std::min(coverage.height, image_.height - corner.y); ++y) {
         for (int x = std::max(0, -corner.x); x < std::min(coverage.width, image_.width - corner.x); ++x) {
             blend(x + corner.x, y + corner.y, colour, coverage.at(x, y) / 255.0);
@@ -114,12 +117,12 @@ void Canvas::coverage(const Image<std::uint8_t>& coverage, const glm::ivec2& cor
 
 void Canvas::text(const Typesetter& typesetter, std::string_view text, const glm::dvec2& position,
                   double em_px, Colour colour, Anchor anchor, bool bold) {
-    const Image<std::uint8_t> letters = typesetter.line(text, em_px, bold);
+    const image::Image<std::uint8_t> letters = typesetter.line(text, em_px, bold);
     const glm::dvec2 size(letters.width, letters.height);
     coverage(letters, glm::ivec2(glm::round(position - glm::dvec2(anchor.x, anchor.y) * size)), colour);
 }
 
-void Canvas::picture(const Image8& picture, const glm::dvec2& from, const glm::dvec2& size,
+void Canvas::picture(const image::Image8& picture, const glm::dvec2& from, const glm::dvec2& size,
                      const glm::ivec2& corner, const glm::ivec2& target) {
     const glm::dvec2 step = size / glm::dvec2(target);
     const glm::ivec2 taps = glm::max(glm::ivec2(glm::ceil(step)), glm::ivec2(1));
@@ -135,11 +138,12 @@ void Canvas::picture(const Image8& picture, const glm::dvec2& from, const glm::d
             const glm::ivec2 at = corner + glm::ivec2(x, y);
             if (at.x >= 0 && at.y >= 0 && at.x < image_.width && at.y < image_.height) {
                 sum /= static_cast<double>(taps.x * taps.y);
-                image_.at(at.x, at.y) = glm::u8vec4(srgb8_from_linear(sum.r), srgb8_from_linear(sum.g),
-                                                    srgb8_from_linear(sum.b), 255);
+                image_.at(at.x, at.y) =
+                    glm::u8vec4(image::srgb8_from_linear(sum.r), image::srgb8_from_linear(sum.g),
+                                image::srgb8_from_linear(sum.b), 255);
             }
         }
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 using Colour = glm::u8vec3;
 
@@ -27,10 +27,10 @@ struct Anchor {
 class Canvas {
 public:
     Canvas(int width, int height, Colour background);
-    explicit Canvas(Image8 image) : image_(std::move(image)) {}
+    explicit Canvas(image::Image8 image) : image_(std::move(image)) {}
 
-    [[nodiscard]] const Image8& image() const { return image_; }
-    [[nodiscard]] Image8 take() { return std::move(image_); }
+    [[nodiscard]] const image::Image8& image() const { return image_; }
+    [[nodiscard]] image::Image8 take() { return std::move(image_); }
 
     void fill(const glm::dvec2& low, const glm::dvec2& high, Colour colour, double opacity = 1.0);
     void line(const glm::dvec2& a, const glm::dvec2& b, double width_px, Colour colour, double opacity = 1.0);
@@ -41,16 +41,16 @@ public:
     /// One line of text.
     void text(const Typesetter& typesetter, std::string_view text, const glm::dvec2& position, double em_px,
               Colour colour, Anchor anchor = {}, bool bold = false);
-    void coverage(const Image<std::uint8_t>& coverage, const glm::ivec2& corner, Colour colour);
+    void coverage(const image::Image<std::uint8_t>& coverage, const glm::ivec2& corner, Colour colour);
     /// Scales `picture`'s rectangle [from, from + size) to the canvas rectangle at `corner`: averaged by area
     /// in linear light when it shrinks, bilinear when it grows. Outside the picture is black.
-    void picture(const Image8& picture, const glm::dvec2& from, const glm::dvec2& size,
+    void picture(const image::Image8& picture, const glm::dvec2& from, const glm::dvec2& size,
                  const glm::ivec2& corner, const glm::ivec2& target);
 
 private:
     void blend(int x, int y, Colour colour, double opacity);
 
-    Image8 image_;
+    image::Image8 image_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -36,10 +36,10 @@ double gap_above(CaptionRole role, CaptionRole before) {
 }
 
 struct SetPart {
-    const GlyphSetting* setting = nullptr;
+    const pack::GlyphSetting* setting = nullptr;
     double em_px = 0.0;
     double brightness = 1.0;
-    TextDirection direction = TextDirection::LeftToRight;
+    pack::TextDirection direction = pack::TextDirection::LeftToRight;
     GlyphExtent extent;
     int top_px = 0;
 };
@@ -50,7 +50,7 @@ struct SetParts {
     int width_px = 1, height_px = 0;
 };
 
-SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m, double width_m,
+SetParts lay_out(const pack::GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m, double width_m,
                  double texels_per_m) {
     const double text_em_m = std::max(em_m, min_caption_em_m);
     const double em_px = text_em_m * texels_per_m;
@@ -59,7 +59,7 @@ SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double
     CaptionRole before = CaptionRole::Title;
     for (const GlyphPart& part : parts) {
         const double em = type_size(part.role, text_em_m);
-        const GlyphSetting* const setting = fitting_setting(part.text, width_em / em);
+        const pack::GlyphSetting* const setting = fitting_setting(part.text, width_em / em);
         if (setting == nullptr) {
             continue;
         }
@@ -67,8 +67,12 @@ SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double
         if (!all.parts.empty()) {
             all.height_px += static_cast<int>(std::lround(gap_above(part.role, before) * em_px));
         }
-        all.parts.push_back(
-            {setting, em * em_px, brightness_of(part.role), part.text->direction, extent, all.height_px});
+        all.parts.push_back({.setting = setting,
+                             .em_px = em * em_px,
+                             .brightness = brightness_of(part.role),
+                             .direction = part.text->direction,
+                             .extent = extent,
+                             .top_px = all.height_px});
         all.width_px = std::max(all.width_px, extent.width_px);
         all.height_px += extent.height_px;
         before = part.role;
@@ -84,9 +88,11 @@ std::vector<Paragraph> paragraphs_of(std::span<const PlainPart> parts, double em
     CaptionRole before = CaptionRole::Title;
     for (const PlainPart& part : parts) {
         if (!part.text.empty()) {
-            paragraphs.push_back({part.text, type_size(part.role, text_em_m) * em_px,
-                                  part.role == CaptionRole::Title, brightness_of(part.role),
-                                  gap_above(part.role, before) * em_px});
+            paragraphs.push_back({.text = part.text,
+                                  .em_px = type_size(part.role, text_em_m) * em_px,
+                                  .bold = part.role == CaptionRole::Title,
+                                  .brightness = brightness_of(part.role),
+                                  .space_before_px = gap_above(part.role, before) * em_px});
             before = part.role;
         }
     }
@@ -103,13 +109,14 @@ CaptionImage make_caption(const Typesetter& typesetter, std::span<const PlainPar
     return caption;
 }
 
-CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, std::span<const GlyphPart> parts,
-                          double em_m, double width_m, double texels_per_m) {
+CaptionImage make_caption(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
+                          std::span<const GlyphPart> parts, double em_m, double width_m,
+                          double texels_per_m) {
     const SetParts set = lay_out(runs, parts, em_m, width_m, texels_per_m);
     CaptionImage caption;
-    caption.coverage = Image<std::uint8_t>(set.width_px, set.height_px);
+    caption.coverage = image::Image<std::uint8_t>(set.width_px, set.height_px);
     for (const SetPart& part : set.parts) {
-        const bool flush_right = part.direction == TextDirection::RightToLeft;
+        const bool flush_right = part.direction == pack::TextDirection::RightToLeft;
         draw_lighter(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
                      flush_right ? set.width_px - part.extent.width_px : 0, part.top_px, caption.coverage);
     }
@@ -123,10 +130,10 @@ glm::dvec2 caption_size_m(const Typesetter& typesetter, std::span<const PlainPar
            texels_per_m;
 }
 
-glm::dvec2 caption_size_m(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,
+glm::dvec2 caption_size_m(const pack::GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,
                           double width_m, double texels_per_m) {
     const SetParts set = lay_out(runs, parts, em_m, width_m, texels_per_m);
     return glm::dvec2(set.width_px, set.height_px) / texels_per_m;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -15,7 +15,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// Widths that a caption is wrapped to, preferred ones first.
 inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
@@ -38,11 +38,11 @@ struct PlainPart {
 };
 struct GlyphPart {
     CaptionRole role = CaptionRole::Text;
-    const GlyphText* text = nullptr; ///< of the runs; null: omitted
+    const pack::GlyphText* text = nullptr; ///< of the runs; null: omitted
 };
 
 struct CaptionImage {
-    Image<std::uint8_t> coverage;
+    image::Image<std::uint8_t> coverage;
     glm::dvec2 size_m{0.0}; ///< along X and Y of the table
 };
 
@@ -54,14 +54,14 @@ struct CaptionImage {
 /// The caption from texts that the bake has shaped: without a typeface, in any script. A paragraph that runs
 /// to the left is flush right. Each part uses the widest of its settings that fits `width_m`, else the
 /// narrowest.
-[[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
+[[nodiscard]] CaptionImage make_caption(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
                                         std::span<const GlyphPart> parts, double em_m, double width_m,
                                         double texels_per_m);
 
 /// The `size_m` of these captions, without drawing.
 [[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, std::span<const PlainPart> parts,
                                         double em_m, double width_m, double texels_per_m);
-[[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,
-                                        double width_m, double texels_per_m);
+[[nodiscard]] glm::dvec2 caption_size_m(const pack::GlyphRuns& runs, std::span<const GlyphPart> parts,
+                                        double em_m, double width_m, double texels_per_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -107,7 +107,8 @@ TablePolygon polygon_of(const TableRectangle& rectangle) {
     return {{corners[0], corners[1], corners[2], corners[3]}, corners.size()};
 }
 
-std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop,
+std::optional<TablePolygon> hidden_by_prop(const geometry::PropShape& prop,
+                                           const geometry::RigidTransform& table_from_prop,
                                            const glm::dvec3& from_m) {
     std::array<glm::dvec2, 8> points{};
     assert(prop.corners.size() <= points.size());
@@ -284,10 +285,10 @@ CaptionPlace CaptionPlacer::at(MonotonicTime now) const {
     if (!place_) {
         return {};
     }
-    const double in = ease(to_seconds(now - appears_) / to_seconds(fade));
-    const double out = leaves_ ? 1.0 - ease(to_seconds(now - *leaves_) / to_seconds(fade)) : 1.0;
-    const double clear = ease(clearance_m_ / dimming_m);
+    const double in = geometry::ease(to_seconds(now - appears_) / to_seconds(fade));
+    const double out = leaves_ ? 1.0 - geometry::ease(to_seconds(now - *leaves_) / to_seconds(fade)) : 1.0;
+    const double clear = geometry::ease(clearance_m_ / dimming_m);
     return {place_->shape, place_->rectangle, std::min({in, out, clear})};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

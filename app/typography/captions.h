@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// 24 pt, the smallest type on the table.
 inline constexpr double min_caption_em_m = 24.0 * 0.0254 / 72.0;
@@ -48,8 +48,9 @@ struct TableRectangle {
 
 /// The part of the table that a convex prop hides from a point; for the lens this is the prop's shadow.
 /// nullopt if the point is not above the whole prop: then the prop may hide anything.
-[[nodiscard]] std::optional<TablePolygon>
-hidden_by_prop(const PropShape& prop, const RigidTransform& table_from_prop, const glm::dvec3& from_m);
+[[nodiscard]] std::optional<TablePolygon> hidden_by_prop(const geometry::PropShape& prop,
+                                                         const geometry::RigidTransform& table_from_prop,
+                                                         const glm::dvec3& from_m);
 
 /// The convex hull of both.
 [[nodiscard]] TablePolygon hull_of(const TablePolygon& polygon, std::span<const glm::dvec2> points);
@@ -120,4 +121,4 @@ private:
     double clearance_m_ = 0.0; ///< between the caption and the shadow, at the last update
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

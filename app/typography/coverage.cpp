@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
-const GlyphSetting* fitting_setting(const GlyphText* text, double width_em) {
-    const GlyphSetting* widest = nullptr;
-    const GlyphSetting* narrowest = nullptr;
+const pack::GlyphSetting* fitting_setting(const pack::GlyphText* text, double width_em) {
+    const pack::GlyphSetting* widest = nullptr;
+    const pack::GlyphSetting* narrowest = nullptr;
     if (text != nullptr) {
-        for (const GlyphSetting& setting : text->settings) {
-            if (setting.width <= width_em * em_units &&
+        for (const pack::GlyphSetting& setting : text->settings) {
+            if (setting.width <= width_em * pack::em_units &&
                 (widest == nullptr || setting.width > widest->width)) {
                 widest = &setting;
             }
@@ -22,8 +22,8 @@ const GlyphSetting* fitting_setting(const GlyphText* text, double width_em) {
     return widest != nullptr ? widest : narrowest;
 }
 
-void draw_lighter(const Image<std::uint8_t>& from, double brightness, int left, int top,
-                  Image<std::uint8_t>& onto) {
+void draw_lighter(const image::Image<std::uint8_t>& from, double brightness, int left, int top,
+                  image::Image<std::uint8_t>& onto) {
     for (int y = 0; y < from.height; ++y) {
         for (int x = 0; x < from.width; ++x) {
             std::uint8_t& texel = onto.at(left + x, top + y);
@@ -32,8 +32,9 @@ void draw_lighter(const Image<std::uint8_t>& from, double brightness, int left, 
     }
 }
 
-Image<std::uint8_t> cut_off(const Image<std::uint8_t>& line, int width_px, int fade_px, bool to_the_left) {
-    Image<std::uint8_t> rest(std::min(line.width, width_px), line.height);
+image::Image<std::uint8_t> cut_off(const image::Image<std::uint8_t>& line, int width_px, int fade_px,
+                                   bool to_the_left) {
+    image::Image<std::uint8_t> rest(std::min(line.width, width_px), line.height);
     const int skipped = to_the_left ? line.width - rest.width : 0;
     for (int y = 0; y < rest.height; ++y) {
         for (int x = 0; x < rest.width; ++x) {
@@ -45,4 +46,4 @@ Image<std::uint8_t> cut_off(const Image<std::uint8_t>& line, int width_px, int f
     return rest;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -10,19 +10,19 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// The widest setting that fits a width in type sizes, otherwise the narrowest; null if there is none. `text`
 /// may be null.
-[[nodiscard]] const GlyphSetting* fitting_setting(const GlyphText* text, double width_em);
+[[nodiscard]] const pack::GlyphSetting* fitting_setting(const pack::GlyphText* text, double width_em);
 
 /// Draws `from`, scaled by `brightness`, over `onto`, keeping the lighter of both; it must lie inside.
-void draw_lighter(const Image<std::uint8_t>& from, double brightness, int left, int top,
-                  Image<std::uint8_t>& onto);
+void draw_lighter(const image::Image<std::uint8_t>& from, double brightness, int left, int top,
+                  image::Image<std::uint8_t>& onto);
 
 /// Cuts off everything right of `width_px`, or left of it for text that runs to the left, with a fade before
 /// the cut.
-[[nodiscard]] Image<std::uint8_t> cut_off(const Image<std::uint8_t>& line, int width_px, int fade_px,
-                                          bool to_the_left);
+[[nodiscard]] image::Image<std::uint8_t> cut_off(const image::Image<std::uint8_t>& line, int width_px,
+                                                 int fade_px, bool to_the_left);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

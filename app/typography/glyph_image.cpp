@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -15,7 +15,7 @@ constexpr std::int64_t max_pixels = 1 << 24;
 
 /// Area of a placed glyph's texels, in pixels from the top left of the setting's box.
 struct GlyphArea {
-    const GlyphBox* box = nullptr;
+    const pack::GlyphBox* box = nullptr;
     double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
 };
 
@@ -24,14 +24,19 @@ struct Scale {
     double px_of_texel = 0.0;
 };
 
-GlyphArea area_of(const GlyphBox& box, const PlacedGlyph& glyph, std::int32_t baseline, const Scale& scale) {
+GlyphArea area_of(const pack::GlyphBox& box, const pack::PlacedGlyph& glyph, std::int32_t baseline,
+                  const Scale& scale) {
     const double left = glyph.x * scale.px_of_unit + box.left * scale.px_of_texel;
     const double top = (baseline - glyph.up) * scale.px_of_unit - box.top * scale.px_of_texel;
-    return {&box, left, top, left + box.width * scale.px_of_texel, top + box.height * scale.px_of_texel};
+    return {.box = &box,
+            .left = left,
+            .top = top,
+            .right = left + box.width * scale.px_of_texel,
+            .bottom = top + box.height * scale.px_of_texel};
 }
 
 /// The code at texel coordinates (texel centres at 0.5) of a box, clamped to its outermost texel centres.
-double distance_code(const DistanceAtlas& atlas, const GlyphBox& box, double x, double y) {
+double distance_code(const pack::DistanceAtlas& atlas, const pack::GlyphBox& box, double x, double y) {
     const double u = std::clamp(x - 0.5, 0.0, box.width - 1.0);
     const double v = std::clamp(y - 0.5, 0.0, box.height - 1.0);
     const int left = static_cast<int>(u);
@@ -51,12 +56,12 @@ double distance_code(const DistanceAtlas& atlas, const GlyphBox& box, double x, 
 /// The samples of some rows of pixels.
 struct SampleRows {
     int first_row = 0; ///< pixel row of the picture
-    Image<std::uint8_t> samples;
+    image::Image<std::uint8_t> samples;
 };
 
 /// `samples_of_code`: distance in samples for a change of one code.
-void draw(const DistanceAtlas& atlas, const GlyphArea& area, const GlyphImage& image, double px_of_texel,
-          double samples_of_code, SampleRows& rows) {
+void draw(const pack::DistanceAtlas& atlas, const GlyphArea& area, const GlyphImage& image,
+          double px_of_texel, double samples_of_code, SampleRows& rows) {
     const double left = (area.left + image.left_px) * samples;
     const double top = (area.top + image.top_px - rows.first_row) * samples;
     const double texels_of_sample = 1.0 / (samples * px_of_texel);
@@ -69,14 +74,14 @@ void draw(const DistanceAtlas& atlas, const GlyphArea& area, const GlyphImage& i
         for (int x = std::max(0, static_cast<int>(left)); x < x_end; ++x) {
             const double code = distance_code(atlas, *area.box, (x + 0.5 - left) * texels_of_sample,
                                               (y + 0.5 - top) * texels_of_sample);
-            const double cover = std::clamp(0.5 + (code - outline_code) * samples_of_code, 0.0, 1.0);
+            const double cover = std::clamp(0.5 + (code - pack::outline_code) * samples_of_code, 0.0, 1.0);
             std::uint8_t& sample = rows.samples.at(x, y);
             sample = std::max(sample, static_cast<std::uint8_t>(std::lround(255.0 * cover)));
         }
     }
 }
 
-void average_into(Image<std::uint8_t>& image, const SampleRows& rows) {
+void average_into(image::Image<std::uint8_t>& image, const SampleRows& rows) {
     for (int y = 0; y < rows.samples.height / samples; ++y) {
         for (int x = 0; x < image.width; ++x) {
             int sum = 0;
@@ -106,13 +111,13 @@ struct Areas {
     std::vector<std::size_t> line_ends;
 };
 
-Areas areas_of(const GlyphRuns& runs, const GlyphSetting& setting, const Scale& scale) {
+Areas areas_of(const pack::GlyphRuns& runs, const pack::GlyphSetting& setting, const Scale& scale) {
     Areas all;
     std::size_t next = 0;
-    for (const GlyphLine& line : setting.lines) {
+    for (const pack::GlyphLine& line : setting.lines) {
         for (std::size_t k = 0; k < line.glyphs; ++k, ++next) {
-            const PlacedGlyph& glyph = setting.glyphs[next];
-            const GlyphBox& box = runs.boxes[glyph.glyph];
+            const pack::PlacedGlyph& glyph = setting.glyphs[next];
+            const pack::GlyphBox& box = runs.boxes[glyph.glyph];
             if (box.width > 0 && box.height > 0) {
                 all.areas.push_back(area_of(box, glyph, line.baseline, scale));
             }
@@ -122,12 +127,12 @@ Areas areas_of(const GlyphRuns& runs, const GlyphSetting& setting, const Scale& 
     return all;
 }
 
-Scale scale_of(const GlyphRuns& runs, double em_px) {
-    return {em_px / em_units, em_px / runs.texels_per_em};
+Scale scale_of(const pack::GlyphRuns& runs, double em_px) {
+    return {em_px / pack::em_units, em_px / runs.texels_per_em};
 }
 
 /// Extent of the setting's box and of all letters that extend beyond it.
-GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> areas, const Scale& scale,
+GlyphExtent extent_of(const pack::GlyphSetting& setting, std::span<const GlyphArea> areas, const Scale& scale,
                       double spread_px) {
     double left = 0.0;
     double top = 0.0;
@@ -144,8 +149,10 @@ GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> ar
     const double width = std::ceil(right) - std::floor(left);
     const double height = std::ceil(bottom) - std::floor(top);
     if (width <= max_side_px && height <= max_side_px && width * height <= static_cast<double>(max_pixels)) {
-        extent = {static_cast<int>(width), static_cast<int>(height), -static_cast<int>(std::floor(left)),
-                  -static_cast<int>(std::floor(top))};
+        extent = {.width_px = static_cast<int>(width),
+                  .height_px = static_cast<int>(height),
+                  .left_px = -static_cast<int>(std::floor(left)),
+                  .top_px = -static_cast<int>(std::floor(top))};
     }
     return extent;
 }
@@ -160,19 +167,20 @@ SampleRows rows_of(std::span<const GlyphArea> line, const GlyphImage& image) {
     }
     const int first = std::max(0, static_cast<int>(std::floor(top)));
     const int end = std::min(image.coverage.height, static_cast<int>(std::ceil(bottom)));
-    return {first, Image<std::uint8_t>(image.coverage.width * samples, std::max(0, end - first) * samples)};
+    return {first,
+            image::Image<std::uint8_t>(image.coverage.width * samples, std::max(0, end - first) * samples)};
 }
 
 } // namespace
 
-GlyphExtent glyph_extent(const GlyphRuns& runs, const GlyphSetting& setting, double em_px) {
+GlyphExtent glyph_extent(const pack::GlyphRuns& runs, const pack::GlyphSetting& setting, double em_px) {
     const Scale scale = scale_of(runs, em_px);
     return extent_of(setting, areas_of(runs, setting, scale).areas, scale,
                      runs.spread_texels * scale.px_of_texel);
 }
 
-GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphSetting& setting,
-                       double em_px) {
+GlyphImage glyph_image(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
+                       const pack::GlyphSetting& setting, double em_px) {
     const Scale scale = scale_of(runs, em_px);
     const auto [areas, line_ends] = areas_of(runs, setting, scale);
     const GlyphExtent extent = extent_of(setting, areas, scale, runs.spread_texels * scale.px_of_texel);
@@ -180,8 +188,8 @@ GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas, const 
     if (extent.width_px == 0 || extent.height_px == 0) {
         return image;
     }
-    image.coverage = Image<std::uint8_t>(extent.width_px, extent.height_px);
-    const double samples_of_code = scale.px_of_texel * samples * runs.spread_texels / outline_code;
+    image.coverage = image::Image<std::uint8_t>(extent.width_px, extent.height_px);
+    const double samples_of_code = scale.px_of_texel * samples * runs.spread_texels / pack::outline_code;
     std::size_t begin = 0;
     for (const std::size_t end : line_ends) {
         const std::span<const GlyphArea> line = std::span(areas).subspan(begin, end - begin);
@@ -195,4 +203,4 @@ GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas, const 
     return image;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -13,7 +13,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// The picture's size; 0 if it is empty.
 struct GlyphExtent {
@@ -22,15 +22,16 @@ struct GlyphExtent {
     int top_px = 0;  ///< pixels above it
 };
 /// The size without drawing. `setting` is one of `runs`.
-[[nodiscard]] GlyphExtent glyph_extent(const GlyphRuns& runs, const GlyphSetting& setting, double em_px);
+[[nodiscard]] GlyphExtent glyph_extent(const pack::GlyphRuns& runs, const pack::GlyphSetting& setting,
+                                       double em_px);
 
 struct GlyphImage {
-    Image<std::uint8_t> coverage;
+    image::Image<std::uint8_t> coverage;
     int left_px = 0, top_px = 0; ///< as in GlyphExtent
 };
 
 /// `setting` is one of `runs`, and `atlas` belongs to them.
-[[nodiscard]] GlyphImage glyph_image(const GlyphRuns& runs, const DistanceAtlas& atlas,
-                                     const GlyphSetting& setting, double em_px);
+[[nodiscard]] GlyphImage glyph_image(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
+                                     const pack::GlyphSetting& setting, double em_px);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

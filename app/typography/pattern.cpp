@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -29,8 +29,8 @@ public:
     }
 
 private:
-    Pinhole pinhole_;
-    RigidTransform projector_from_table_;
+    geometry::Pinhole pinhole_;
+    geometry::RigidTransform projector_from_table_;
 };
 
 void draw_edge(Canvas& canvas, const Projection& pixel, const glm::dvec3& a, const glm::dvec3& b,
@@ -74,7 +74,7 @@ void draw_grid(Canvas& canvas, const Projection& pixel, const PatternScene& scen
 }
 
 /// The outermost pixels, bright; ticks every 100 pixels; brackets in the corners.
-void draw_frame(Canvas& canvas, const Pinhole& projector) {
+void draw_frame(Canvas& canvas, const geometry::Pinhole& projector) {
     const double w = projector.width;
     const double h = projector.height;
     canvas.fill({0, 0}, {w, 1}, white);
@@ -99,7 +99,7 @@ void draw_frame(Canvas& canvas, const Pinhole& projector) {
     }
 }
 
-void draw_centre(Canvas& canvas, const Pinhole& projector) {
+void draw_centre(Canvas& canvas, const geometry::Pinhole& projector) {
     const glm::dvec2 centre(projector.width / 2.0, projector.height / 2.0);
     canvas.line(centre - glm::dvec2(30.0, 0.0), centre + glm::dvec2(30.0, 0.0), 1.0, white);
     canvas.line(centre - glm::dvec2(0.0, 30.0), centre + glm::dvec2(0.0, 30.0), 1.0, white);
@@ -108,7 +108,7 @@ void draw_centre(Canvas& canvas, const Pinhole& projector) {
 
 } // namespace
 
-Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter) {
+image::Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter) {
     Canvas canvas(scene.projector.width, scene.projector.height, Colour(0));
     draw_grid(canvas, Projection(scene), scene, typesetter);
     draw_frame(canvas, scene.projector);
@@ -120,14 +120,14 @@ Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter) {
     return canvas.take();
 }
 
-Image8 with_prop(const Image8& table, const PatternScene& scene, const RigidTransform& table_from_prop,
-                 const Typesetter& typesetter) {
+image::Image8 with_prop(const image::Image8& table, const PatternScene& scene,
+                        const geometry::RigidTransform& table_from_prop, const Typesetter& typesetter) {
     Canvas canvas(table);
     const Projection pixel(scene);
     const glm::dvec3 lens = table_from_prop.inverse().point(scene.table_from_projector.translation);
     for (const bool lit : {false, true}) { // lit faces over the others
         for (std::size_t k = 0; k < scene.prop.faces.size(); ++k) {
-            const PropFace& face = scene.prop.faces[k];
+            const geometry::PropFace& face = scene.prop.faces[k];
             if ((face.plane.distance(lens) > 0.0) != lit) {
                 continue;
             }
@@ -153,14 +153,16 @@ Image8 with_prop(const Image8& table, const PatternScene& scene, const RigidTran
     return canvas.take();
 }
 
-Image8 with_lines(const Image8& pattern, std::span<const std::string> lines, const Typesetter& typesetter) {
+image::Image8 with_lines(const image::Image8& pattern, std::span<const std::string> lines,
+                         const Typesetter& typesetter) {
     constexpr glm::ivec2 corner(30, 80);
     constexpr int margin_px = 6;
     std::vector<Paragraph> paragraphs;
     for (const std::string& line : lines) {
-        paragraphs.push_back({line, 17.0, false, 1.0, 4.0});
+        paragraphs.push_back(
+            {.text = line, .em_px = 17.0, .bold = false, .brightness = 1.0, .space_before_px = 4.0});
     }
-    const Image<std::uint8_t> text = typesetter.set(paragraphs, pattern.width - 2.0 * corner.x);
+    const image::Image<std::uint8_t> text = typesetter.set(paragraphs, pattern.width - 2.0 * corner.x);
     Canvas canvas(pattern);
     const glm::dvec2 low(corner - margin_px);
     canvas.fill(low, low + glm::dvec2(text.width + 2 * margin_px, text.height + 2 * margin_px), Colour(0),
@@ -169,4 +171,4 @@ Image8 with_lines(const Image8& pattern, std::span<const std::string> lines, con
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -20,21 +20,22 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 struct PatternScene {
-    Pinhole projector;
-    RigidTransform table_from_projector;
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector;
     glm::dvec2 table_size_m{0.0};
-    PropShape prop;
+    geometry::PropShape prop;
 };
 
 /// The part that does not change while the prop moves.
-[[nodiscard]] Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter);
-[[nodiscard]] Image8 with_prop(const Image8& table, const PatternScene& scene,
-                               const RigidTransform& table_from_prop, const Typesetter& typesetter);
+[[nodiscard]] image::Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter);
+[[nodiscard]] image::Image8 with_prop(const image::Image8& table, const PatternScene& scene,
+                                      const geometry::RigidTransform& table_from_prop,
+                                      const Typesetter& typesetter);
 /// Adds lines for the staff below the pattern's own text; long lines are wrapped.
-[[nodiscard]] Image8 with_lines(const Image8& pattern, std::span<const std::string> lines,
-                                const Typesetter& typesetter);
+[[nodiscard]] image::Image8 with_lines(const image::Image8& pattern, std::span<const std::string> lines,
+                                       const Typesetter& typesetter);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

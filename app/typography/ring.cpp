@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -157,7 +157,7 @@ Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns,
 }
 
 double ring_brightness(double full) {
-    return ease(full / comes_up_by);
+    return geometry::ease(full / comes_up_by);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -17,7 +17,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 inline constexpr double ring_gap_m = 0.003; ///< between the shadow and the band
 inline constexpr double ring_width_m = 0.006;
@@ -44,4 +44,4 @@ struct Ring {
 /// Factor of linear light that fades the ring in as it fills, and out as it empties.
 [[nodiscard]] double ring_brightness(double full);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

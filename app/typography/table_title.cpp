@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr double first_baseline_em = 1.0;
 constexpr double line_pitch_em = 1.2;
 constexpr double below_baseline_em = 0.38;
 
-using Coverage = Image<std::uint8_t>;
+using Coverage = image::Image<std::uint8_t>;
 
 /// A run of glyphs without a space: [first, end) in the line's order.
 struct Word {
@@ -30,7 +30,7 @@ struct Word {
     std::size_t end = 0;
 };
 
-std::vector<Word> words_of(const GlyphRuns& runs, const GlyphSetting& line) {
+std::vector<Word> words_of(const pack::GlyphRuns& runs, const pack::GlyphSetting& line) {
     std::vector<Word> words;
     bool within = false;
     for (std::size_t k = 0; k < line.glyphs.size(); ++k) {
@@ -46,14 +46,17 @@ std::vector<Word> words_of(const GlyphRuns& runs, const GlyphSetting& line) {
 }
 
 /// Approximate width of the glyphs [first, end).
-double width_of(const GlyphRuns& runs, const GlyphSetting& line, std::size_t first, std::size_t end) {
-    const GlyphBox& last = runs.boxes[line.glyphs[end - 1].glyph];
+double width_of(const pack::GlyphRuns& runs, const pack::GlyphSetting& line, std::size_t first,
+                std::size_t end) {
+    const pack::GlyphBox& last = runs.boxes[line.glyphs[end - 1].glyph];
     return line.glyphs[end - 1].x - line.glyphs[first].x +
-           static_cast<double>(last.left + last.width) * em_units / std::max<int>(runs.texels_per_em, 1);
+           static_cast<double>(last.left + last.width) * pack::em_units /
+               std::max<int>(runs.texels_per_em, 1);
 }
 
-GlyphSetting part_of(const GlyphSetting& line, std::size_t first, std::size_t end) {
-    GlyphSetting part{line.limit, line.width, line.height, line.lines, {}};
+pack::GlyphSetting part_of(const pack::GlyphSetting& line, std::size_t first, std::size_t end) {
+    pack::GlyphSetting part{
+        .limit = line.limit, .width = line.width, .height = line.height, .lines = line.lines, .glyphs = {}};
     part.glyphs.assign(line.glyphs.begin() + static_cast<std::ptrdiff_t>(first),
                        line.glyphs.begin() + static_cast<std::ptrdiff_t>(end));
     part.lines.front().glyphs = static_cast<std::uint32_t>(part.glyphs.size());
@@ -62,9 +65,10 @@ GlyphSetting part_of(const GlyphSetting& line, std::size_t first, std::size_t en
 
 /// Breaks a line in two of about equal width, so that the longer one is as short as possible; empty without a
 /// space.
-std::vector<GlyphSetting> broken_in_two(const GlyphRuns& runs, const GlyphSetting& line, bool to_the_left) {
+std::vector<pack::GlyphSetting> broken_in_two(const pack::GlyphRuns& runs, const pack::GlyphSetting& line,
+                                              bool to_the_left) {
     const std::vector<Word> words = words_of(runs, line);
-    std::vector<GlyphSetting> best;
+    std::vector<pack::GlyphSetting> best;
     double best_width = 0.0;
     for (std::size_t k = 1; k < words.size(); ++k) {
         const double width = std::max(width_of(runs, line, words.front().first, words[k - 1].end),
@@ -82,12 +86,16 @@ std::vector<GlyphSetting> broken_in_two(const GlyphRuns& runs, const GlyphSettin
 }
 
 /// Each line by itself, as a setting of the same box.
-std::vector<GlyphSetting> lines_of(const GlyphSetting& setting) {
-    std::vector<GlyphSetting> lines;
+std::vector<pack::GlyphSetting> lines_of(const pack::GlyphSetting& setting) {
+    std::vector<pack::GlyphSetting> lines;
     auto glyph = setting.glyphs.begin();
-    for (const GlyphLine& line : setting.lines) {
+    for (const pack::GlyphLine& line : setting.lines) {
         const auto end = glyph + static_cast<std::ptrdiff_t>(line.glyphs);
-        lines.push_back({setting.limit, setting.width, setting.height, {line}, {glyph, end}});
+        lines.push_back({.limit = setting.limit,
+                         .width = setting.width,
+                         .height = setting.height,
+                         .lines = {line},
+                         .glyphs = {glyph, end}});
         glyph = end;
     }
     return lines;
@@ -95,11 +103,12 @@ std::vector<GlyphSetting> lines_of(const GlyphSetting& setting) {
 
 /// The setting with the fewest lines that fits. If two lines do not hold the title, its single line is broken
 /// in the middle, so that the least text is cut off.
-std::vector<GlyphSetting> best_lines(const GlyphRuns& runs, const GlyphText& title, double width) {
-    const GlyphSetting* fits = nullptr;
-    const GlyphSetting* single = nullptr;
-    const GlyphSetting* narrowest = nullptr;
-    for (const GlyphSetting& setting : title.settings) {
+std::vector<pack::GlyphSetting> best_lines(const pack::GlyphRuns& runs, const pack::GlyphText& title,
+                                           double width) {
+    const pack::GlyphSetting* fits = nullptr;
+    const pack::GlyphSetting* single = nullptr;
+    const pack::GlyphSetting* narrowest = nullptr;
+    for (const pack::GlyphSetting& setting : title.settings) {
         const std::size_t lines = setting.lines.size();
         if (setting.width <= width && lines <= max_lines && (!fits || lines < fits->lines.size())) {
             fits = &setting;
@@ -108,14 +117,14 @@ std::vector<GlyphSetting> best_lines(const GlyphRuns& runs, const GlyphText& tit
         narrowest = narrowest == nullptr || setting.width < narrowest->width ? &setting : narrowest;
     }
     if (fits == nullptr && single != nullptr) {
-        std::vector<GlyphSetting> two =
-            broken_in_two(runs, *single, title.direction == TextDirection::RightToLeft);
+        std::vector<pack::GlyphSetting> two =
+            broken_in_two(runs, *single, title.direction == pack::TextDirection::RightToLeft);
         if (!two.empty()) {
             return two;
         }
     }
-    const GlyphSetting* const setting = fits != nullptr ? fits : narrowest;
-    return setting != nullptr ? lines_of(*setting) : std::vector<GlyphSetting>();
+    const pack::GlyphSetting* const setting = fits != nullptr ? fits : narrowest;
+    return setting != nullptr ? lines_of(*setting) : std::vector<pack::GlyphSetting>();
 }
 
 /// The columns from the first letter to the last.
@@ -196,16 +205,16 @@ constexpr double half_line = 0.012; ///< in half sides
 
 } // namespace
 
-CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphText& title,
-                              double texels_per_m) {
+CaptionImage make_table_title(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
+                              const pack::GlyphText& title, double texels_per_m) {
     const double em_px = min_caption_em_m * texels_per_m;
     const int width_px = static_cast<int>(table_title_width_m * texels_per_m);
-    const bool to_the_left = title.direction == TextDirection::RightToLeft;
-    const std::vector<GlyphSetting> lines = best_lines(runs, title, width_px / em_px * em_units);
+    const bool to_the_left = title.direction == pack::TextDirection::RightToLeft;
+    const std::vector<pack::GlyphSetting> lines = best_lines(runs, title, width_px / em_px * pack::em_units);
     std::vector<SetLine> set;
     for (std::size_t k = 0; k < std::min(lines.size(), max_lines); ++k) {
         const GlyphImage image = glyph_image(runs, atlas, lines[k], em_px);
-        const double baseline_px = lines[k].lines.front().baseline * em_px / em_units;
+        const double baseline_px = lines[k].lines.front().baseline * em_px / pack::em_units;
         SetLine line{trimmed(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
         if (line.image.width > width_px || (k + 1 == max_lines && lines.size() > max_lines)) {
             line.image = cut_off(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)),
@@ -227,11 +236,11 @@ CaptionImage make_table_title(const Typesetter& typesetter, const std::string& t
     return {std::move(text), size_m};
 }
 
-Image<std::uint8_t> outlined_square(int side_px) {
+image::Image<std::uint8_t> outlined_square(int side_px) {
     return drawn(side_px, [](const glm::dvec2& at) { return std::abs(outside_square(at)) - half_line; });
 }
 
-Image<std::uint8_t> more_mark(int side_px) {
+image::Image<std::uint8_t> more_mark(int side_px) {
     return drawn(side_px, [](const glm::dvec2& at) {
         constexpr double radius = 0.11;
         constexpr double pitch = 0.42;
@@ -243,4 +252,4 @@ Image<std::uint8_t> more_mark(int side_px) {
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

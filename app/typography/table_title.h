@@ -12,21 +12,21 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// Some millimetres more than a place's width: the bake breaks lines for this width, and there are gaps
 /// between places.
 inline constexpr double table_title_width_m = 0.0765;
 
 /// A title that the bake has shaped, in any script.
-[[nodiscard]] CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas,
-                                            const GlyphText& title, double texels_per_m);
+[[nodiscard]] CaptionImage make_table_title(const pack::GlyphRuns& runs, const pack::DistanceAtlas& atlas,
+                                            const pack::GlyphText& title, double texels_per_m);
 [[nodiscard]] CaptionImage make_table_title(const Typesetter& typesetter, const std::string& title,
                                             double texels_per_m);
 
 /// Placeholder for a missing picture in a place; coverage with `side_px` texels a side.
-[[nodiscard]] Image<std::uint8_t> outlined_square(int side_px);
+[[nodiscard]] image::Image<std::uint8_t> outlined_square(int side_px);
 /// As above, with three dots: there are more artifacts.
-[[nodiscard]] Image<std::uint8_t> more_mark(int side_px);
+[[nodiscard]] image::Image<std::uint8_t> more_mark(int side_px);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -9,16 +9,16 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
 constexpr Colour white{255, 255, 255};
 
 /// Alternating white and black sectors, averaged over each pixel in linear light.
-Image8 star(int radius) {
+image::Image8 star(int radius) {
     constexpr int spokes = 36, samples = 4;
-    Image8 picture(2 * radius, 2 * radius);
+    image::Image8 picture(2 * radius, 2 * radius);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             int lit = 0;
@@ -28,7 +28,8 @@ Image8 star(int radius) {
                 const double turns = std::atan2(at.y, at.x) / (2.0 * std::numbers::pi) + 0.5;
                 lit += glm::length(at) < radius && static_cast<int>(turns * spokes) % 2 == 0 ? 1 : 0;
             }
-            const std::uint8_t code = srgb8_from_linear(static_cast<double>(lit) / (samples * samples));
+            const std::uint8_t code =
+                image::srgb8_from_linear(static_cast<double>(lit) / (samples * samples));
             picture.at(x, y) = {code, code, code, 255};
         }
     }
@@ -51,14 +52,14 @@ void draw_lines(Canvas& canvas, const glm::dvec2& corner, double size) {
 
 } // namespace
 
-Image8 focus_picture(int width, int height) {
+image::Image8 focus_picture(int width, int height) {
     Canvas canvas(width, height, Colour(0));
     canvas.fill({0, 0}, {width, 1}, white);
     canvas.fill({0, height - 1}, {width, height}, white);
     canvas.fill({0, 0}, {1, height}, white);
     canvas.fill({width - 1, 0}, {width, height}, white);
     const int radius = std::max(8, static_cast<int>(0.085 * std::min(width, height)));
-    const Image8 one = star(radius);
+    const image::Image8 one = star(radius);
     const int margin = radius + static_cast<int>(0.03 * std::min(width, height));
     const glm::ivec2 way = (glm::ivec2(width, height) - 2 * margin) / 2;
     const double size = std::floor(0.9 * radius);
@@ -72,7 +73,7 @@ Image8 focus_picture(int width, int height) {
     return canvas.take();
 }
 
-Image8 grey_picture(int width, int height, const Typesetter& typesetter) {
+image::Image8 grey_picture(int width, int height, const Typesetter& typesetter) {
     Canvas canvas(width, height, Colour(0));
     const double em_px = std::max(10.0, height / 50.0);
     const auto columns = [&](std::span<const int> codes, double top, double bottom) {
@@ -96,4 +97,4 @@ Image8 grey_picture(int width, int height, const Typesetter& typesetter) {
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -140,7 +140,8 @@ void break_lines(FT_Face face, const Paragraph& paragraph, double limit_px, std:
 }
 
 /// Draws a glyph's coverage, keeping the lighter value, so that touching neighbours do not add up.
-void blend(const FT_GlyphSlot& glyph, double brightness, int left, int top, Image<std::uint8_t>& image) {
+void blend(const FT_GlyphSlot& glyph, double brightness, int left, int top,
+           image::Image<std::uint8_t>& image) {
     const FT_Bitmap& bitmap = glyph->bitmap;
     for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
         for (int column = 0; column < static_cast<int>(bitmap.width); ++column) {
@@ -154,7 +155,8 @@ void blend(const FT_GlyphSlot& glyph, double brightness, int left, int top, Imag
     }
 }
 
-void draw_line(FT_Face face, const Line& line, double x_px, double baseline_px, Image<std::uint8_t>& image) {
+void draw_line(FT_Face face, const Line& line, double x_px, double baseline_px,
+               image::Image<std::uint8_t>& image) {
     const double baseline = std::round(baseline_px);
     char32_t before = 0;
     for (const char32_t code : line.text) {
@@ -262,9 +264,9 @@ glm::ivec2 Typesetter::extent(std::span<const Paragraph> paragraphs, double widt
     return lay_out(paragraphs, width_px).size_px;
 }
 
-Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, double width_px) const {
+image::Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, double width_px) const {
     const Layout layout = lay_out(paragraphs, width_px);
-    Image<std::uint8_t> image(layout.size_px.x, layout.size_px.y);
+    image::Image<std::uint8_t> image(layout.size_px.x, layout.size_px.y);
     for (std::size_t k = 0; k < layout.lines.size(); ++k) {
         const Line& line = layout.lines[k];
         FT_Face face = faces_->of(*line.paragraph);
@@ -274,9 +276,10 @@ Image<std::uint8_t> Typesetter::set(std::span<const Paragraph> paragraphs, doubl
     return image;
 }
 
-Image<std::uint8_t> Typesetter::line(std::string_view text, double em_px, bool bold) const {
-    const Paragraph paragraph{std::string(text), em_px, bold, 1.0, 0.0};
+image::Image<std::uint8_t> Typesetter::line(std::string_view text, double em_px, bool bold) const {
+    const Paragraph paragraph{
+        .text = std::string(text), .em_px = em_px, .bold = bold, .brightness = 1.0, .space_before_px = 0.0};
     return set(std::span(&paragraph, 1), std::numeric_limits<double>::infinity());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 struct Paragraph {
     std::string text;
@@ -42,11 +42,13 @@ public:
 
     /// Lines are broken at spaces to fit `width_px` (a longer word is broken inside). The picture is as wide
     /// as the widest line, at least 1 x 1. Letters that extend beyond the edge are not cut off.
-    [[nodiscard]] Image<std::uint8_t> set(std::span<const Paragraph> paragraphs, double width_px) const;
+    [[nodiscard]] image::Image<std::uint8_t> set(std::span<const Paragraph> paragraphs,
+                                                 double width_px) const;
     /// The size of that picture, without drawing.
     [[nodiscard]] glm::ivec2 extent(std::span<const Paragraph> paragraphs, double width_px) const;
     /// One line.
-    [[nodiscard]] Image<std::uint8_t> line(std::string_view text, double em_px, bool bold = false) const;
+    [[nodiscard]] image::Image<std::uint8_t> line(std::string_view text, double em_px,
+                                                  bool bold = false) const;
     /// True if the typeface has its letters, and they need no shaping: left to right, one after another.
     [[nodiscard]] bool can_set(std::string_view text) const;
     /// From the top of a picture to the first line's baseline.
@@ -62,4 +64,4 @@ private:
     std::unique_ptr<Faces> faces_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

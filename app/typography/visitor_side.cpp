@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 namespace {
 
@@ -43,4 +43,4 @@ int VisitorSide::update(const glm::dvec3& eye_m) {
     return quarter_turns_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

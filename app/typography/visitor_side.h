@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::typography {
 
 /// Rotates a point about the table's centre by quarter turns counter-clockwise; exact.
 [[nodiscard]] glm::dvec2 turned(const glm::dvec2& point, int quarter_turns);
@@ -31,4 +31,4 @@ private:
     int quarter_turns_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::typography

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 namespace {
 
@@ -58,11 +58,11 @@ void Background::measure_table(const SmallFrame& frame) {
         sum += frame.luma[at];
     }
     const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, table_.size())));
-    const auto slowly = static_cast<float>(follow_share(dt_s_, daylight_s));
+    const auto slowly = static_cast<float>(geometry::follow_share(dt_s_, daylight_s));
     table_usual_ += (knows_ ? slowly : 1.0F / static_cast<float>(frames_)) * (mean - table_usual_);
     change_ = mean - table_usual_;
     change_square_ +=
-        static_cast<float>(follow_share(dt_s_, projector_s)) * (change_ * change_ - change_square_);
+        static_cast<float>(geometry::follow_share(dt_s_, projector_s)) * (change_ * change_ - change_square_);
 }
 
 /// The gain is the median over background pixels.
@@ -150,9 +150,9 @@ void Background::learn(const SmallFrame& frame, std::span<const PixelBox> people
         }
     }
     const float first = 1.0F / static_cast<float>(frames_);
-    const auto daylight = static_cast<float>(follow_share(dt_s_, daylight_s));
+    const auto daylight = static_cast<float>(geometry::follow_share(dt_s_, daylight_s));
     const float projector = knows_ && !all_changed_since_
-                                ? static_cast<float>(follow_share(dt_s_, projector_s)) * change_ /
+                                ? static_cast<float>(geometry::follow_share(dt_s_, projector_s)) * change_ /
                                       (change_square_ + little_change)
                                 : 0.0F;
     for (const std::uint32_t at : heads_) {
@@ -189,4 +189,4 @@ bool Background::hold(Pixel& pixel, float error) const {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 /// A box in a small frame; right and bottom are exclusive.
 struct PixelBox {
@@ -86,4 +86,4 @@ private:
     bool knows_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

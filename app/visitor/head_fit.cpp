@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 namespace {
 
@@ -101,8 +101,8 @@ Distance distance_along(const glm::dvec3& origin, const glm::dvec3& ray, double 
 
 } // namespace
 
-std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& camera,
-                                   const RigidTransform& table_from_camera, const HeadZone& zone) {
+std::optional<FittedHead> fit_head(const HeadOutline& outline, const geometry::Pinhole& camera,
+                                   const geometry::RigidTransform& table_from_camera, const HeadZone& zone) {
     glm::dvec2 first(0.0);
     for (const glm::dvec2& point : outline.edge) {
         first += point / static_cast<double>(outline.edge.size());
@@ -130,8 +130,11 @@ std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& ca
     if (!distance.at_table || !pixel) {
         return std::nullopt;
     }
-    return FittedHead{table_from_camera.translation + distance.mean_m * ray, hidden_sd_m, distance.sd_m,
-                      *pixel, outline.width};
+    return FittedHead{.middle_m = table_from_camera.translation + distance.mean_m * ray,
+                      .across_sd_m = hidden_sd_m,
+                      .along_sd_m = distance.sd_m,
+                      .pixel = *pixel,
+                      .width_px = outline.width};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -15,7 +15,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 struct FittedHead {
     glm::dvec3 middle_m{0.0}; ///< of the head with its hair
@@ -26,8 +26,8 @@ struct FittedHead {
 };
 
 /// `camera`: that of the outline's frame. nullopt: not a head, or not at the table.
-[[nodiscard]] std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& camera,
-                                                 const RigidTransform& table_from_camera,
+[[nodiscard]] std::optional<FittedHead> fit_head(const HeadOutline& outline, const geometry::Pinhole& camera,
+                                                 const geometry::RigidTransform& table_from_camera,
                                                  const HeadZone& zone);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

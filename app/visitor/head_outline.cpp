@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::vector<HeadOutline> find_head_outlines(std::span<const std::uint8_t> foregr
     return outlines;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 struct HeadOutline {
     std::vector<glm::dvec2> edge; ///< ends of the rows of the head's upper part, left and right in turn
@@ -22,4 +22,4 @@ struct HeadOutline {
 [[nodiscard]] std::vector<HeadOutline> find_head_outlines(std::span<const std::uint8_t> foreground, int width,
                                                           int height);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 namespace {
 
@@ -18,7 +18,7 @@ Shows what_ray_shows(const HeadZone& zone, const glm::dvec3& origin, const glm::
             return Shows::Head;
         }
     }
-    const std::optional<glm::dvec2> meets = meets_table(origin, direction);
+    const std::optional<glm::dvec2> meets = geometry::meets_table(origin, direction);
     return meets && zone.outside_m(glm::dvec3(*meets, 0.0)) < 0.0 ? Shows::Table : Shows::Neither;
 }
 
@@ -35,8 +35,8 @@ bool HeadZone::holds(const glm::dvec3& point_m) const {
     return outside > 0.0 && outside < farthest_m && point_m.z > lowest_m && point_m.z < highest_m;
 }
 
-std::vector<Shows> what_pixels_show(const HeadZone& zone, const Pinhole& camera,
-                                    const RigidTransform& table_from_camera) {
+std::vector<Shows> what_pixels_show(const HeadZone& zone, const geometry::Pinhole& camera,
+                                    const geometry::RigidTransform& table_from_camera) {
     std::vector<Shows> shows;
     shows.reserve(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
     for (int row = 0; row < camera.height; ++row) {
@@ -49,4 +49,4 @@ std::vector<Shows> what_pixels_show(const HeadZone& zone, const Pinhole& camera,
     return shows;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

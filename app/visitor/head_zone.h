@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 enum class Shows : std::uint8_t { Neither, Head, Table };
 
@@ -29,7 +29,7 @@ struct HeadZone {
 };
 
 /// [height][width] of `camera`, row-major.
-[[nodiscard]] std::vector<Shows> what_pixels_show(const HeadZone& zone, const Pinhole& camera,
-                                                  const RigidTransform& table_from_camera);
+[[nodiscard]] std::vector<Shows> what_pixels_show(const HeadZone& zone, const geometry::Pinhole& camera,
+                                                  const geometry::RigidTransform& table_from_camera);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 int block_of(int columns) {
     return (columns + SmallFrame::max_columns - 1) / SmallFrame::max_columns;
 }
 
-void shrink(const CameraFrame& frame, SmallFrame& small) {
+void shrink(const camera::CameraFrame& frame, SmallFrame& small) {
     const int block = block_of(frame.width);
     small.width = frame.width / block;
     small.height = frame.height / block;
@@ -29,4 +29,4 @@ void shrink(const CameraFrame& frame, SmallFrame& small) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

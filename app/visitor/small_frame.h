@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 struct SmallFrame {
     static constexpr int max_columns = 320;
@@ -25,6 +25,6 @@ struct SmallFrame {
 /// Side of the block of pixels that becomes one pixel, for a frame with `columns` columns.
 [[nodiscard]] int block_of(int columns);
 /// Incomplete blocks at the right and bottom edges are dropped. Reuses the memory of `small`.
-void shrink(const CameraFrame& frame, SmallFrame& small);
+void shrink(const camera::CameraFrame& frame, SmallFrame& small);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

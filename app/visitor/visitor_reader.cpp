@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 namespace {
 
@@ -25,7 +25,7 @@ glm::dvec3 middle_of_table() {
 VisitorReader::VisitorReader(VisitorSetUp set_up, std::function<double()> busy)
     : set_up_(std::move(set_up)), pace_(max_share, std::move(busy)) {}
 
-std::span<const SeenHead> VisitorReader::read(const CameraFrame& frame) {
+std::span<const tracking::SeenHead> VisitorReader::read(const camera::CameraFrame& frame) {
     heads_.clear();
     if (!pace_.begin(frame.time)) {
         ++counts_.passed_over;
@@ -39,7 +39,7 @@ std::span<const SeenHead> VisitorReader::read(const CameraFrame& frame) {
 
 void VisitorReader::prepare(int width, int height) {
     const int block = block_of(width);
-    const Pinhole whole = set_up_.camera.scaled_to(width, height);
+    const geometry::Pinhole whole = set_up_.camera.scaled_to(width, height);
     camera_ = whole;
     camera_.width = width / block;
     camera_.height = height / block;
@@ -50,8 +50,8 @@ void VisitorReader::prepare(int width, int height) {
     people_.clear();
 }
 
-void VisitorReader::look(const CameraFrame& frame) {
-    const Pinhole& measured = set_up_.camera;
+void VisitorReader::look(const camera::CameraFrame& frame) {
+    const geometry::Pinhole& measured = set_up_.camera;
     if (frame.width <= 0 || frame.width * measured.height != frame.height * measured.width) {
         ++counts_.misshapen;
         return;
@@ -76,9 +76,10 @@ void VisitorReader::look(const CameraFrame& frame) {
     for (const Person& person : people_) {
         const double width = person.head.width_px;
         const glm::dvec2 at = person.head.pixel;
-        const PixelBox box{static_cast<int>(at.x - half_body * width),
-                           static_cast<int>(at.y - above_middle * width),
-                           static_cast<int>(at.x + half_body * width), small_.height};
+        const PixelBox box{.left = static_cast<int>(at.x - half_body * width),
+                           .top = static_cast<int>(at.y - above_middle * width),
+                           .right = static_cast<int>(at.x + half_body * width),
+                           .bottom = small_.height};
         if (person.is_thing()) {
             background_->take_in(small_, box);
         } else {
@@ -90,7 +91,7 @@ void VisitorReader::look(const CameraFrame& frame) {
 }
 
 void VisitorReader::see(Person& person, const FittedHead& head, MonotonicTime time) {
-    const double share = follow_share(to_seconds(time - person.last), still_mean_s);
+    const double share = geometry::follow_share(to_seconds(time - person.last), still_mean_s);
     person.head = head;
     person.last = time;
     person.mean += share * (head.pixel - person.mean);
@@ -123,7 +124,13 @@ void VisitorReader::follow(MonotonicTime time) {
         fitted_.erase(fitted_.begin() + static_cast<std::ptrdiff_t>(which));
     }
     for (const FittedHead& head : fitted_) {
-        people_.push_back({++last_number_, head, time, time, head.pixel, head.pixel, time});
+        people_.push_back({.number = ++last_number_,
+                           .head = head,
+                           .first = time,
+                           .last = time,
+                           .still_at = head.pixel,
+                           .mean = head.pixel,
+                           .moved = time});
     }
     std::erase_if(people_, [time](const Person& person) {
         return time - person.last > forgotten_after || time < person.last;
@@ -137,12 +144,14 @@ void VisitorReader::follow(MonotonicTime time) {
 
 /// The uncertainty of the distance counts only by the angle between the camera's ray and the line from the
 /// table to the head.
-SeenHead VisitorReader::seen(const Person& person) const {
+tracking::SeenHead VisitorReader::seen(const Person& person) const {
     const glm::dvec3& middle = person.head.middle_m;
     const glm::dvec3 ray = glm::normalize(middle - set_up_.table_from_camera.translation);
     const double apart = glm::length(glm::cross(ray, glm::normalize(middle - middle_of_table())));
-    return {person.last, person.number, middle,
-            std::hypot(person.head.across_sd_m, apart * person.head.along_sd_m)};
+    return {.time = person.last,
+            .person = person.number,
+            .middle_m = middle,
+            .across_sd_m = std::hypot(person.head.across_sd_m, apart * person.head.along_sd_m)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -22,11 +22,11 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 struct VisitorSetUp {
-    Pinhole camera;
-    RigidTransform table_from_camera;
+    geometry::Pinhole camera;
+    geometry::RigidTransform table_from_camera;
     HeadZone zone;
 };
 
@@ -46,10 +46,10 @@ public:
     static constexpr double moved_px = 0.8; ///< of the small frame
 
     /// `busy` returns the processor time of this thread in seconds.
-    explicit VisitorReader(VisitorSetUp set_up, std::function<double()> busy = thread_seconds);
+    explicit VisitorReader(VisitorSetUp set_up, std::function<double()> busy = camera::thread_seconds);
 
     /// The heads seen in this frame; valid until the next call.
-    [[nodiscard]] std::span<const SeenHead> read(const CameraFrame& frame);
+    [[nodiscard]] std::span<const tracking::SeenHead> read(const camera::CameraFrame& frame);
     [[nodiscard]] const VisitorCounts& counts() const { return counts_; }
 
 private:
@@ -63,23 +63,23 @@ private:
         MonotonicTime moved;
         [[nodiscard]] bool is_thing() const { return last - moved >= thing_after; }
     };
-    void look(const CameraFrame& frame);
+    void look(const camera::CameraFrame& frame);
     void prepare(int width, int height);
     void follow(MonotonicTime time);
     void see(Person& person, const FittedHead& head, MonotonicTime time);
-    [[nodiscard]] SeenHead seen(const Person& person) const;
+    [[nodiscard]] tracking::SeenHead seen(const Person& person) const;
 
     VisitorSetUp set_up_;
-    CpuThrottle pace_;
-    Pinhole camera_; ///< of the small frame
+    camera::CpuThrottle pace_;
+    geometry::Pinhole camera_; ///< of the small frame
     SmallFrame small_;
     std::optional<Background> background_;
     std::vector<FittedHead> fitted_;
     std::vector<Person> people_;
     std::vector<PixelBox> boxes_;
-    std::vector<SeenHead> heads_;
+    std::vector<tracking::SeenHead> heads_;
     std::uint32_t last_number_ = 0;
     VisitorCounts counts_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -1,8 +1,8 @@
 #include "app/visitor/visitor_tracker.h"
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
-void VisitorTracker::use(const CameraFrame& frame) {
+void VisitorTracker::use(const camera::CameraFrame& frame) {
     const std::uint64_t misshapen = reader_.counts().misshapen;
     mailbox_.put(reader_.read(frame));
     misshapen_ = reader_.counts().misshapen > misshapen;
@@ -15,4 +15,4 @@ std::string_view VisitorTracker::trouble() const {
                : std::string_view{};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -14,22 +14,22 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 
 class VisitorTracker {
 public:
     explicit VisitorTracker(VisitorSetUp set_up) : reader_(std::move(set_up)) {}
 
-    void use(const CameraFrame& frame);
+    void use(const camera::CameraFrame& frame);
     /// Appends every head with time <= now that was not returned yet, in ascending time.
-    void poll(MonotonicTime now, std::vector<SeenHead>& heads) { mailbox_.take(now, heads); }
+    void poll(MonotonicTime now, std::vector<tracking::SeenHead>& heads) { mailbox_.take(now, heads); }
     /// A fault in one plain sentence; empty: no fault.
     [[nodiscard]] std::string_view trouble() const;
 
 private:
     VisitorReader reader_; ///< the camera's thread only
-    Mailbox<SeenHead, 32> mailbox_;
+    Mailbox<tracking::SeenHead, 32> mailbox_;
     std::atomic<bool> misshapen_{false};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// In order of precedence: of two faults, the first is handled.
 enum class Cause : std::uint8_t {
@@ -34,4 +34,4 @@ inline constexpr std::size_t cause_count = 6;
     return cause != Cause::MemoryShort && cause != Cause::DeviceSilent;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

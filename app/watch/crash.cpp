@@ -11,7 +11,7 @@
 #include <charconv>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string sentence_of(const Crash& crash) {
     return crash.thread.empty() ? text : fmt::format("{}, thread {}", text, crash.thread);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

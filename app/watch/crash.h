@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 inline constexpr std::string_view usual_crash_folder = "/var/cache/frustumscreen/crashes";
 
@@ -34,4 +34,4 @@ struct Crash {
 /// Signal, place and thread: `SIGSEGV in swrast_dri.so+0x1f3a0, thread llvmpipe-0`.
 [[nodiscard]] std::string sentence_of(const Crash& crash);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

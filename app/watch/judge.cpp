@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 Judge::Judge(const Patience& patience, MonotonicTime start)
     : patience_(patience), looked_(start), counted_(start), judged_since_(start), drained_(start) {}
@@ -96,4 +96,4 @@ Observation Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
     return {trouble_of(now, outcome, lives), lives};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

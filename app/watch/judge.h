@@ -16,7 +16,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 struct Patience {
     Nanoseconds picture = std::chrono::seconds(15); ///< longer than systemd's watchdog needs
@@ -63,4 +63,4 @@ private:
     std::array<std::optional<MonotonicTime>, cause_count> bad_since_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

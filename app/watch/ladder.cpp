@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -250,4 +250,4 @@ LadderAction Ladder::take(Step step, std::optional<Cause> cause) {
     return {step, cause};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

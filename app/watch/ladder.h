@@ -28,7 +28,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// Time of operation since the kiosk was first switched on.
 using Awake = std::chrono::milliseconds;
@@ -120,4 +120,4 @@ private:
     std::array<Awake, cause_count> seen_at_{}; ///< last occurrence of each cause
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

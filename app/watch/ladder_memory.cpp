@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -168,4 +168,4 @@ std::uint64_t number_of_boot(std::string_view boot_id) {
     return fnv1a(boot_id) >> 1U;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

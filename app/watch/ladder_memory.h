@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 inline constexpr std::size_t slot_bytes = 4096; ///< a block of the disk
 inline constexpr std::size_t slot_count = 2;
@@ -41,4 +41,4 @@ struct KeptMemory {
 /// A number for the kernel's id of a boot (random(4), boot_id).
 [[nodiscard]] std::uint64_t number_of_boot(std::string_view boot_id);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

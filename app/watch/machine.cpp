@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::optional<DiskSpace> disk_space(const fs::path& folder) {
     return DiskSpace{unit * disk.f_bavail, unit * disk.f_blocks, (disk.f_flag & ST_RDONLY) == 0};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// The highest value of the thermal zones and the processor's own sensors below `root`/sys, degrees Celsius.
 [[nodiscard]] std::optional<double> hottest_c(const std::filesystem::path& root);
@@ -25,4 +25,4 @@ struct DiskSpace {
 /// The space of the file system that holds `folder`.
 [[nodiscard]] std::optional<DiskSpace> disk_space(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

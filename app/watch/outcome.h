@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// An older status means that the program does not run: each program writes its status once a second.
 inline constexpr Nanoseconds fresh_for = std::chrono::seconds(5);
@@ -39,4 +39,4 @@ struct Outcome {
     bool clock_plausible = true;     ///< not earlier than the build of this program
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -57,4 +57,4 @@ ServiceEnds parse_service_ends(std::string_view text) {
     return ends;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// The values of SERVICE_RESULT, with their meaning; the last one stands for all others.
 struct ServiceResult {
@@ -55,4 +55,4 @@ struct ServiceEnds {
 }
 [[nodiscard]] ServiceEnds parse_service_ends(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

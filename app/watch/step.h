@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 /// From the mildest to the strongest; the last one leads back down.
 enum class Step : std::uint8_t {
@@ -38,4 +38,4 @@ inline constexpr std::size_t mode_count = 5;
 [[nodiscard]] std::string_view sentence_of(Mode mode);
 [[nodiscard]] std::optional<Mode> mode_named(std::string_view word);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

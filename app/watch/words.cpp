@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::optional<Mode> mode_named(std::string_view word) {
     return named<Mode>(modes, word);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

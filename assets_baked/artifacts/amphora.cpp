@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 namespace atlas = amphora_atlas;
@@ -139,7 +139,7 @@ Patch handle_patch(double side) {
 
 } // namespace
 
-SourceMesh make_amphora(std::int64_t triangles) {
+bake::SourceMesh make_amphora(std::int64_t triangles) {
     const Profile body = body_profile();
     AmphoraSkin skin = paint_amphora(body);
     const auto relief = std::make_shared<const ReliefMap>(std::move(skin.body_relief_mm));
@@ -158,4 +158,4 @@ SourceMesh make_amphora(std::int64_t triangles) {
     return make_mesh(patches, triangles, std::move(skin.texture));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
-[[nodiscard]] SourceMesh make_amphora(std::int64_t triangles);
+[[nodiscard]] bake::SourceMesh make_amphora(std::int64_t triangles);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using glm::vec2;
@@ -240,4 +240,4 @@ void paint_handle_ornament(Ink& ink, glm::vec2 p, float edge) {
     silhouette(ink, Pigment::Slip, leaf(half, {0.28F, 0.24F}, {0.33F, 0.01F}, 0.040F), edge);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

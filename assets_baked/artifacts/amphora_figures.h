@@ -7,7 +7,7 @@
 
 #include "assets_baked/artifacts/ink.h"
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 inline constexpr int shield_emblems = 4;
 
@@ -18,4 +18,4 @@ void paint_deer(Ink& ink, glm::vec2 p, bool grazing, float edge);
 /// Palmettes and spirals below a handle; symmetric, about 0.8 wide.
 void paint_handle_ornament(Ink& ink, glm::vec2 p, float edge);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

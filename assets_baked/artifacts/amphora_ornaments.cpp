@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using glm::vec2;
@@ -171,4 +171,4 @@ float spiral(glm::vec2 p, float outer, float turns) {
     return std::min(distance, std::abs(glm::length(p)) - 0.012F * outer);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

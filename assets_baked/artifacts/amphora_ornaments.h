@@ -6,7 +6,7 @@
 
 #include "assets_baked/artifacts/ink.h"
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 /// Square-cornered key pattern that repeats every `unit` in x; y in 0..height.
 void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge);
@@ -26,4 +26,4 @@ void paint_line(Ink& ink, float y, float at, float width, Pigment pigment, float
 /// Distance to a spiral around the origin that ends at radius `outer` on its lower side; any units.
 [[nodiscard]] float spiral(glm::vec2 p, float outer, float turns);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

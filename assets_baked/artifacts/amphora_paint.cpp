@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using glm::vec2;
@@ -219,7 +219,7 @@ void paint_body(const Profile& body, AmphoraSkin& skin) {
 
 /// The parts without figures: slip inside the mouth thinning into bare clay, clay below, slip on the handles.
 /// `height_mm` is the strip's height, at a scale where its circumference equals the body's.
-void paint_plain(const AtlasStrip& strip, float height_mm, Image8& texture,
+void paint_plain(const AtlasStrip& strip, float height_mm, image::Image8& texture,
                  float (*slip_at)(float fraction)) {
     paint_strip(strip, texture, [&](float u, float v) {
         const float y = 1000.0F + static_cast<float>(strip.first_row) + v * height_mm; // independent of the
@@ -258,7 +258,7 @@ double ReliefMap::sample(double u, double v) const {
 
 AmphoraSkin paint_amphora(const Profile& body) {
     namespace atlas = amphora_atlas;
-    AmphoraSkin skin{Image8(atlas::size, atlas::size, texel_of(clay_colour)),
+    AmphoraSkin skin{image::Image8(atlas::size, atlas::size, texel_of(clay_colour)),
                      ReliefMap(atlas::size, atlas::body.rows)};
     paint_body(body, skin);
     paint_plain(atlas::mouth, 800.0F, skin.texture,
@@ -269,4 +269,4 @@ AmphoraSkin paint_amphora(const Profile& body) {
     return skin;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

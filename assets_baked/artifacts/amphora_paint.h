@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 /// Heights over a strip, sampled with a cubic B-spline; periodic in u.
 class ReliefMap {
@@ -41,11 +41,11 @@ inline constexpr AtlasStrip handle{1832, 216};
 } // namespace amphora_atlas
 
 struct AmphoraSkin {
-    Image8 texture;
+    image::Image8 texture;
     ReliefMap body_relief_mm; ///< v = 0 at the lip
 };
 
 /// `body` must run from the foot's resting ring to the top of the lip.
 [[nodiscard]] AmphoraSkin paint_amphora(const Profile& body);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 glm::u8vec4 texel_of(const glm::vec3& srgb01) {
     return {glm::u8vec3(glm::clamp(srgb01, 0.0F, 1.0F) * 255.0F + 0.5F), 255};
 }
 
-void paint_strip(const AtlasStrip& strip, Image8& texture,
+void paint_strip(const AtlasStrip& strip, image::Image8& texture,
                  const std::function<glm::vec3(float u, float v)>& colour) {
     constexpr int margin_rows = 4;
     const int rows = std::min(strip.rows + margin_rows, texture.height - strip.first_row);
@@ -24,4 +24,4 @@ void paint_strip(const AtlasStrip& strip, Image8& texture,
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

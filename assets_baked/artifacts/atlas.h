@@ -10,7 +10,7 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 /// Rows of the atlas for one part of the surface.
 struct AtlasStrip {
@@ -25,7 +25,7 @@ struct AtlasStrip {
 
 /// colour(u, v): v from 0 in the first row to 1 in the last. Some rows beyond the strip are filled too, so
 /// that filtering keeps the edge clean.
-void paint_strip(const AtlasStrip& strip, Image8& texture,
+void paint_strip(const AtlasStrip& strip, image::Image8& texture,
                  const std::function<glm::vec3(float u, float v)>& colour);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 constexpr std::int64_t fewest_triangles = 1'000;
@@ -19,7 +19,7 @@ std::vector<std::string_view> builtin_names() {
     return {"amphora", "nautilus-cup"};
 }
 
-Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
+Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
     if (triangles < fewest_triangles || triangles > max_triangles) {
         return bad_input("artifact.triangles", "{} triangles are asked for; allowed are {} to {}", triangles,
                          fewest_triangles, max_triangles);
@@ -34,4 +34,4 @@ Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
                      "no built-in artifact is named '{}'; allowed are amphora and nautilus-cup", name);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

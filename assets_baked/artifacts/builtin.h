@@ -11,16 +11,16 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 [[nodiscard]] std::vector<std::string_view> builtin_names(); ///< "amphora", ...
 
 /// About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 2e7
 /// triangles.
-[[nodiscard]] Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
+[[nodiscard]] Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 
 /// The artifact.toml of a folder with a built-in artifact's mesh (docs/curators.md): texts in five languages,
 /// hotspots. Empty for an unknown name.
 [[nodiscard]] std::string_view builtin_folder_text(std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

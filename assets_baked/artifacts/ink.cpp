@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 std::uint32_t hash(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
@@ -160,4 +160,4 @@ void Ink::raise(float by_mm, float coverage) {
     raised_mm = std::max(raised_mm, by_mm * coverage);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 /// Signed distances.
 [[nodiscard]] float disc(glm::vec2 p, glm::vec2 centre, float radius);
@@ -43,4 +43,4 @@ struct Ink {
     void raise(float by_mm, float coverage);
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

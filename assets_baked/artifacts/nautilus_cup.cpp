@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 namespace atlas = cup_atlas;
@@ -225,7 +225,7 @@ Patch boss(double side) {
 
 } // namespace
 
-SourceMesh make_nautilus_cup(std::int64_t triangles) {
+bake::SourceMesh make_nautilus_cup(std::int64_t triangles) {
     const Profile stem = stem_profile();
     std::vector<Patch> patches = {shell_outside(), shell_inside(), lip_mount()};
     patches.push_back(turned(stem, 1.0, atlas::stem, 1.0, true));
@@ -246,4 +246,4 @@ SourceMesh make_nautilus_cup(std::int64_t triangles) {
     return make_mesh(patches, triangles, paint_nautilus_cup(stem.length_mm()));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

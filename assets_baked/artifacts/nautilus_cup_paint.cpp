@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using glm::vec2;
@@ -81,8 +81,8 @@ double chasing_mm(double angle, double length) {
     return height;
 }
 
-Image8 paint_nautilus_cup(double stem_length_mm) {
-    Image8 texture(cup_atlas::size, cup_atlas::size, texel_of({0.90F, 0.70F, 0.34F}));
+image::Image8 paint_nautilus_cup(double stem_length_mm) {
+    image::Image8 texture(cup_atlas::size, cup_atlas::size, texel_of({0.90F, 0.70F, 0.34F}));
     paint_strip(cup_atlas::outside, texture, outside_colour);
     paint_strip(cup_atlas::inside, texture, inside_colour);
     paint_strip(cup_atlas::stem, texture, [stem_length_mm](float u, float v) {
@@ -101,4 +101,4 @@ Image8 paint_nautilus_cup(double stem_length_mm) {
     return texture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

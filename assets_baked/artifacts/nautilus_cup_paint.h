@@ -8,7 +8,7 @@
 #include "app/image/image.h"
 #include "assets_baked/artifacts/atlas.h"
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 namespace cup_atlas {
 inline constexpr int size = 2048;
@@ -23,6 +23,6 @@ inline constexpr AtlasStrip straps{1888, 160};
 [[nodiscard]] double chasing_mm(double angle, double length);
 
 /// `stem_length_mm` is the length of the profile whose chasing is painted.
-[[nodiscard]] Image8 paint_nautilus_cup(double stem_length_mm);
+[[nodiscard]] image::Image8 paint_nautilus_cup(double stem_length_mm);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 constexpr int steps_per_span = 64;
@@ -101,4 +101,4 @@ double Profile::length_at_height(double height) const {
     return height < points_.front().position.y ? 0.0 : length_mm();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 struct ProfileKnot {
     double radius = 0.0;
@@ -40,4 +40,4 @@ private:
     std::vector<double> rows_; ///< 0..1, one per point
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

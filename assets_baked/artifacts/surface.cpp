@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 struct Cells {
@@ -81,7 +81,7 @@ std::vector<Cells> share_budget(const std::vector<Patch>& patches, std::int64_t 
     return cells;
 }
 
-void append_vertices(const Patch& patch, const Cells& cells, SourceMesh& mesh) {
+void append_vertices(const Patch& patch, const Cells& cells, bake::SourceMesh& mesh) {
     const auto columns = static_cast<std::size_t>(cells.u + 1);
     const std::size_t first = mesh.positions.size();
     mesh.positions.resize(first + columns * static_cast<std::size_t>(cells.v + 1));
@@ -97,7 +97,7 @@ void append_vertices(const Patch& patch, const Cells& cells, SourceMesh& mesh) {
     });
 }
 
-void append_triangles(const Patch& patch, const Cells& cells, std::uint32_t first, SourceMesh& mesh) {
+void append_triangles(const Patch& patch, const Cells& cells, std::uint32_t first, bake::SourceMesh& mesh) {
     const auto columns = static_cast<std::uint32_t>(cells.u + 1);
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(cells.v); ++v) {
         const bool low_pole = patch.pole_at_start && v == 0;
@@ -117,9 +117,9 @@ void append_triangles(const Patch& patch, const Cells& cells, std::uint32_t firs
 
 } // namespace
 
-SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, Image8 texture) {
+bake::SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, image::Image8 texture) {
     const std::vector<Cells> cells = share_budget(patches, triangles);
-    SourceMesh mesh;
+    bake::SourceMesh mesh;
     mesh.triangles.reserve(static_cast<std::size_t>(triangles_of(patches, cells)));
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -127,9 +127,10 @@ SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, 
         append_triangles(patches[i], cells[i], first, mesh);
     }
     mesh.triangle_materials.assign(mesh.triangles.size(), 0);
-    mesh.textures.push_back({std::make_shared<const Image8>(std::move(texture)), Wrap::Repeat, Wrap::Clamp});
+    mesh.textures.push_back(
+        {std::make_shared<const image::Image8>(std::move(texture)), bake::Wrap::Repeat, bake::Wrap::Clamp});
     mesh.materials.push_back({.texture = 0});
     return mesh;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

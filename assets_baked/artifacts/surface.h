@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
 struct SurfacePoint {
     glm::dvec3 position{0.0};
@@ -33,6 +33,7 @@ struct Patch {
 
 /// One material with `texture`. The number of triangles is within 5 % of `triangles` if that is at least
 /// 1000.
-[[nodiscard]] SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles, Image8 texture);
+[[nodiscard]] bake::SourceMesh make_mesh(const std::vector<Patch>& patches, std::int64_t triangles,
+                                         image::Image8 texture);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -26,7 +26,7 @@ constexpr int target_indices = 34963;
 
 class Writer {
 public:
-    explicit Writer(const SourceMesh& mesh) : mesh_(mesh) {}
+    explicit Writer(const bake::SourceMesh& mesh) : mesh_(mesh) {}
 
     Bytes write() {
         document_ = Json::object();
@@ -119,7 +119,7 @@ private:
     }
 
     void write_materials() {
-        for (const SourceMaterial& material : mesh_.materials) {
+        for (const bake::SourceMaterial& material : mesh_.materials) {
             const glm::vec4& colour = material.base_colour;
             Json surface = {{"baseColorFactor", {colour.r, colour.g, colour.b, colour.a}},
                             {"metallicFactor", 0.0},
@@ -137,15 +137,15 @@ private:
     }
 
     void write_textures() {
-        const auto wrap = [](Wrap mode) {
-            return mode == Wrap::Repeat ? 10497 : mode == Wrap::Mirror ? 33648 : 33071;
+        const auto wrap = [](bake::Wrap mode) {
+            return mode == bake::Wrap::Repeat ? 10497 : mode == bake::Wrap::Mirror ? 33648 : 33071;
         };
-        std::map<const Image8*, std::size_t> images;
-        for (const SourceTexture& texture : mesh_.textures) {
+        std::map<const image::Image8*, std::size_t> images;
+        for (const bake::SourceTexture& texture : mesh_.textures) {
             const auto [image, is_new] = images.try_emplace(texture.image.get(), images.size());
             if (is_new) {
                 const std::size_t first = binary_.size();
-                const Bytes png = encode_png(*texture.image);
+                const Bytes png = image::encode_png(*texture.image);
                 binary_.insert(binary_.end(), png.begin(), png.end());
                 document_["images"].push_back(
                     {{"bufferView", close_view(first, 0)}, {"mimeType", "image/png"}});
@@ -182,14 +182,14 @@ private:
         return std::move(binary_);
     }
 
-    const SourceMesh& mesh_;
+    const bake::SourceMesh& mesh_;
     Json document_;
     Bytes binary_;
 };
 
 } // namespace
 
-Result<Bytes> write_glb(const SourceMesh& mesh) {
+Result<Bytes> write_glb(const bake::SourceMesh& mesh) {
     Bytes bytes = Writer(mesh).write();
     if (bytes.empty()) {
         return bad_input("artifact.too_large",
@@ -198,4 +198,4 @@ Result<Bytes> write_glb(const SourceMesh& mesh) {
     return bytes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

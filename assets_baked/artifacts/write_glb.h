@@ -11,8 +11,8 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 
-[[nodiscard]] Result<Bytes> write_glb(const SourceMesh& mesh);
+[[nodiscard]] Result<Bytes> write_glb(const bake::SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -79,4 +79,4 @@ AtlasLayout pack_rectangles(const std::vector<glm::ivec2>& sizes) {
     return layout;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

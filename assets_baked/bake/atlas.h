@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct AtlasLayout {
     int width = 0;
@@ -20,4 +20,4 @@ struct AtlasLayout {
 /// The picture is about square. A size is at least 1 x 1, or 0 x 0 for an empty rectangle.
 [[nodiscard]] AtlasLayout pack_rectangles(const std::vector<glm::ivec2>& sizes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -20,7 +20,7 @@
 #include <optional>
 #include <tuple>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -32,13 +32,13 @@ constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 
 /// The axis closest to each face's normal.
-std::vector<ReliefDirection> directions_of(const PropShape& prop) {
-    std::vector<ReliefDirection> directions;
-    for (const PropFace& face : prop.faces) {
+std::vector<pack::ReliefDirection> directions_of(const geometry::PropShape& prop) {
+    std::vector<pack::ReliefDirection> directions;
+    for (const geometry::PropFace& face : prop.faces) {
         const glm::dvec3& n = face.plane.normal;
         const glm::dvec3 size = glm::abs(n);
         const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-        directions.push_back(static_cast<ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0)));
+        directions.push_back(static_cast<pack::ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0)));
     }
     return directions;
 }
@@ -47,13 +47,13 @@ std::vector<ReliefDirection> directions_of(const PropShape& prop) {
 struct Surface {
     TriangleMesh mesh;
     float tolerance_box = 0.0F;
-    LevelError error;
+    pack::LevelError error;
 };
 
 /// Levels that share a texture; `PackLevel::texture` is left at 0.
 struct TexturedLevels {
-    std::vector<PackLevel> levels;
-    Image8 texture;
+    std::vector<pack::PackLevel> levels;
+    image::Image8 texture;
 };
 
 /// The input of the levels, for making and measuring them.
@@ -111,13 +111,13 @@ public:
         std::reverse(charted.begin(), charted.end());
         // A texel shows the finest surface that contains it.
         const ChartedMesh all = joined(charted);
-        const Image<AtlasTexel> texels = rasterise(all);
+        const image::Image<AtlasTexel> texels = rasterise(all);
         const float reach = reach_of(surfaces.front().tolerance_box);
         TexturedLevels made{{},
                             lit(all, texels, bake_colour(all, texels, source_, reach), reach,
                                 bake_coverage(all, texels, source_, reach))};
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
-            PackLevel level = make_level(charted[k], frame_.box_size);
+            pack::PackLevel level = make_level(charted[k], frame_.box_size);
             level.error = surfaces[k].error;
             if (options_.unlit) {
                 level.error.colour_rmse = measure_colour(level, made.texture, frame_.box_size, samples_);
@@ -128,11 +128,16 @@ public:
     }
 
     /// The pack's reliefs, in addition to the levels.
-    [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
+    [[nodiscard]] std::vector<pack::MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
         options_.progress("relief to be cast", 0.9);
-        return bake_reliefs({meshes.levels.front(), meshes.texture, frame_.box_size,
-                             directions_of(options_.prop.shape), source_, samples_, options_.prop.zone,
-                             options_.unlit},
+        return bake_reliefs({.finest = meshes.levels.front(),
+                             .texture = meshes.texture,
+                             .box_size = frame_.box_size,
+                             .directions = directions_of(options_.prop.shape),
+                             .truth = source_,
+                             .samples = samples_,
+                             .zone = options_.prop.zone,
+                             .compare_colour = options_.unlit},
                             options_.size);
     }
 
@@ -160,15 +165,15 @@ private:
     static float reach_of(float tolerance_box) { return 4.0F * tolerance_box + 1e-3F; }
 
     /// The texture in the museum's light.
-    Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
-               const Image<float>& coverage) {
+    image::Image8 lit(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                      image::ImageFloat colour, float reach, const image::Image<float>& coverage) {
         if (!options_.unlit) {
             multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
         }
         return finish(colour, texels, coverage);
     }
 
-    static void multiply(ImageFloat& colour, const ImageFloat& light) {
+    static void multiply(image::ImageFloat& colour, const image::ImageFloat& light) {
         for (std::size_t k = 0; k < colour.texels.size(); ++k) {
             colour.texels[k] *= light.texels[k];
         }
@@ -186,13 +191,13 @@ private:
     SourceSamples samples_;
 };
 
-double mm_per_box(const Pack& pack, const BakedProp& prop) {
-    return place(pack, prop.shape).metres_per_box * 1e3;
+double mm_per_box(const pack::Pack& pack, const BakedProp& prop) {
+    return pack::place(pack, prop.shape).metres_per_box * 1e3;
 }
 
 /// The first level that is good enough, starting at the finest one of at most `free_triangles`. The start is
 /// never the last level, which is for close views and is drawn with more samples.
-std::uint32_t choose_default(const Pack& pack, const SeenErrors& seen, const BakedProp& prop) {
+std::uint32_t choose_default(const pack::Pack& pack, const pack::SeenErrors& seen, const BakedProp& prop) {
     constexpr std::size_t free_triangles = 30'000;
     std::uint32_t level = 0;
     while (level + 2 < pack.levels.size() && pack.levels[level + 1].indices.size() / 3 <= free_triangles) {
@@ -207,13 +212,17 @@ std::uint32_t choose_default(const Pack& pack, const SeenErrors& seen, const Bak
     return level;
 }
 
-LevelOutline outline_of(const Surface& surface) {
-    return {LevelTechnique::Mesh, surface.error, surface.mesh.triangle_count(), 0, 0};
+pack::LevelOutline outline_of(const Surface& surface) {
+    return {.technique = pack::LevelTechnique::Mesh,
+            .error = surface.error,
+            .triangles = surface.mesh.triangle_count(),
+            .vertices = 0,
+            .texture = 0};
 }
 
 /// Keeps the surfaces that are worth a level, from fine to coarse.
 void keep_front(std::vector<Surface>& surfaces) {
-    std::vector<LevelOutline> outlines;
+    std::vector<pack::LevelOutline> outlines;
     outlines.reserve(surfaces.size());
     for (const Surface& surface : surfaces) {
         outlines.push_back(outline_of(surface));
@@ -226,7 +235,7 @@ void keep_front(std::vector<Surface>& surfaces) {
 }
 
 /// True if the mean error is smaller and neither the 95th percentile nor the colour error is clearly larger.
-bool betters(const LevelError& dearer, const LevelError& cheaper) {
+bool betters(const pack::LevelError& dearer, const pack::LevelError& cheaper) {
     constexpr float scatter = 1.1F; // scatter of a measure over random points
     constexpr float min_rmse = 1.0F;
     return dearer.mean_box < cheaper.mean_box && dearer.p95_box < scatter * cheaper.p95_box &&
@@ -234,12 +243,15 @@ bool betters(const LevelError& dearer, const LevelError& cheaper) {
 }
 
 /// Moves the levels on the front, and their texture, into the pack.
-void keep(Pack& pack, TexturedLevels meshes) {
-    std::vector<LevelOutline> outlines;
+void keep(pack::Pack& pack, TexturedLevels meshes) {
+    std::vector<pack::LevelOutline> outlines;
     outlines.reserve(meshes.levels.size());
-    for (const PackLevel& level : meshes.levels) {
-        outlines.push_back(
-            {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), 0});
+    for (const pack::PackLevel& level : meshes.levels) {
+        outlines.push_back({.technique = level.technique,
+                            .error = level.error,
+                            .triangles = level.indices.size() / 3,
+                            .vertices = level.vertices.size(),
+                            .texture = 0});
     }
     for (const std::size_t k : measured_front(outlines)) {
         pack.levels.push_back(std::move(meshes.levels[k]));
@@ -249,19 +261,19 @@ void keep(Pack& pack, TexturedLevels meshes) {
 
 } // namespace
 
-std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels) {
+std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels) {
     constexpr std::uint64_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
     constexpr float worst_mean_box = 3e-3F;       // 0.3 mm on an artifact of 0.1 m, the most that a visitor
                                                   // accepts
     std::vector<std::size_t> order(levels.size());
     std::iota(order.begin(), order.end(), 0);
     const auto rank = [&](std::size_t k) {
-        const LevelOutline& level = levels[k];
+        const pack::LevelOutline& level = levels[k];
         return std::tuple(std::max(level.triangles, few_triangles), level.error.mean_box, level.triangles);
     };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
     float nearest = std::numeric_limits<float>::infinity();
-    for (const LevelOutline& level : levels) {
+    for (const pack::LevelOutline& level : levels) {
         nearest = std::min(nearest, level.error.mean_box);
     }
     std::erase_if(
@@ -276,11 +288,11 @@ std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels)
 }
 
 BakedProp baked_frustum() {
-    return {"frustum", make_frustum(shipped_frustum), {}};
+    return {"frustum", geometry::make_frustum(geometry::shipped_frustum), {}};
 }
 
 BakedProp baked_cube() {
-    return {"cube", make_cube(FrustumSize{}.base_m), ViewingZone::all_around()};
+    return {"cube", geometry::make_cube(geometry::FrustumSize{}.base_m), ViewingZone::all_around()};
 }
 
 std::uintmax_t room_for_pack(int size) {
@@ -297,23 +309,23 @@ std::int64_t useful_picture_texels(int size) {
     return std::clamp(std::int64_t{256} * size * size, least, most);
 }
 
-Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
+Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     options.progress("reading the surface", 0.0);
     Bakery bakery(mesh, frame, options);
     TRY_VOID(bakery.check());
-    Pack pack;
+    pack::Pack pack;
     for (const GivenHotspot& given : options.hotspots) {
-        TRY(PackHotspot hotspot, put_on_surface(given, bakery.source(), frame, options.prop.zone));
+        TRY(pack::PackHotspot hotspot, put_on_surface(given, bakery.source(), frame, options.prop.zone));
         pack.hotspots.push_back(std::move(hotspot));
     }
     std::vector<Surface> surfaces = bakery.surfaces();
     keep_front(surfaces);
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
-    const std::vector<MeasuredRelief> cast =
-        options.relief ? bakery.reliefs(meshes) : std::vector<MeasuredRelief>{};
-    put_reliefs(pack, cast);
+    const std::vector<pack::MeasuredRelief> cast =
+        options.relief ? bakery.reliefs(meshes) : std::vector<pack::MeasuredRelief>{};
+    pack::put_reliefs(pack, cast);
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;
@@ -327,7 +339,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
             used.push_back(bakery.points()[vertex]);
         }
     }
-    put_hull(enclosing_corners(used, max_hull_corners), pack);
+    pack::put_hull(geometry::enclosing_corners(used, pack::max_hull_corners), pack);
     if (frame.lift_box > 0.0) {
         used.emplace_back(0.0); // the bottom of the box, above which the artifact stands
     }
@@ -336,12 +348,13 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     options.progress("choice of the level", 0.98);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
-    put_seen_errors(seen, pack);
+    const pack::SeenErrors seen =
+        seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    pack::put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);
     options.progress("done", 1.0);
     return pack;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -21,12 +21,12 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// The kind of prop that a pack is baked for, in any size.
 struct BakedProp {
     std::string kind;
-    PropShape shape; ///< of the usual size, which decides which errors a visitor would notice
+    geometry::PropShape shape; ///< of the usual size, which decides which errors a visitor would notice
     ViewingZone zone;
 };
 /// Stands on the table.
@@ -51,7 +51,7 @@ struct BakeOptions {
 };
 
 /// The caller fills in id, title, languages, captions and provenance.
-[[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
+[[nodiscard]] Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
 
 /// Disk space in bytes that a pack of this size (texels) may need. The largest pack measured, a helmet of
 /// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack's limit.
@@ -66,6 +66,6 @@ struct BakeOptions {
 /// cost does not depend on them), cheapest first: each has a smaller mean error than the one before, and no
 /// clearly larger 95th percentile or colour error. Levels that stray further than a visitor would accept are
 /// left out, except for the most exact one.
-[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels);
+[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -38,9 +38,9 @@ std::vector<glm::dvec3> upright_points(const SourceMesh& mesh, const BoxFrame& f
 }
 
 /// Slopes of the prop's planes: of their normals, and 0 for the bounding box.
-std::vector<double> slopes_of(const PropShape& prop) {
+std::vector<double> slopes_of(const geometry::PropShape& prop) {
     std::set<double> slopes{0.0};
-    for (const Plane& plane : prop.bounds) {
+    for (const geometry::Plane& plane : prop.bounds) {
         const double across = std::hypot(plane.normal.x, plane.normal.y);
         if (across > 1e-9) {
             slopes.insert(plane.normal.z / across);
@@ -85,7 +85,8 @@ std::vector<glm::dvec3> outermost_of_many(const std::vector<glm::dvec3>& points,
 }
 
 /// The largest scale inside the prop after a turn, placed as in box_frame.h.
-double scale_after(int turn_deg, std::vector<glm::dvec3> points, double lift_box, const PropShape& prop) {
+double scale_after(int turn_deg, std::vector<glm::dvec3> points, double lift_box,
+                   const geometry::PropShape& prop) {
     const glm::dmat3 turn = turn_rotation(turn_deg);
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -98,7 +99,7 @@ double scale_after(int turn_deg, std::vector<glm::dvec3> points, double lift_box
     for (glm::dvec3& p : points) {
         p -= foot;
     }
-    return largest_scale_inside(prop, points);
+    return geometry::largest_scale_inside(prop, points);
 }
 
 /// Pixels that the artifact covers, seen from the front.
@@ -168,7 +169,8 @@ std::ptrdiff_t seen_pixels(int turn_deg, const SourceMesh& mesh, const BoxFrame&
 }
 
 /// -44 to 45: 0 or 45 degrees if the artifact is then as large, otherwise the turn at which it is largest.
-int turn_of_largest_size(const std::vector<glm::dvec3>& points, double lift_box, const PropShape& prop) {
+int turn_of_largest_size(const std::vector<glm::dvec3>& points, double lift_box,
+                         const geometry::PropShape& prop) {
     constexpr double as_large = 0.995;
     std::array<double, quarter_turn_deg> scales{};
     for (int turn = 0; turn < quarter_turn_deg; ++turn) {
@@ -186,7 +188,8 @@ int turn_of_largest_size(const std::vector<glm::dvec3>& points, double lift_box,
 
 } // namespace
 
-double best_turn_deg(const SourceMesh& mesh, std::string_view up, double lift, const PropShape& prop) {
+double best_turn_deg(const SourceMesh& mesh, std::string_view up, double lift,
+                     const geometry::PropShape& prop) {
     const Result<BoxFrame> frame = make_box_frame(mesh, {std::string(up), 0.0, lift});
     if (!frame) {
         return 0.0;
@@ -200,4 +203,4 @@ double best_turn_deg(const SourceMesh& mesh, std::string_view up, double lift, c
     return beside > clearly_more * front ? turn + quarter_turn_deg : turn;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -15,11 +15,11 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// -44 to 135. `prop` must look the same after a quarter turn. 0 for an unknown up axis or a mesh without
 /// extent.
 [[nodiscard]] double best_turn_deg(const SourceMesh& mesh, std::string_view up, double lift,
-                                   const PropShape& prop);
+                                   const geometry::PropShape& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

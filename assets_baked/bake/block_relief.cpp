@@ -9,15 +9,15 @@
 #include <limits>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
-constexpr std::size_t corners_of_block = std::size_t{block_corners} * block_corners;
+constexpr std::size_t corners_of_block = std::size_t{relief::block_corners} * relief::block_corners;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 constexpr std::size_t corner_at(int column, int row) {
-    return static_cast<std::size_t>(row) * block_corners + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * relief::block_corners + static_cast<std::size_t>(column);
 }
 
 /// A block that is being filled with cells of one connected layer.
@@ -27,7 +27,7 @@ struct OpenBlock {
     std::array<float, corners_of_block> w{};
     std::array<glm::u8vec4, corners_of_block> guess{}; ///< colours for corners without a crossing; alpha 0:
                                                        ///< none
-    std::array<std::uint64_t, std::size_t{block_cells} * block_cells>
+    std::array<std::uint64_t, std::size_t{relief::block_cells} * relief::block_cells>
         cover{}; ///< of each cell; 0 if the cell does not exist
 
     OpenBlock() {
@@ -39,7 +39,7 @@ struct OpenBlock {
     /// agree if they are close together; they only count if `guessed`.
     [[nodiscard]] std::optional<int> shared(const LinkedCell& cell, int column, int row, bool guessed) const {
         constexpr float together = 0.25F; // texels
-        if ((mask >> (row * block_cells + column) & 1U) != 0) {
+        if ((mask >> (row * relief::block_cells + column) & 1U) != 0) {
             return std::nullopt;
         }
         int same = 0;
@@ -60,8 +60,8 @@ struct OpenBlock {
     }
 
     void add(const LinkedCell& cell, int column, int row) {
-        mask |= std::uint64_t{1} << (row * block_cells + column);
-        cover[static_cast<std::size_t>(row * block_cells + column)] = cell.cover;
+        mask |= std::uint64_t{1} << (row * relief::block_cells + column);
+        cover[static_cast<std::size_t>(row * relief::block_cells + column)] = cell.cover;
         for (int k = 0; k < 4; ++k) {
             const std::size_t at = corner_at(column + (k & 1), row + (k >> 1));
             const auto corner = static_cast<std::size_t>(k);
@@ -133,8 +133,8 @@ bool OpenBlock::lies_with(const OpenBlock& other) const {
 std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings& grid, int column0,
                                    int row0) {
     std::vector<OpenBlock> blocks;
-    for (int row = 0; row < block_cells; ++row) {
-        for (int column = 0; column < block_cells; ++column) {
+    for (int row = 0; row < relief::block_cells; ++row) {
+        for (int column = 0; column < relief::block_cells; ++column) {
             for (const LinkedCell& cell : link_cells(input, grid, column0 + column, row0 + row)) {
                 OpenBlock* into = nullptr;
                 for (const bool guessed : {false, true}) {
@@ -167,8 +167,8 @@ std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings&
 glm::dvec3 fit_plane(const OpenBlock& block) {
     glm::dmat3 normal(1e-9); // a single row of corners has no slope across
     glm::dvec3 sum(0.0);
-    for (int row = 0; row < block_corners; ++row) {
-        for (int column = 0; column < block_corners; ++column) {
+    for (int row = 0; row < relief::block_corners; ++row) {
+        for (int column = 0; column < relief::block_corners; ++column) {
             const float w = block.w[corner_at(column, row)];
             if (!std::isnan(w)) {
                 const glm::dvec3 at(1.0, column, row);
@@ -190,16 +190,17 @@ void fill_gaps(std::array<Value, corners_of_block>& values, Known known) {
     for (bool again = true; again;) {
         again = false;
         const std::array<bool, corners_of_block> had = has;
-        for (int row = 0; row < block_corners; ++row) {
-            for (int column = 0; column < block_corners; ++column) {
+        for (int row = 0; row < relief::block_corners; ++row) {
+            for (int column = 0; column < relief::block_corners; ++column) {
                 const std::size_t at = corner_at(column, row);
                 if (had[at]) {
                     continue;
                 }
                 Value sum{};
                 float count = 0.0F;
-                for (int y = std::max(row - 1, 0); y <= std::min(row + 1, block_cells); ++y) {
-                    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, block_cells); ++x) {
+                for (int y = std::max(row - 1, 0); y <= std::min(row + 1, relief::block_cells); ++y) {
+                    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, relief::block_cells);
+                         ++x) {
                         if (had[corner_at(x, y)]) {
                             sum += values[corner_at(x, y)];
                             count += 1.0F;
@@ -217,7 +218,7 @@ void fill_gaps(std::array<Value, corners_of_block>& values, Known known) {
 
 /// One direction's blocks, before they are added to the relief.
 struct DirectionBlocks {
-    std::vector<ReliefBlock> blocks;
+    std::vector<relief::ReliefBlock> blocks;
     std::vector<std::uint32_t> corner_codes;
     std::vector<std::uint64_t> covers;
     std::vector<glm::u8vec4> colours;
@@ -230,7 +231,7 @@ struct DirectionBlocks {
         corner_codes.insert(corner_codes.end(), other.corner_codes.begin(), other.corner_codes.end());
         colours.insert(colours.end(), other.colours.begin(), other.colours.end());
         std::for_each(blocks.begin() + first, blocks.end(),
-                      [before](ReliefBlock& block) { block.first_cover += before; });
+                      [before](relief::ReliefBlock& block) { block.first_cover += before; });
     }
 };
 
@@ -247,16 +248,16 @@ void add_colours(DirectionBlocks& into, const OpenBlock& open, const GridCrossin
 }
 
 /// Extents and gradients of the existing cells.
-void set_cells(ReliefBlock& block, const std::array<float, corners_of_block>& residual) {
-    block.cells = {block_cells, 0, block_cells, 0};
+void set_cells(relief::ReliefBlock& block, const std::array<float, corners_of_block>& residual) {
+    block.cells = {relief::block_cells, 0, relief::block_cells, 0};
     block.gradient_u =
         block.gradient_v = {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
     const auto widen = [](glm::vec2& range, float value) {
         range = {std::min(range.x, value), std::max(range.y, value)};
     };
-    for (int row = 0; row < block_cells; ++row) {
-        for (int column = 0; column < block_cells; ++column) {
-            if ((block.mask >> (row * block_cells + column) & 1U) == 0) {
+    for (int row = 0; row < relief::block_cells; ++row) {
+        for (int column = 0; column < relief::block_cells; ++column) {
+            if ((block.mask >> (row * relief::block_cells + column) & 1U) == 0) {
                 continue;
             }
             const auto at = [&](int i, int j) { return residual[corner_at(column + i, row + j)]; };
@@ -273,7 +274,7 @@ void set_cells(ReliefBlock& block, const std::array<float, corners_of_block>& re
     }
 }
 
-void add_cuts(DirectionBlocks& into, ReliefBlock& block, const OpenBlock& open) {
+void add_cuts(DirectionBlocks& into, relief::ReliefBlock& block, const OpenBlock& open) {
     block.first_cover = static_cast<std::uint32_t>(into.covers.size());
     for (std::size_t k = 0; k < open.cover.size(); ++k) {
         if (open.cover[k] != 0 && open.cover[k] != ~std::uint64_t{0}) {
@@ -286,7 +287,7 @@ void add_cuts(DirectionBlocks& into, ReliefBlock& block, const OpenBlock& open) 
 void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings& grid, int column0,
                int row0) {
     const glm::dvec3 plane = fit_plane(open);
-    ReliefBlock block;
+    relief::ReliefBlock block;
     block.u0 = static_cast<float>(column0);
     block.v0 = static_cast<float>(row0);
     block.w0 = static_cast<float>(plane.x);
@@ -296,8 +297,8 @@ void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings
     std::array<float, corners_of_block> residual{};
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
-    for (int row = 0; row < block_corners; ++row) {
-        for (int column = 0; column < block_corners; ++column) {
+    for (int row = 0; row < relief::block_corners; ++row) {
+        for (int column = 0; column < relief::block_corners; ++column) {
             const std::size_t at = corner_at(column, row);
             if (!std::isnan(open.w[at])) {
                 const double on_plane = plane.x + plane.y * column + plane.z * row;
@@ -317,8 +318,8 @@ void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings
         const float steps = (residual[corner_at(column, row)] - low) / block.residual_step;
         return static_cast<std::uint32_t>(std::clamp(std::lround(steps), 0L, 255L));
     };
-    for (int row = 0; row < block_cells; ++row) {
-        for (int column = 0; column < block_cells; ++column) {
+    for (int row = 0; row < relief::block_cells; ++row) {
+        for (int column = 0; column < relief::block_cells; ++column) {
             into.corner_codes.push_back(code(column, row) | code(column + 1, row) << 8U |
                                         code(column, row + 1) << 16U | code(column + 1, row + 1) << 24U);
         }
@@ -328,11 +329,11 @@ void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings
 }
 
 DirectionBlocks blocks_of(const BlockInput& input, const GridCrossings& grid) {
-    std::vector<DirectionBlocks> rows(static_cast<std::size_t>((grid.rows - 1) / block_cells));
+    std::vector<DirectionBlocks> rows(static_cast<std::size_t>((grid.rows - 1) / relief::block_cells));
     parallel_for(rows.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            const int row = static_cast<int>(k) * block_cells;
-            for (int column = 0; column + block_cells < grid.columns; column += block_cells) {
+            const int row = static_cast<int>(k) * relief::block_cells;
+            for (int column = 0; column + relief::block_cells < grid.columns; column += relief::block_cells) {
                 for (const OpenBlock& open : fill_blocks(input, grid, column, row)) {
                     add_block(rows[k], open, grid, column, row);
                 }
@@ -348,11 +349,11 @@ DirectionBlocks blocks_of(const BlockInput& input, const GridCrossings& grid) {
 
 } // namespace
 
-BlockRelief bake_blocks(const BlockInput& input) {
-    BlockRelief relief;
+relief::BlockRelief bake_blocks(const BlockInput& input) {
+    relief::BlockRelief relief;
     relief.texel_box = static_cast<float>(1.0 / input.texels);
     DirectionBlocks all;
-    for (const ReliefDirection direction : input.directions) {
+    for (const pack::ReliefDirection direction : input.directions) {
         const GridCrossings grid = cross_grid(input, direction);
         relief.grids.push_back(grid.grid);
         relief.first_block.push_back(static_cast<std::uint32_t>(all.blocks.size()));
@@ -366,4 +367,4 @@ BlockRelief bake_blocks(const BlockInput& input) {
     return relief;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,15 +12,15 @@
 #include "assets_baked/bake/direction_frame.h"
 #include "assets_baked/bake/source_scene.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct BlockInput {
     const SourceScene& surface; ///< only front sides are kept; invisible parts should be removed beforehand
     glm::dvec3 box_size{1.0};
-    std::vector<ReliefDirection> directions;
+    std::vector<pack::ReliefDirection> directions;
     int texels = 512; ///< along the box's longest edge
 };
 
-[[nodiscard]] BlockRelief bake_blocks(const BlockInput& input);
+[[nodiscard]] relief::BlockRelief bake_blocks(const BlockInput& input);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -164,4 +164,4 @@ std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points) {
     return extremes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Counter-clockwise about the vertical axis; whole quarter turns are exact.
 [[nodiscard]] glm::dmat3 turn_rotation(double turn_deg);
@@ -55,4 +55,4 @@ struct BoxFrame {
 /// vertices of the convex hulls of the (x, z) and (y, z) profiles.
 [[nodiscard]] std::vector<glm::dvec3> profile_extremes(std::span<const glm::dvec3> points);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

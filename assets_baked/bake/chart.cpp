@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -84,7 +84,7 @@ void Chart::reach(const glm::ivec2& low, const glm::ivec2& high) {
     const glm::ivec2 room = empty ? glm::ivec2(0) : old_size / 4 + 4;
     const glm::ivec2 new_low = empty ? low : glm::min(low - room, origin_);
     const glm::ivec2 new_high = empty ? high : glm::max(high + room, origin_ + old_size - 1);
-    Image<Texel> larger(new_high.x - new_low.x + 1, new_high.y - new_low.y + 1);
+    image::Image<Texel> larger(new_high.x - new_low.x + 1, new_high.y - new_low.y + 1);
     for (int y = 0; y < old_size.y; ++y) {
         for (int x = 0; x < old_size.x; ++x) {
             larger.at(x + origin_.x - new_low.x, y + origin_.y - new_low.y) = texels_.at(x, y);
@@ -94,4 +94,4 @@ void Chart::reach(const glm::ivec2& low, const glm::ivec2& high) {
     origin_ = new_low;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 using TriangleCorners = std::array<glm::vec3, 3>;
 
@@ -40,7 +40,7 @@ private:
 
     glm::vec3 axis_u_, axis_v_, direction_;
     glm::ivec2 origin_{0}; ///< of `texels_`
-    Image<Texel> texels_;
+    image::Image<Texel> texels_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

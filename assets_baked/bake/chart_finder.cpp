@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::vector<std::uint32_t> ChartFinder::beside_in(const TriangleMesh& other) con
     return beside;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

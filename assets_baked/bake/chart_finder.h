@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 inline constexpr std::uint32_t no_chart = 0xFFFFFFFFU;
 
@@ -58,4 +58,4 @@ private:
     std::vector<std::uint32_t> seeds_; ///< of the charts that this mesh began
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

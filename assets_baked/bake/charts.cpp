@@ -10,7 +10,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -202,4 +202,4 @@ ChartedMesh joined(std::span<const ChartedMesh> meshes) {
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct ChartedMesh {
     int atlas_width = 0;
@@ -65,4 +65,4 @@ private:
 /// The triangles of all meshes, which must share an atlas, in order.
 [[nodiscard]] ChartedMesh joined(std::span<const ChartedMesh> meshes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -2,7 +2,7 @@
 
 #include <meshoptimizer.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -11,8 +11,8 @@ constexpr std::size_t max_vertices = 96;
 constexpr std::size_t max_triangles = 64;
 constexpr float cone_weight = 0.0F;
 
-PackCluster bounded_by(const meshopt_Bounds& bounds) {
-    PackCluster cluster;
+pack::PackCluster bounded_by(const meshopt_Bounds& bounds) {
+    pack::PackCluster cluster;
     cluster.centre = {bounds.center[0], bounds.center[1], bounds.center[2]};
     cluster.radius = bounds.radius * 1.0001F + 1e-6F;
     if (bounds.cone_cutoff < 1.0F) {
@@ -25,8 +25,9 @@ PackCluster bounded_by(const meshopt_Bounds& bounds) {
 
 } // namespace
 
-std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
-                                           std::span<const glm::vec3> positions, std::uint32_t first_index) {
+std::vector<pack::PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
+                                                 std::span<const glm::vec3> positions,
+                                                 std::uint32_t first_index) {
     if (indices.empty()) {
         return {};
     }
@@ -39,11 +40,11 @@ std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
     meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), indices.data(),
                                           indices.size(), coordinates, positions.size(), sizeof(glm::vec3),
                                           max_vertices, max_triangles, cone_weight));
-    std::vector<PackCluster> clusters;
+    std::vector<pack::PackCluster> clusters;
     clusters.reserve(meshlets.size());
     std::uint32_t done = 0;
     for (const meshopt_Meshlet& meshlet : meshlets) {
-        PackCluster cluster = bounded_by(meshopt_computeMeshletBounds(
+        pack::PackCluster cluster = bounded_by(meshopt_computeMeshletBounds(
             &vertices[meshlet.vertex_offset], &corners[meshlet.triangle_offset], meshlet.triangle_count,
             coordinates, positions.size(), sizeof(glm::vec3)));
         cluster.first_index = first_index + done;
@@ -56,4 +57,4 @@ std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
     return clusters;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -11,12 +11,12 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Reorders the triangles of `indices` cluster by cluster, each in vertex-cache order, and computes the
 /// bounds of every cluster; the first one's `first_index` is `first_index`.
-[[nodiscard]] std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
-                                                         std::span<const glm::vec3> positions,
-                                                         std::uint32_t first_index = 0);
+[[nodiscard]] std::vector<pack::PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
+                                                               std::span<const glm::vec3> positions,
+                                                               std::uint32_t first_index = 0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
 constexpr int max_code_step = 2; ///< of 255, within which two colours are one
 
-const Image8* picture_of(const SourceMesh& mesh, const SourceMaterial& material) {
+const image::Image8* picture_of(const SourceMesh& mesh, const SourceMaterial& material) {
     return material.texture < 0 || mesh.uvs.empty()
                ? nullptr
                : mesh.textures[static_cast<std::size_t>(material.texture)].image.get();
@@ -23,19 +23,19 @@ bool is_near(const glm::u8vec4& a, const glm::u8vec4& b) {
 }
 
 glm::u8vec4 code_of(const glm::vec4& linear) {
-    return {srgb8_from_linear(static_cast<double>(linear.r)),
-            srgb8_from_linear(static_cast<double>(linear.g)),
-            srgb8_from_linear(static_cast<double>(linear.b)), 255};
+    return {image::srgb8_from_linear(static_cast<double>(linear.r)),
+            image::srgb8_from_linear(static_cast<double>(linear.g)),
+            image::srgb8_from_linear(static_cast<double>(linear.b)), 255};
 }
 
 /// The picture's colour, linear, if it has only one.
-std::optional<glm::vec4> one_colour_of(const Image8& picture) {
+std::optional<glm::vec4> one_colour_of(const image::Image8& picture) {
     const glm::u8vec4 first = picture.texels.front();
     if (!std::all_of(picture.texels.begin(), picture.texels.end(),
                      [&](const glm::u8vec4& texel) { return is_near(texel, first); })) {
         return std::nullopt;
     }
-    const std::array<float, 256>& linear = linear_from_srgb8();
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     return glm::vec4(linear[first.r], linear[first.g], linear[first.b], 1.0F);
 }
 
@@ -70,7 +70,7 @@ std::optional<glm::vec4> one_colour_of(const SourceMesh& mesh) {
     std::optional<glm::vec4> first;
     for (std::size_t k = 0; k < mesh.materials.size(); ++k) {
         const SourceMaterial& material = mesh.materials[k];
-        const Image8* picture = used[k] ? picture_of(mesh, material) : nullptr;
+        const image::Image8* picture = used[k] ? picture_of(mesh, material) : nullptr;
         const std::optional<glm::vec4> painted =
             picture != nullptr ? one_colour_of(*picture) : glm::vec4(1.0F);
         if (!painted) {
@@ -110,9 +110,9 @@ bool is_all_black(const SourceMesh& mesh) {
     const bool dark_vertices =
         !mesh.colours.empty() && std::all_of(mesh.colours.begin(), mesh.colours.end(), is_dark);
     const auto is_dark_material = [&](const SourceMaterial& material) {
-        const Image8* picture = material.texture < 0
-                                    ? nullptr
-                                    : mesh.textures[static_cast<std::size_t>(material.texture)].image.get();
+        const image::Image8* picture =
+            material.texture < 0 ? nullptr
+                                 : mesh.textures[static_cast<std::size_t>(material.texture)].image.get();
         return is_dark(material.base_colour) ||
                (picture != nullptr &&
                 std::all_of(picture->texels.begin(), picture->texels.end(), [](const glm::u8vec4& texel) {
@@ -176,4 +176,4 @@ std::optional<std::string> look_for_own_light(const SourceMesh& mesh) {
         triangles, mesh.triangles.size());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

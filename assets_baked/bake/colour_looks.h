@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] std::optional<std::string> look_for_black(const SourceMesh& mesh);
 /// A mesh without pictures and colours at its vertices has one colour on purpose; a black one has a look of its own.
@@ -16,4 +16,4 @@ namespace frustumscreen {
 /// For a mesh that will be lit: colours that the file gives as light, or as unlit.
 [[nodiscard]] std::optional<std::string> look_for_own_light(const SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::optional<std::string> look_for_few_decimals(const SourceMesh& mesh) {
     return std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

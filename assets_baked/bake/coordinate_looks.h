@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Numbers of 32 bits, far from the origin.
 [[nodiscard]] std::optional<std::string> look_for_far_origin(const SourceMesh& mesh);
@@ -17,4 +17,4 @@ namespace frustumscreen {
 /// as of bodies that are made of blocks, do not count.
 [[nodiscard]] std::optional<std::string> look_for_few_decimals(const SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

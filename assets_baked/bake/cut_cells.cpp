@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int c
     return cover;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// The heights of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), some known.
 struct CornerHeights {
@@ -30,4 +30,4 @@ inline constexpr float end_reach = 0.3F;
 [[nodiscard]] std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int column, int row,
                                      CornerHeights& corners);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

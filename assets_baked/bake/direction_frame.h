@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct DirectionFrame {
     int axis_u, axis_v, axis_n;
@@ -21,21 +21,22 @@ struct DirectionFrame {
     }
 };
 
-[[nodiscard]] constexpr DirectionFrame frame_of(ReliefDirection direction) {
-    const float sign = direction == ReliefDirection::PlusX || direction == ReliefDirection::PlusY ||
-                               direction == ReliefDirection::PlusZ
+[[nodiscard]] constexpr DirectionFrame frame_of(pack::ReliefDirection direction) {
+    const float sign = direction == pack::ReliefDirection::PlusX ||
+                               direction == pack::ReliefDirection::PlusY ||
+                               direction == pack::ReliefDirection::PlusZ
                            ? 1.0F
                            : -1.0F;
     switch (direction) {
-    case ReliefDirection::PlusX:
-    case ReliefDirection::MinusX:
-        return {1, 2, 0, sign};
-    case ReliefDirection::PlusY:
-    case ReliefDirection::MinusY:
-        return {0, 2, 1, sign};
+    case pack::ReliefDirection::PlusX:
+    case pack::ReliefDirection::MinusX:
+        return {.axis_u = 1, .axis_v = 2, .axis_n = 0, .sign = sign};
+    case pack::ReliefDirection::PlusY:
+    case pack::ReliefDirection::MinusY:
+        return {.axis_u = 0, .axis_v = 2, .axis_n = 1, .sign = sign};
     default:
-        return {0, 1, 2, sign};
+        return {.axis_u = 0, .axis_v = 1, .axis_n = 2, .sign = sign};
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

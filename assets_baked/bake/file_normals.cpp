@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -48,4 +48,4 @@ glm::vec3 FileNormals::at(const SurfaceHit& hit, const glm::vec3& normal) const 
     return glm::dot(sum, normal) < min_agreement ? normal : sum;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class FileNormals {
 public:
@@ -32,4 +32,4 @@ private:
     std::vector<glm::vec3> normals_; ///< empty or one per position of the mesh
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

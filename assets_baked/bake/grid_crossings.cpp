@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -21,38 +21,38 @@ constexpr float min_distance = 1e-4F;
 int lines_for(double extent_box, double texel_box) {
     const int cells =
         static_cast<int>(std::ceil(extent_box / texel_box)) + 1; // half a cell of rim on either side
-    return (cells + block_cells - 1) / block_cells * block_cells + 1;
+    return (cells + relief::block_cells - 1) / relief::block_cells * relief::block_cells + 1;
 }
 
-ReliefGrid grid_of(const DirectionFrame& frame, const glm::dvec3& size, double texel_box) {
-    ReliefGrid grid{{frame.axis_u, frame.axis_v, frame.axis_n}, static_cast<double>(frame.sign), {}};
+relief::ReliefGrid grid_of(const DirectionFrame& frame, const glm::dvec3& size, double texel_box) {
+    relief::ReliefGrid grid{{frame.axis_u, frame.axis_v, frame.axis_n}, static_cast<double>(frame.sign), {}};
     const glm::dvec3 low(-0.5 * size.x, -0.5 * size.y, 0.0);
     grid.origin_box = low - 0.5 * texel_box;
     grid.origin_box[frame.axis_n] = low[frame.axis_n] + (frame.sign > 0.0F ? 0.0 : size[frame.axis_n]);
     return grid;
 }
 
-std::vector<glm::vec3> normals_of(const std::vector<ReliefDirection>& directions) {
+std::vector<glm::vec3> normals_of(const std::vector<pack::ReliefDirection>& directions) {
     std::vector<glm::vec3> normals;
-    for (const ReliefDirection direction : directions) {
+    for (const pack::ReliefDirection direction : directions) {
         normals.push_back(frame_of(direction).normal());
     }
     return normals;
 }
 
 glm::u8vec4 codes_of(const glm::vec4& linear) {
-    return {srgb8_from_linear(static_cast<double>(linear.r)),
-            srgb8_from_linear(static_cast<double>(linear.g)),
-            srgb8_from_linear(static_cast<double>(linear.b)), 255};
+    return {image::srgb8_from_linear(static_cast<double>(linear.r)),
+            image::srgb8_from_linear(static_cast<double>(linear.g)),
+            image::srgb8_from_linear(static_cast<double>(linear.b)), 255};
 }
 
 /// Follows the line at (u, v) from the top of the range to its bottom, and visits its crossings from the
 /// front: the hit, its height and the cosine between its normal and the line.
 template <typename Visit>
-void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+void follow_line(const BlockInput& input, const relief::ReliefGrid& grid, const glm::dvec2& at,
                  const glm::dvec2& range, const Visit& visit) {
     const double texel_box = 1.0 / input.texels;
-    const glm::vec3 origin(box_from_grid(grid, texel_box) * glm::dvec4(at, range.y, 1.0));
+    const glm::vec3 origin(relief::box_from_grid(grid, texel_box) * glm::dvec4(at, range.y, 1.0));
     glm::vec3 outward(0.0F);
     outward[grid.axis[2]] = static_cast<float>(grid.sign);
     const auto end = static_cast<float>((range.y - range.x) * texel_box);
@@ -70,7 +70,7 @@ void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dve
     }
 }
 
-LineCrossing crossing_of(const ReliefGrid& grid, const SurfaceHit& hit, double w, double cosine) {
+LineCrossing crossing_of(const relief::ReliefGrid& grid, const SurfaceHit& hit, double w, double cosine) {
     return {static_cast<float>(w),
             static_cast<float>(-static_cast<double>(hit.normal[grid.axis[0]]) / cosine),
             static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine)};
@@ -87,7 +87,7 @@ bool is_own(const std::vector<glm::vec3>& normals, const SurfaceHit& hit, double
 
 } // namespace
 
-void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+void cross_line(const BlockInput& input, const relief::ReliefGrid& grid, const glm::dvec2& at,
                 const glm::dvec2& range, std::vector<LineCrossing>& found) {
     found.clear();
     follow_line(input, grid, at, range, [&](const SurfaceHit& hit, double w, double cosine) {
@@ -95,7 +95,7 @@ void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec
     });
 }
 
-std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
+std::optional<Crossing> crossing_from(const BlockInput& input, const relief::ReliefGrid& grid,
                                       const SurfaceHit& hit) {
     const double cosine = grid.sign * static_cast<double>(hit.normal[grid.axis[2]]);
     if (!(cosine > min_cosine)) {
@@ -106,7 +106,7 @@ std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid&
                     codes_of(input.surface.colour(hit))};
 }
 
-glm::dvec3 grid_from_box(const ReliefGrid& grid, const glm::dvec3& point, double texel_box) {
+glm::dvec3 grid_from_box(const relief::ReliefGrid& grid, const glm::dvec3& point, double texel_box) {
     glm::dvec3 at;
     for (int k = 0; k < 3; ++k) {
         const int axis = grid.axis[static_cast<std::size_t>(k)];
@@ -124,7 +124,7 @@ std::span<const SheetEnd> GridCrossings::ends_in(int column, int row) const {
     return {first, last};
 }
 
-GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
+GridCrossings cross_grid(const BlockInput& input, pack::ReliefDirection direction) {
     const DirectionFrame frame = frame_of(direction);
     const double texel_box = 1.0 / input.texels;
     GridCrossings grid;
@@ -162,4 +162,4 @@ GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
     return grid;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// A line's crossing of the surface from its front, not at too flat an angle; texels.
 struct LineCrossing {
@@ -47,7 +47,7 @@ struct SheetEnd : Crossing {
 /// Shape  `columns` x `rows` lines, whole blocks and one more; the crossings of a line from the outermost
 ///        inwards.
 struct GridCrossings {
-    ReliefGrid grid;
+    relief::ReliefGrid grid;
     int columns = 0, rows = 0;
     std::vector<std::uint32_t> first; ///< start of each line, and the end
     std::vector<Crossing> crossings;
@@ -66,17 +66,18 @@ struct GridCrossings {
 
 /// Finds the crossings of any line (u, v), on the grid or between its lines, with heights within `range`
 /// (lowest, highest), highest first; stored in `found`, which is cleared first.
-void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
+void cross_line(const BlockInput& input, const relief::ReliefGrid& grid, const glm::dvec2& at,
                 const glm::dvec2& range, std::vector<LineCrossing>& found);
 
 /// The crossing that the direction gets from a hit anywhere on the surface: height, slopes, owner, colour;
 /// nullopt if the surface is too flat to the direction's lines or faces away. Of the hit, triangle, position
 /// in it, point and normal are used.
-[[nodiscard]] std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
+[[nodiscard]] std::optional<Crossing> crossing_from(const BlockInput& input, const relief::ReliefGrid& grid,
                                                     const SurfaceHit& hit);
 
-[[nodiscard]] glm::dvec3 grid_from_box(const ReliefGrid& grid, const glm::dvec3& point, double texel_box);
+[[nodiscard]] glm::dvec3 grid_from_box(const relief::ReliefGrid& grid, const glm::dvec3& point,
+                                       double texel_box);
 
-[[nodiscard]] GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction);
+[[nodiscard]] GridCrossings cross_grid(const BlockInput& input, pack::ReliefDirection direction);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

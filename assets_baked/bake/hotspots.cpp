@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -84,8 +84,8 @@ std::string in_sizes(double distance_box) {
 
 } // namespace
 
-Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
-                                   const BoxFrame& frame, const ViewingZone& zone) {
+Result<pack::PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
+                                         const BoxFrame& frame, const ViewingZone& zone) {
     const glm::dvec3 wanted(frame.box_from_file * glm::dvec4(given.point_file, 1.0));
     const SurfaceHit nearest = nearest_with_normal(source, glm::vec3(wanted));
     if (!nearest.hit || nearest.normal == glm::vec3(0.0F)) {
@@ -111,8 +111,9 @@ Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene&
                          given.place, words_of(given.point_file));
     }
     const glm::vec3 outward = back > front ? -nearest.normal : nearest.normal;
-    return PackHotspot{glm::dvec3(nearest.point),
-                       glm::normalize(glm::dvec3(mean_normal(source, nearest.point, outward))), given.labels};
+    return pack::PackHotspot{glm::dvec3(nearest.point),
+                             glm::normalize(glm::dvec3(mean_normal(source, nearest.point, outward))),
+                             given.labels};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

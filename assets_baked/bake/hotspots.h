@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct GivenHotspot {
     std::string place; ///< where it was specified, for messages
     glm::dvec3 point_file{0.0};
-    std::vector<PackLabel> labels;
+    std::vector<pack::PackLabel> labels;
 };
 
 /// Largest distance of a given point from the surface, as a share of the artifact's longest edge.
@@ -28,7 +28,7 @@ inline constexpr double max_hotspot_distance_box = 0.05;
 
 /// The nearest point of the surface, with the mean normal around it, oriented to the side from which more of
 /// the viewing zone is visible.
-[[nodiscard]] Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
-                                                 const BoxFrame& frame, const ViewingZone& zone);
+[[nodiscard]] Result<pack::PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
+                                                       const BoxFrame& frame, const ViewingZone& zone);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps, 
     return notes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

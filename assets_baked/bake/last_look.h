@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct Scraps {
     std::vector<bool> is_scrap; ///< one for each triangle; empty: no scraps
@@ -34,4 +34,4 @@ enum class Lighting : std::uint8_t { None, Museum };
 [[nodiscard]] std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps,
                                                 Lighting lighting);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -28,25 +28,25 @@ std::array<std::uint16_t, 3> codes_of(const glm::vec3& p, const glm::dvec3& box_
     return {quantised(unit.x), quantised(unit.y), quantised(unit.z)};
 }
 
-glm::vec3 position_of(const PackVertex& vertex, const glm::dvec3& box_size) {
+glm::vec3 position_of(const pack::PackVertex& vertex, const glm::dvec3& box_size) {
     const glm::vec3 unit(vertex.position[0], vertex.position[1], vertex.position[2]);
     return box_low(box_size) + unit / code_max * glm::vec3(box_size);
 }
 
-std::vector<glm::vec3> positions_of(const PackLevel& level, const glm::dvec3& box_size) {
+std::vector<glm::vec3> positions_of(const pack::PackLevel& level, const glm::dvec3& box_size) {
     std::vector<glm::vec3> positions;
     positions.reserve(level.vertices.size());
-    for (const PackVertex& vertex : level.vertices) {
+    for (const pack::PackVertex& vertex : level.vertices) {
         positions.push_back(position_of(vertex, box_size));
     }
     return positions;
 }
 
-void order_vertices(PackLevel& level) {
-    std::vector<PackVertex> ordered(level.vertices.size());
+void order_vertices(pack::PackLevel& level) {
+    std::vector<pack::PackVertex> ordered(level.vertices.size());
     const std::size_t count =
         meshopt_optimizeVertexFetch(ordered.data(), level.indices.data(), level.indices.size(),
-                                    level.vertices.data(), level.vertices.size(), sizeof(PackVertex));
+                                    level.vertices.data(), level.vertices.size(), sizeof(pack::PackVertex));
     ordered.resize(count);
     level.vertices = std::move(ordered);
 }
@@ -72,12 +72,12 @@ struct AreaSampler {
     std::vector<double> running;
 };
 
-glm::vec3 texture_at(const Image8& texture, glm::vec2 uv) {
+glm::vec3 texture_at(const image::Image8& texture, glm::vec2 uv) {
     const float x = uv.x * static_cast<float>(texture.width) - 0.5F;
     const float y = uv.y * static_cast<float>(texture.height) - 0.5F;
     const int x0 = static_cast<int>(std::floor(x));
     const int y0 = static_cast<int>(std::floor(y));
-    const std::array<float, 256>& linear = linear_from_srgb8();
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     const auto texel = [&](int i, int j) {
         const glm::u8vec4 t =
             texture.at(std::clamp(i, 0, texture.width - 1), std::clamp(j, 0, texture.height - 1));
@@ -109,8 +109,8 @@ std::vector<glm::vec3> used_positions(const TriangleMesh& mesh) {
 float squared_codes(const glm::vec3& a, const glm::vec3& b) {
     float sum = 0.0F;
     for (int k = 0; k < 3; ++k) {
-        const float difference =
-            static_cast<float>(srgb8_from_linear(a[k])) - static_cast<float>(srgb8_from_linear(b[k]));
+        const float difference = static_cast<float>(image::srgb8_from_linear(a[k])) -
+                                 static_cast<float>(image::srgb8_from_linear(b[k]));
         sum += difference * difference;
     }
     return sum / 3.0F;
@@ -124,11 +124,11 @@ constexpr float search_reach = 0.2F;
 
 } // namespace
 
-PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size) {
-    PackLevel level;
+pack::PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size) {
+    pack::PackLevel level;
     level.vertices.reserve(mesh.positions.size());
     for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
-        PackVertex vertex;
+        pack::PackVertex vertex;
         vertex.position = codes_of(mesh.positions[k], box_size);
         vertex.uv = {quantised(mesh.uv_texels[k].x / static_cast<float>(mesh.atlas_width)),
                      quantised(mesh.uv_texels[k].y / static_cast<float>(mesh.atlas_height))};
@@ -147,22 +147,23 @@ TriangleMesh on_codes(TriangleMesh mesh, const glm::dvec3& box_size) {
     return mesh;
 }
 
-TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size) {
+TriangleMesh surface_of(const pack::PackLevel& level, const glm::dvec3& box_size) {
     TriangleMesh mesh;
     mesh.positions = positions_of(level, box_size);
     mesh.indices = level.indices;
     return mesh;
 }
 
-SourceMesh textured_source(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size) {
+SourceMesh textured_source(const pack::PackLevel& level, const image::Image8& texture,
+                           const glm::dvec3& box_size) {
     SourceMesh mesh = as_source(surface_of(level, box_size));
-    for (const PackVertex& vertex : level.vertices) {
+    for (const pack::PackVertex& vertex : level.vertices) {
         mesh.uvs.push_back(glm::vec2(vertex.uv[0], vertex.uv[1]) / 65535.0F);
     }
-    const std::shared_ptr<const Image8> borrowed(std::shared_ptr<void>(), &texture);
+    const std::shared_ptr<const image::Image8> borrowed(std::shared_ptr<void>(), &texture);
     mesh.textures = {{borrowed, Wrap::Clamp, Wrap::Clamp}};
     mesh.materials[0].texture = 0;
-    mesh.materials[0].alpha_mask = has_cut_texels(texture);
+    mesh.materials[0].alpha_mask = image::has_cut_texels(texture);
     return mesh;
 }
 
@@ -207,8 +208,8 @@ SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visib
     return samples;
 }
 
-LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
-                         const SourceSamples& samples) {
+pack::LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
+                               const SourceSamples& samples) {
     const SourceMesh surface_mesh = as_source(surface);
     const std::vector<glm::dvec3> surface_points(surface.positions.begin(), surface.positions.end());
     const SourceScene surface_scene(surface_mesh, surface_points);
@@ -242,7 +243,7 @@ LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
             corners[k] = distance_to(surface_scene, samples.corners[k]);
         }
     });
-    LevelError error;
+    pack::LevelError error;
     error.mean_box = static_cast<float>(std::accumulate(distances.begin(), distances.end(), 0.0) /
                                         static_cast<double>(distances.size()));
     std::sort(distances.begin(), distances.end());
@@ -252,7 +253,7 @@ LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
     return error;
 }
 
-float measure_colour(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
+float measure_colour(const pack::PackLevel& level, const image::Image8& texture, const glm::dvec3& box_size,
                      const SourceSamples& samples) {
     const TriangleMesh surface = surface_of(level, box_size);
     const SourceMesh surface_mesh = as_source(surface);
@@ -265,8 +266,9 @@ float measure_colour(const PackLevel& level, const Image8& texture, const glm::d
             const SurfaceHit hit = surface_scene.nearest(point.position, search_reach);
             if (hit.hit) {
                 const auto uv = [&](int corner) {
-                    const PackVertex& v = level.vertices[level.indices[3 * std::size_t{hit.triangle} +
-                                                                       static_cast<std::size_t>(corner)]];
+                    const pack::PackVertex& v =
+                        level.vertices[level.indices[3 * std::size_t{hit.triangle} +
+                                                     static_cast<std::size_t>(corner)]];
                     return glm::vec2(v.uv[0], v.uv[1]) / code_max;
                 };
                 const glm::vec2 at = uv(0) * (1.0F - hit.u - hit.v) + uv(1) * hit.u + uv(2) * hit.v;
@@ -280,11 +282,12 @@ float measure_colour(const PackLevel& level, const Image8& texture, const glm::d
                                               static_cast<double>(squares.size())));
 }
 
-LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                   const SourceScene& source, const SourceSamples& samples, bool compare_colour) {
-    LevelError error = measure_shape(surface_of(level, box_size), source, samples);
+pack::LevelError measure(const pack::PackLevel& level, const image::Image8& texture,
+                         const glm::dvec3& box_size, const SourceScene& source, const SourceSamples& samples,
+                         bool compare_colour) {
+    pack::LevelError error = measure_shape(surface_of(level, box_size), source, samples);
     error.colour_rmse = compare_colour ? measure_colour(level, texture, box_size, samples) : 0.0F;
     return error;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -16,20 +16,20 @@
 #include <functional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// A level with vertices, indices and clusters; the caller sets texture and error.
-[[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size);
+[[nodiscard]] pack::PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size);
 
 /// The mesh as stored in a level: with its positions rounded to the pack's codes.
 [[nodiscard]] TriangleMesh on_codes(TriangleMesh mesh, const glm::dvec3& box_size);
 
 /// Rebuilds a level's surface from its quantised vertices.
-[[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
+[[nodiscard]] TriangleMesh surface_of(const pack::PackLevel& level, const glm::dvec3& box_size);
 
 /// A level's surface with its texture, for ray casts; rays pass where the texture's alpha cuts. `texture` must outlive
 /// it.
-[[nodiscard]] SourceMesh textured_source(const PackLevel& level, const Image8& texture,
+[[nodiscard]] SourceMesh textured_source(const pack::PackLevel& level, const image::Image8& texture,
                                          const glm::dvec3& box_size);
 
 /// Points on the source that a visitor sees, with their colour: chosen once, and compared with every level.
@@ -51,34 +51,37 @@ struct SourceSamples {
 
 /// Measures in both directions: the surface's points against the source, the source's visible points against
 /// the surface. The maximum also includes the source's corners. Colour is left at 0.
-[[nodiscard]] LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
-                                       const SourceSamples& samples);
+[[nodiscard]] pack::LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
+                                             const SourceSamples& samples);
 /// RMSE over the source's visible points, in 8-bit codes. Only meaningful for unlit textures: baked light is
 /// not an error.
-[[nodiscard]] float measure_colour(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                                   const SourceSamples& samples);
+[[nodiscard]] float measure_colour(const pack::PackLevel& level, const image::Image8& texture,
+                                   const glm::dvec3& box_size, const SourceSamples& samples);
 /// Shape and, if `compare_colour`, colour.
-[[nodiscard]] LevelError measure(const PackLevel& level, const Image8& texture, const glm::dvec3& box_size,
-                                 const SourceScene& source, const SourceSamples& samples,
-                                 bool compare_colour);
+[[nodiscard]] pack::LevelError measure(const pack::PackLevel& level, const image::Image8& texture,
+                                       const glm::dvec3& box_size, const SourceScene& source,
+                                       const SourceSamples& samples, bool compare_colour);
 
 /// The first hit of a ray on a surface that may have invisible parts.
 using TraceSurface = std::function<SurfaceHit(const glm::vec3& eye, const glm::vec3& direction)>;
 /// The error of the pack's levels and reliefs as seen by eyes all around: rays from each eye against the
 /// source. The eyes are spread evenly over the zone, except for its edge, where visitors hardly stand.
 /// `share`: of the usual number of rays.
-[[nodiscard]] SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs,
-                                     const SourceScene& source, const ViewingZone& zone, double share = 1.0);
+[[nodiscard]] pack::SeenErrors seen_errors(const pack::Pack& pack,
+                                           std::span<const pack::MeasuredRelief> reliefs,
+                                           const SourceScene& source, const ViewingZone& zone,
+                                           double share = 1.0);
 /// The means over all eyes: with a single eye, one strap would change the figures too much.
-[[nodiscard]] SeenError mean_of(std::span<const SeenError> seen);
+[[nodiscard]] pack::SeenError mean_of(std::span<const pack::SeenError> seen);
 /// Distances in both directions, as in measure_shape, between points hit by rays from eyes of the zone: from
 /// the source's hits to the surface, and from the hits of `trace` to the source. Invisible parts do not
 /// count. Colour is left at 0.
-[[nodiscard]] LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
-                                        const SourceScene& source, const glm::dvec3& box_size,
-                                        const ViewingZone& zone, double share = 1.0);
+[[nodiscard]] pack::LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
+                                              const SourceScene& source, const glm::dvec3& box_size,
+                                              const ViewingZone& zone, double share = 1.0);
 /// True if a visitor would take the level for the source, and no part of it is missing.
-[[nodiscard]] bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box);
+[[nodiscard]] bool good_enough(const pack::LevelError& measured, const pack::SeenError& seen,
+                               double mm_per_box);
 
 /// Samples a pixel (2, 4 or 8) for pictures of the source at the resolution of a usual table: the fewest that
 /// stay within a modest colour error of 16 samples, and no more than a slow GPU shades in time. Plain bodies
@@ -86,4 +89,4 @@ using TraceSurface = std::function<SurfaceHit(const glm::vec3& eye, const glm::v
 [[nodiscard]] int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,
                                  const ViewingZone& zone, double share = 1.0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -158,4 +158,4 @@ std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings&
     return CellLinks(input, grid, column, row).find();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

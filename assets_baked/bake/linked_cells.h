@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 inline constexpr std::uint32_t no_crossing = 0xFFFFFFFFU;
 
@@ -35,4 +35,4 @@ struct LinkedCell {
 [[nodiscard]] std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid,
                                                  int column, int row);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

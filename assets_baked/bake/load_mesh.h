@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct LoadOptions {
     /// A picture to use if the model names a missing one or none at all; empty: none.
@@ -26,4 +26,4 @@ struct LoadOptions {
 [[nodiscard]] Result<SourceMesh> load_mesh(const std::filesystem::path& path,
                                            const LoadOptions& options = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

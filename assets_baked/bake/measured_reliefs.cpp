@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
 /// The texture, whose texels are a `size`th of the box, reduced to about the relief's texels, so that no
 /// texel is skipped.
-Image8 mip_for(const Image8& texture, int size, int texels) {
-    Image8 mip = texture;
+image::Image8 mip_for(const image::Image8& texture, int size, int texels) {
+    image::Image8 mip = texture;
     for (int each = size; each >= 2 * texels; each /= 2) {
-        mip = half_size(mip);
+        mip = image::half_size(mip);
     }
     return mip;
 }
@@ -30,13 +30,17 @@ std::vector<int> relief_texels(int size) {
     return texels;
 }
 
-std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
-    std::vector<MeasuredRelief> reliefs;
+std::vector<pack::MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
+    std::vector<pack::MeasuredRelief> reliefs;
     for (const int texels : relief_texels(size)) {
-        const Image8 texture = mip_for(source.texture, size, texels);
+        const image::Image8 texture = mip_for(source.texture, size, texels);
         const SourceMesh mesh = textured_source(source.finest, texture, source.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);
-        MeasuredRelief made{bake_blocks({scene, source.box_size, source.directions, texels}), {}};
+        pack::MeasuredRelief made{bake_blocks({.surface = scene,
+                                               .box_size = source.box_size,
+                                               .directions = source.directions,
+                                               .texels = texels}),
+                                  {}};
         if (made.relief.blocks.empty()) {
             continue;
         }
@@ -51,4 +55,4 @@ std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
     return reliefs;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -16,22 +16,22 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Resolutions for a bake of this size: 96, doubled repeatedly, up to the size itself; below 96 only the
 /// size. At 384 a texel is about a pixel near the projector.
 [[nodiscard]] std::vector<int> relief_texels(int size);
 
 struct ReliefSource {
-    const PackLevel& finest;
-    const Image8& texture; ///< of `finest`
+    const pack::PackLevel& finest;
+    const image::Image8& texture; ///< of `finest`
     glm::dvec3 box_size{1.0};
-    std::vector<ReliefDirection> directions;
+    std::vector<pack::ReliefDirection> directions;
     const SourceScene& truth;
     const SourceSamples& samples; ///< of the source, for colour
     const ViewingZone& zone;
     bool compare_colour = false; ///< false for baked light, which is not an error
 };
-[[nodiscard]] std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);
+[[nodiscard]] std::vector<pack::MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

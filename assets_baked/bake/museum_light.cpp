@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -60,4 +60,4 @@ float MuseumLight::at(const glm::vec3& place, const glm::vec3& normal) const {
     return sum / static_cast<float>(directions_.size());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

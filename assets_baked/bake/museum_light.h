@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class MuseumLight {
 public:
@@ -25,4 +25,4 @@ private:
     std::vector<glm::vec3> directions_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,14 +12,14 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Two triangles for each existing cell; cut cells are whole.
-[[nodiscard]] TriangleMesh surface_of(const BlockRelief& relief);
+[[nodiscard]] TriangleMesh surface_of(const relief::BlockRelief& relief);
 
 class ReliefScene {
 public:
-    explicit ReliefScene(const BlockRelief& relief);
+    explicit ReliefScene(const relief::BlockRelief& relief);
     ReliefScene(const ReliefScene&) = delete;
     ReliefScene& operator=(const ReliefScene&) = delete;
 
@@ -40,11 +40,11 @@ public:
 private:
     [[nodiscard]] bool is_drawn(const SurfaceHit& hit, const glm::vec3& direction) const;
 
-    const BlockRelief& relief_;
+    const relief::BlockRelief& relief_;
     TriangleMesh surface_;
     SourceMesh mesh_;
     SourceScene scene_;
     std::vector<Cell> cells_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

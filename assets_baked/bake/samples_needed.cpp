@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -46,7 +46,8 @@ struct FarView {
 double squared_codes(const glm::vec3& a, const glm::vec3& b) {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
-        const double difference = static_cast<double>(srgb8_from_linear(a[k])) - srgb8_from_linear(b[k]);
+        const double difference =
+            static_cast<double>(image::srgb8_from_linear(a[k])) - image::srgb8_from_linear(b[k]);
         sum += difference * difference;
     }
     return sum / 3.0;
@@ -112,8 +113,11 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
                                            std::cos(elevation) * std::sin(k * golden_angle + 1.0),
                                            std::sin(elevation)));
         const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 0, 1), towards));
-        const FarView view{towards, right, glm::cross(towards, right),
-                           glm::vec3(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F), pixel_box};
+        const FarView view{.towards = towards,
+                           .right = right,
+                           .up = glm::cross(towards, right),
+                           .centre = glm::vec3(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F),
+                           .pixel_box = pixel_box};
         const auto errors = errors_of(view, source, half, every, pixels);
         for (std::size_t g = 0; g < grids.size(); ++g) {
             worst[g] = std::max(worst[g], errors[g]);
@@ -127,4 +131,4 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
     return grids[chosen].x * grids[chosen].y;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::string_view guessed_unit(std::string_view format, double longest) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

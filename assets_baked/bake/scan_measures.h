@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct ScanMeasures {
     std::size_t points = 0;                ///< different ones that triangles use
@@ -31,4 +31,4 @@ struct ScanMeasures {
 /// makes it between 5 mm and 20 m. `format` is that of SourceContents: glTF means metres, and is believed if it can be.
 [[nodiscard]] std::string_view guessed_unit(std::string_view format, double longest);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

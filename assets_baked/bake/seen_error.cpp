@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -64,8 +64,8 @@ public:
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
 
     /// The distance along each ray to the surface.
-    [[nodiscard]] Image<float> cast(const TraceSurface& trace) const {
-        Image<float> distances(size_.x, size_.y, no_hit);
+    [[nodiscard]] image::Image<float> cast(const TraceSurface& trace) const {
+        image::Image<float> distances(size_.x, size_.y, no_hit);
         parallel_for(static_cast<std::size_t>(size_.y), 8, [&](std::size_t begin, std::size_t end) {
             for (std::size_t y = begin; y < end; ++y) {
                 for (int x = 0; x < size_.x; ++x) {
@@ -90,7 +90,7 @@ TraceSurface on(const SourceScene& scene) {
 }
 
 /// Number of hits with a 4-neighbour that misses.
-std::size_t outline_of(const Image<float>& distances) {
+std::size_t outline_of(const image::Image<float>& distances) {
     std::size_t found = 0;
     const auto missed = [&](int x, int y) { return distances.at(x, y) == no_hit; };
     for (int y = 1; y + 1 < distances.height; ++y) {
@@ -109,7 +109,7 @@ struct Slopes {
     float steepness = 1.0F; ///< mean over all neighbours
     /// For each patch: the distances of neighbours that hit different surfaces, summed and divided by the
     /// number of all neighbours. Hidden parts begin there, and a ray hits them when an edge moves.
-    std::array<double, seen_patches> over_edges{};
+    std::array<double, pack::seen_patches> over_edges{};
     double edges = 0.0; ///< neighbours that hit different surfaces
     double gaps = 0.0;  ///< sum of their distances
 };
@@ -119,11 +119,11 @@ struct Slopes {
 /// of them are.
 constexpr double edge_slope = 4.0;
 
-Slopes slopes_of(const EyeRays& rays, const Image<float>& source) {
+Slopes slopes_of(const EyeRays& rays, const image::Image<float>& source) {
     double sum = 0.0;
     double count = 0.0;
     Slopes slopes;
-    std::array<double, seen_patches> counts{};
+    std::array<double, pack::seen_patches> counts{};
     const auto slope = [&](const glm::ivec2& from, const glm::ivec2& to) -> std::optional<double> {
         const auto inside = [&](const glm::ivec2& at) {
             return at.x >= 0 && at.y >= 0 && at.x < source.width && at.y < source.height;
@@ -158,27 +158,28 @@ Slopes slopes_of(const EyeRays& rays, const Image<float>& source) {
             }
         }
     }
-    for (std::size_t k = 0; k < seen_patches; ++k) {
+    for (std::size_t k = 0; k < pack::seen_patches; ++k) {
         slopes.over_edges[k] /= std::max(counts[k], 1.0);
     }
     slopes.steepness = count > 0.0 ? static_cast<float>(sum / count) : 1.0F;
     return slopes;
 }
 
-SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float>& source, float steepness) {
-    SeenEye eye{towards, steepness, {}};
+pack::SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const image::Image<float>& source,
+                     float steepness) {
+    pack::SeenEye eye{towards, steepness, {}};
     double hits = 0.0;
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
             if (source.at(x, y) != no_hit) {
-                SeenPatch& patch = eye.patches[rays.patch(x, y)];
+                pack::SeenPatch& patch = eye.patches[rays.patch(x, y)];
                 patch.place += glm::dvec3(rays.eye() + rays.direction(x, y) * source.at(x, y));
                 patch.share += 1.0;
                 hits += 1.0;
             }
         }
     }
-    for (SeenPatch& patch : eye.patches) {
+    for (pack::SeenPatch& patch : eye.patches) {
         patch.place /= std::max(patch.share, 1.0);
         patch.share /= std::max(hits, 1.0);
     }
@@ -187,16 +188,16 @@ SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float
 
 /// Comparison of a level with the source for one eye.
 struct Compared {
-    SeenError error;   ///< its means are of rays that hit the same surface in both
-    double both = 0.0; ///< rays that hit in both
+    pack::SeenError error; ///< its means are of rays that hit the same surface in both
+    double both = 0.0;     ///< rays that hit in both
     double beyond_edges =
         0.0; ///< of these, the rays that hit another surface: the sum of their errors, box units
 };
 
-Compared compare(const EyeRays& rays, const Image<float>& level, const Image<float>& source) {
+Compared compare(const EyeRays& rays, const image::Image<float>& level, const image::Image<float>& source) {
     std::vector<double> off;
-    std::array<double, seen_patches> sums{};
-    std::array<double, seen_patches> counts{};
+    std::array<double, pack::seen_patches> sums{};
+    std::array<double, pack::seen_patches> counts{};
     std::size_t one = 0;
     Compared found;
     for (int y = 0; y < source.height; ++y) {
@@ -216,7 +217,7 @@ Compared compare(const EyeRays& rays, const Image<float>& level, const Image<flo
             }
         }
     }
-    SeenError& seen = found.error;
+    pack::SeenError& seen = found.error;
     found.both = static_cast<double>(off.size());
     if (!off.empty()) {
         seen.mean_box = static_cast<float>(std::accumulate(sums.begin(), sums.end(), 0.0) /
@@ -224,7 +225,7 @@ Compared compare(const EyeRays& rays, const Image<float>& level, const Image<flo
         seen.silhouette_share = static_cast<float>(static_cast<double>(one) / found.both);
         seen.p95_box = static_cast<float>(quantile(std::move(off), 0.95));
     }
-    for (std::size_t k = 0; k < seen_patches; ++k) {
+    for (std::size_t k = 0; k < pack::seen_patches; ++k) {
         seen.patches_box[k] = counts[k] > 0.0 ? static_cast<float>(sums[k] / counts[k]) : seen.mean_box;
     }
     if (const std::size_t outline = outline_of(source); outline > 0) {
@@ -237,7 +238,7 @@ Compared compare(const EyeRays& rays, const Image<float>& level, const Image<flo
 /// The source as hit by one eye's rays.
 struct SeenSource {
     EyeRays rays;
-    Image<float> distances;
+    image::Image<float> distances;
     Slopes slopes;
 };
 
@@ -272,20 +273,20 @@ double edges_moved(const std::vector<Compared>& compared, const std::vector<Seen
 /// Adds the error of misplaced edges, which show what they should hide. An eye's rays hit few such places, so
 /// their sum is mostly chance. The movement of a level's edges is common to all eyes; the error for an eye
 /// follows from the depth behind its edges.
-std::vector<SeenError> with_edges(const std::vector<Compared>& compared, const std::vector<SeenSource>& eyes,
-                                  const SeenErrors& seen) {
+std::vector<pack::SeenError> with_edges(const std::vector<Compared>& compared,
+                                        const std::vector<SeenSource>& eyes, const pack::SeenErrors& seen) {
     std::vector<double> over_edges(compared.size(), 0.0);
     for (std::size_t eye = 0; eye < compared.size(); ++eye) {
-        for (std::size_t k = 0; k < seen_patches; ++k) {
+        for (std::size_t k = 0; k < pack::seen_patches; ++k) {
             over_edges[eye] += seen.eyes[eye].patches[k].share * eyes[eye].slopes.over_edges[k];
         }
     }
     const double moved_box = edges_moved(compared, eyes, over_edges);
-    std::vector<SeenError> errors;
+    std::vector<pack::SeenError> errors;
     for (std::size_t eye = 0; eye < compared.size(); ++eye) {
-        SeenError& error = errors.emplace_back(compared[eye].error);
+        pack::SeenError& error = errors.emplace_back(compared[eye].error);
         error.mean_box += static_cast<float>(moved_box * over_edges[eye]);
-        for (std::size_t k = 0; k < seen_patches; ++k) {
+        for (std::size_t k = 0; k < pack::seen_patches; ++k) {
             error.patches_box[k] += static_cast<float>(moved_box * eyes[eye].slopes.over_edges[k]);
         }
     }
@@ -313,14 +314,14 @@ std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
 
 } // namespace
 
-SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs, const SourceScene& source,
-                       const ViewingZone& zone, double share) {
+pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::MeasuredRelief> reliefs,
+                             const SourceScene& source, const ViewingZone& zone, double share) {
     const double rays_an_eye = 10'000.0 * share;
-    SeenErrors seen;
+    pack::SeenErrors seen;
     std::vector<SeenSource> eyes;
     for (const glm::dvec3& towards : eyes_of(zone)) {
         const EyeRays rays(towards, pack.box_size, rays_an_eye);
-        Image<float> distances = rays.cast(on(source));
+        image::Image<float> distances = rays.cast(on(source));
         const Slopes slopes = slopes_of(rays, distances);
         seen.eyes.push_back(eye_of(towards, rays, distances, slopes.steepness));
         eyes.push_back({rays, std::move(distances), slopes});
@@ -332,12 +333,12 @@ SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs
         }
         return with_edges(compared, eyes, seen);
     };
-    for (const PackLevel& level : pack.levels) {
+    for (const pack::PackLevel& level : pack.levels) {
         const SourceMesh mesh = textured_source(level, pack.textures[level.texture], pack.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);
         seen.levels.push_back(errors_of(on(scene)));
     }
-    for (const MeasuredRelief& measured : reliefs) {
+    for (const pack::MeasuredRelief& measured : reliefs) {
         const ReliefScene scene(measured.relief);
         seen.reliefs.push_back(errors_of(
             [&](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); }));
@@ -345,8 +346,9 @@ SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs
     return seen;
 }
 
-LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace, const SourceScene& source,
-                          const glm::dvec3& box_size, const ViewingZone& zone, double share) {
+pack::LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
+                                const SourceScene& source, const glm::dvec3& box_size,
+                                const ViewingZone& zone, double share) {
     const double rays_an_eye = 1'750.0 * share;
     constexpr float reach = 0.2F;
     const auto distance_to = [](const SourceScene& scene, const glm::vec3& point) {
@@ -378,14 +380,16 @@ LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
     }
     std::sort(distances.begin(), distances.end());
     const double sum = std::accumulate(distances.begin(), distances.end(), 0.0);
-    return {static_cast<float>(sum / static_cast<double>(distances.size())),
-            distances[distances.size() * 95 / 100], distances.back(), 0.0F};
+    return {.mean_box = static_cast<float>(sum / static_cast<double>(distances.size())),
+            .p95_box = distances[distances.size() * 95 / 100],
+            .max_box = distances.back(),
+            .colour_rmse = 0.0F};
 }
 
-SeenError mean_of(std::span<const SeenError> seen) {
-    SeenError mean;
+pack::SeenError mean_of(std::span<const pack::SeenError> seen) {
+    pack::SeenError mean;
     const float share = 1.0F / static_cast<float>(std::max<std::size_t>(seen.size(), 1));
-    for (const SeenError& each : seen) {
+    for (const pack::SeenError& each : seen) {
         mean.mean_box += share * each.mean_box;
         mean.p95_box += share * each.p95_box;
         mean.outline_shift_box += share * each.outline_shift_box;
@@ -394,7 +398,7 @@ SeenError mean_of(std::span<const SeenError> seen) {
     return mean;
 }
 
-bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box) {
+bool good_enough(const pack::LevelError& measured, const pack::SeenError& seen, double mm_per_box) {
     constexpr double worst_mm =
         1.0; // two pixels of a projector of 1280 x 800; means would hide a blade that is cut off
     // The worst of fifty poses in two set-ups shows up to three times these values.
@@ -409,4 +413,4 @@ bool good_enough(const LevelError& measured, const SeenError& seen, double mm_pe
            static_cast<double>(seen.silhouette_share) <= silhouette_share;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

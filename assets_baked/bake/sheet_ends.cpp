@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> places_of(const SourceScene& surface) {
 
 class EndsOfDirection {
 public:
-    EndsOfDirection(const BlockInput& input, const ReliefGrid& grid) : input_(input), grid_(grid) {}
+    EndsOfDirection(const BlockInput& input, const relief::ReliefGrid& grid) : input_(input), grid_(grid) {}
 
     std::vector<SheetEnd> find() {
         const std::vector<Edge> edges = facing_edges();
@@ -83,7 +83,10 @@ private:
             for (std::uint32_t corner = 0; corner < 3; ++corner) {
                 const std::uint32_t from = places[3 * triangle + (corner + 1) % 3];
                 const std::uint32_t to = places[3 * triangle + (corner + 2) % 3];
-                edges.push_back({std::min(from, to), std::max(from, to), triangle, static_cast<int>(corner)});
+                edges.push_back({.low = std::min(from, to),
+                                 .high = std::max(from, to),
+                                 .triangle = triangle,
+                                 .corner = static_cast<int>(corner)});
             }
         }
         std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
@@ -120,14 +123,14 @@ private:
     }
 
     const BlockInput& input_;
-    const ReliefGrid& grid_;
+    const relief::ReliefGrid& grid_;
     std::vector<SheetEnd> ends_;
 };
 
 } // namespace
 
-std::vector<SheetEnd> sheet_ends(const BlockInput& input, const ReliefGrid& grid) {
+std::vector<SheetEnd> sheet_ends(const BlockInput& input, const relief::ReliefGrid& grid) {
     return EndsOfDirection(input, grid).find();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -10,10 +10,10 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Points along these edges, a quarter of a texel apart, slightly inside their triangles, sorted by cells,
 /// row by row. Only points that no other direction sees clearly better.
-[[nodiscard]] std::vector<SheetEnd> sheet_ends(const BlockInput& input, const ReliefGrid& grid);
+[[nodiscard]] std::vector<SheetEnd> sheet_ends(const BlockInput& input, const relief::ReliefGrid& grid);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -171,4 +171,4 @@ TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 
 #include "assets_baked/bake/triangle_mesh.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Largest distance of the mesh's corners from its simplified surface, in tolerances.
 inline constexpr float max_tolerances_lost = 8.0F;
@@ -23,4 +23,4 @@ inline constexpr float max_tolerances_lost = 8.0F;
 /// by a third of the tolerance. They overlap the remains.
 [[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 enum class Wrap : std::uint8_t { Repeat, Mirror, Clamp };
 
 struct SourceTexture {
-    std::shared_ptr<const Image8> image; ///< sRGB; may be shared between materials
+    std::shared_ptr<const image::Image8> image; ///< sRGB; may be shared between materials
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
 };
@@ -71,4 +71,4 @@ struct SourceMesh {
     char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

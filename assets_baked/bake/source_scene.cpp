@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct SourceScene::Embree {
     const SourceMesh* mesh = nullptr;
@@ -82,7 +82,7 @@ int wrapped_texel(int i, int size, Wrap wrap) {
 
 /// Bilinear at the base level, filtered in linear light.
 glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
-    const Image8& image = *texture.image;
+    const image::Image8& image = *texture.image;
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
         return glm::vec4(1.0F);
     }
@@ -92,7 +92,7 @@ glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
     const int y0 = static_cast<int>(std::floor(y));
     const float fx = x - static_cast<float>(x0);
     const float fy = y - static_cast<float>(y0);
-    const std::array<float, 256>& linear = linear_from_srgb8();
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     const auto texel = [&](int i, int j) {
         const glm::u8vec4 t = image.at(wrapped_texel(i, image.width, texture.wrap_u),
                                        wrapped_texel(j, image.height, texture.wrap_v));
@@ -170,13 +170,13 @@ SurfaceHit first_hit(RTCScene scene, RTCIntersectContext& context, const glm::ve
     }
     const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     const float length = glm::length(normal);
-    return {true,
-            query.ray.tfar,
-            query.hit.primID,
-            query.hit.u,
-            query.hit.v,
-            origin + direction * query.ray.tfar,
-            length > 0.0F ? normal / length : glm::vec3(0.0F)};
+    return {.hit = true,
+            .distance = query.ray.tfar,
+            .triangle = query.hit.primID,
+            .u = query.hit.u,
+            .v = query.hit.v,
+            .point = origin + direction * query.ray.tfar,
+            .normal = length > 0.0F ? normal / length : glm::vec3(0.0F)};
 }
 
 struct NearestQuery {
@@ -199,7 +199,13 @@ bool keep_nearest(RTCPointQueryFunctionArguments* arguments) {
         return false;
     }
     query.best_squared = squared;
-    query.best = {true, std::sqrt(squared), arguments->primID, weights.x, weights.y, point, {}};
+    query.best = {.hit = true,
+                  .distance = std::sqrt(squared),
+                  .triangle = arguments->primID,
+                  .u = weights.x,
+                  .v = weights.y,
+                  .point = point,
+                  .normal = {}};
     arguments->query->radius = query.best.distance;
     return true;
 }
@@ -285,7 +291,7 @@ SurfaceHit SourceScene::nearest(const glm::vec3& point, float reach) const {
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     RTCPointQuery query{point.x, point.y, point.z, 0.0F, reach};
-    NearestQuery state{this, point, {}, reach * reach};
+    NearestQuery state{.scene = this, .point = point, .best = {}, .best_squared = reach * reach};
     rtcPointQuery(embree_->scene, &query, &context, nullptr, &state);
     if (state.best.hit) {
         const glm::vec3& a = corner(state.best.triangle, 0);
@@ -353,4 +359,4 @@ bool SourceScene::has_varying_colour() const {
     return embree_->varying_colour;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct SurfaceHit {
     bool hit = false;
@@ -71,4 +71,4 @@ private:
     std::unique_ptr<Embree> embree_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -76,13 +76,13 @@ Gathered gather(const SourceScene& scene, const Camera& camera, const glm::vec2&
 }
 
 /// `longer_px` includes the empty texel on either side.
-Image<Gathered> draw(const SourceScene& scene, const Camera& camera, int longer_px) {
+image::Image<Gathered> draw(const SourceScene& scene, const Camera& camera, int longer_px) {
     const glm::vec2 extent = camera.extent();
     const float texel = std::max(extent.x, extent.y) / static_cast<float>(longer_px - 2);
     const auto texels = [&](float along) {
         return std::clamp(static_cast<int>(std::ceil(along / texel - 1e-3F)), 1, longer_px - 2) + 2;
     };
-    Image<Gathered> picture(texels(extent.x), texels(extent.y));
+    image::Image<Gathered> picture(texels(extent.x), texels(extent.y));
     parallel_for(static_cast<std::size_t>(picture.height), 8, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < picture.width; ++x) {
@@ -94,7 +94,7 @@ Image<Gathered> draw(const SourceScene& scene, const Camera& camera, int longer_
     return picture;
 }
 
-double covered_area(const Image<Gathered>& picture, const Camera& camera) {
+double covered_area(const image::Image<Gathered>& picture, const Camera& camera) {
     double sum = 0.0;
     for (const Gathered& texel : picture.texels) {
         sum += static_cast<double>(texel.covered);
@@ -118,7 +118,7 @@ Camera best_camera(const SourceScene& scene, const glm::vec3& centre, const Tria
 }
 
 /// Scales the colours so that the brightest places have the light that the exhibit gives them.
-void expose(Image<Gathered>& picture) {
+void expose(image::Image<Gathered>& picture) {
     constexpr double share_below = 0.98;
     constexpr float highlight = 0.8308F; // linear light of the sRGB code 235
     constexpr float max_exposure = 8.0F;
@@ -142,9 +142,9 @@ void expose(Image<Gathered>& picture) {
 
 /// Gives empty texels next to the outline the mean of their neighbours' colours, several rows deep; those
 /// beyond get the mean of the whole artifact, which compresses well.
-void continue_colours(Image<Gathered>& picture) {
+void continue_colours(image::Image<Gathered>& picture) {
     constexpr int rows = 8; // three mip levels
-    Image<std::uint8_t> known(picture.width, picture.height);
+    image::Image<std::uint8_t> known(picture.width, picture.height);
     glm::vec3 sum(0.0F);
     float count = 0.0F;
     for (std::size_t k = 0; k < picture.texels.size(); ++k) {
@@ -154,7 +154,7 @@ void continue_colours(Image<Gathered>& picture) {
     }
     const glm::vec3 mean = count > 0.0F ? sum / count : glm::vec3(0.0F);
     for (int row = 0; row < rows; ++row) {
-        const Image<std::uint8_t> before = known;
+        const image::Image<std::uint8_t> before = known;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
                 if (before.at(x, y) != 0) {
@@ -182,13 +182,13 @@ void continue_colours(Image<Gathered>& picture) {
     }
 }
 
-Image8 as_codes(const Image<Gathered>& picture) {
-    Image8 codes(picture.width, picture.height);
+image::Image8 as_codes(const image::Image<Gathered>& picture) {
+    image::Image8 codes(picture.width, picture.height);
     for (std::size_t k = 0; k < codes.texels.size(); ++k) {
         const Gathered& from = picture.texels[k];
-        codes.texels[k] = {srgb8_from_linear(static_cast<double>(from.colour.r)),
-                           srgb8_from_linear(static_cast<double>(from.colour.g)),
-                           srgb8_from_linear(static_cast<double>(from.colour.b)),
+        codes.texels[k] = {image::srgb8_from_linear(static_cast<double>(from.colour.r)),
+                           image::srgb8_from_linear(static_cast<double>(from.colour.g)),
+                           image::srgb8_from_linear(static_cast<double>(from.colour.b)),
                            static_cast<std::uint8_t>(std::lround(from.covered * 255.0F))};
     }
     return codes;
@@ -196,8 +196,8 @@ Image8 as_codes(const Image<Gathered>& picture) {
 
 } // namespace
 
-Image8 make_table_picture(const Pack& pack) {
-    const PackLevel& level = pack.levels[pack.default_level];
+image::Image8 make_table_picture(const pack::Pack& pack) {
+    const pack::PackLevel& level = pack.levels[pack.default_level];
     const TriangleMesh surface = surface_of(level, pack.box_size);
     if (surface.indices.empty()) {
         return {};
@@ -205,10 +205,10 @@ Image8 make_table_picture(const Pack& pack) {
     const SourceMesh textured = textured_source(level, pack.textures[level.texture], pack.box_size);
     const SourceScene scene(textured, textured.positions, Sides::Front);
     const glm::vec3 centre(0.0F, 0.0F, static_cast<float>(pack.box_size.z) / 2.0F);
-    Image<Gathered> picture = draw(scene, best_camera(scene, centre, surface), table_picture_px);
+    image::Image<Gathered> picture = draw(scene, best_camera(scene, centre, surface), table_picture_px);
     expose(picture);
     continue_colours(picture);
     return as_codes(picture);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

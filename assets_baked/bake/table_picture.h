@@ -11,11 +11,11 @@
 #include "app/image/image.h"
 #include "app/pack/pack.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 inline constexpr int table_picture_px = 256;
 
 /// A picture of the default level; empty if it has no surface.
-[[nodiscard]] Image8 make_table_picture(const Pack& pack);
+[[nodiscard]] image::Image8 make_table_picture(const pack::Pack& pack);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -101,9 +101,10 @@ glm::vec3 clamped_rgb(const glm::vec4& colour) {
 }
 
 /// Fills unknown texels with the mean of the known ones in their 3 x 3 neighbourhood; `known` marks them.
-template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& known, int passes) {
+template <typename Texel>
+void spread(image::Image<Texel>& image, image::Image<std::uint8_t>& known, int passes) {
     for (int pass = 0; pass < passes; ++pass) {
-        const Image<std::uint8_t> before = known;
+        const image::Image<std::uint8_t> before = known;
         const auto row = [&](std::size_t begin, std::size_t end) {
             for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
                 for (int x = 0; x < image.width; ++x) {
@@ -132,8 +133,8 @@ template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& 
 }
 
 /// The mean of each known texel and its known neighbours; charts are too far apart to mix.
-ImageFloat smoothed(const ImageFloat& image, const Image<std::uint8_t>& known) {
-    ImageFloat result = image;
+image::ImageFloat smoothed(const image::ImageFloat& image, const image::Image<std::uint8_t>& known) {
+    image::ImageFloat result = image;
     parallel_for(static_cast<std::size_t>(image.height), 32, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < image.width; ++x) {
@@ -155,7 +156,8 @@ ImageFloat smoothed(const ImageFloat& image, const Image<std::uint8_t>& known) {
     return result;
 }
 
-template <typename Function> void for_each_texel(const Image<AtlasTexel>& texels, const Function& function) {
+template <typename Function>
+void for_each_texel(const image::Image<AtlasTexel>& texels, const Function& function) {
     parallel_for(static_cast<std::size_t>(texels.height), 4, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < texels.width; ++x) {
@@ -169,10 +171,10 @@ template <typename Function> void for_each_texel(const Image<AtlasTexel>& texels
 
 } // namespace
 
-Image<AtlasTexel> rasterise(const ChartedMesh& mesh) {
+image::Image<AtlasTexel> rasterise(const ChartedMesh& mesh) {
     constexpr float margin = static_cast<float>(chart_gutter_texels) - 0.5F;
-    Image<AtlasTexel> texels(mesh.atlas_width, mesh.atlas_height);
-    Image<float> distances(mesh.atlas_width, mesh.atlas_height, margin * margin);
+    image::Image<AtlasTexel> texels(mesh.atlas_width, mesh.atlas_height);
+    image::Image<float> distances(mesh.atlas_width, mesh.atlas_height, margin * margin);
     for (std::size_t t = 0; 3 * t < mesh.indices.size(); ++t) {
         const glm::vec2& a = mesh.uv_texels[mesh.indices[3 * t]];
         const glm::vec2& b = mesh.uv_texels[mesh.indices[3 * t + 1]];
@@ -196,9 +198,9 @@ Image<AtlasTexel> rasterise(const ChartedMesh& mesh) {
     return texels;
 }
 
-ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
-                       float reach_box) {
-    ImageFloat colour(texels.width, texels.height, glm::vec3(0.0F));
+image::ImageFloat bake_colour(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                              const SourceScene& source, float reach_box) {
+    image::ImageFloat colour(texels.width, texels.height, glm::vec3(0.0F));
     const bool varies = source.has_varying_colour();
     const glm::vec3 plain = clamped_rgb(source.mesh().materials[0].base_colour);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
@@ -220,15 +222,15 @@ ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
     return colour;
 }
 
-Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                           const SourceScene& source, float reach_box) {
+image::Image<float> bake_coverage(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                                  const SourceScene& source, float reach_box) {
     const std::vector<SourceMaterial>& materials = source.mesh().materials;
     if (std::none_of(materials.begin(), materials.end(),
                      [](const SourceMaterial& material) { return material.alpha_mask; })) {
         return {};
     }
-    Image<float> coverage(texels.width, texels.height, 0.0F);
-    Image<std::uint8_t> known(texels.width, texels.height, 0);
+    image::Image<float> coverage(texels.width, texels.height, 0.0F);
+    image::Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
         float sum = 0.0F;
         for (const SurfacePoint& at : parts_of(mesh, texel)) {
@@ -242,13 +244,13 @@ Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& tex
     return coverage;
 }
 
-ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, const SourceScene& source,
-                      const FileNormals& normals, float reach_box) {
+image::ImageFloat bake_light(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                             const SourceScene& source, const FileNormals& normals, float reach_box) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
     const MuseumLight museum(source);
-    ImageFloat light(texels.width, texels.height, glm::vec3(0.0F));
-    Image<std::uint8_t> known(texels.width, texels.height, 0);
+    image::ImageFloat light(texels.width, texels.height, glm::vec3(0.0F));
+    image::Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
         if (x % stride == 0 && y % stride == 0) {
             SurfacePoint at = surface_at(mesh, texel);
@@ -266,24 +268,26 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
     return light;
 }
 
-Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels, const Image<float>& coverage) {
-    ImageFloat filled = colour;
-    Image<std::uint8_t> known(texels.width, texels.height, 0);
+image::Image8 finish(const image::ImageFloat& colour, const image::Image<AtlasTexel>& texels,
+                     const image::Image<float>& coverage) {
+    image::ImageFloat filled = colour;
+    image::Image<std::uint8_t> known(texels.width, texels.height, 0);
     for (std::size_t k = 0; k < texels.texels.size(); ++k) {
         const bool cut = !coverage.texels.empty() && coverage.texels[k] < 0.5F;
         known.texels[k] = texels.texels[k].triangle != nothing && !cut ? 1 : 0;
     }
     spread(filled, known, 8);
-    Image8 result(colour.width, colour.height, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 result(colour.width, colour.height, glm::u8vec4(0, 0, 0, 255));
     parallel_for(result.texels.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const glm::vec3& c = filled.texels[k];
             const float alpha = coverage.texels.empty() ? 1.0F : coverage.texels[k];
-            result.texels[k] = {srgb8_from_linear(c.x), srgb8_from_linear(c.y), srgb8_from_linear(c.z),
+            result.texels[k] = {image::srgb8_from_linear(c.x), image::srgb8_from_linear(c.y),
+                                image::srgb8_from_linear(c.z),
                                 static_cast<std::uint8_t>(std::lround(255.0F * alpha))};
         }
     });
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -14,7 +14,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// The content of an atlas texel: a point on a triangle of the charted mesh.
 struct AtlasTexel {
@@ -23,26 +23,28 @@ struct AtlasTexel {
 };
 
 /// Assigns every texel within the gutter of a triangle the nearest point on the triangle.
-[[nodiscard]] Image<AtlasTexel> rasterise(const ChartedMesh& mesh);
+[[nodiscard]] image::Image<AtlasTexel> rasterise(const ChartedMesh& mesh);
 
 /// Base colour of the source, linear, for each texel. `reach_box`: largest distance of the level from the
 /// source.
-[[nodiscard]] ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                                     const SourceScene& source, float reach_box);
+[[nodiscard]] image::ImageFloat bake_colour(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                                            const SourceScene& source, float reach_box);
 
 /// Share of each texel that alpha MASK keeps, 0..1; below one half it is cut. Empty for a source without such
 /// a material.
-[[nodiscard]] Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                                         const SourceScene& source, float reach_box);
+[[nodiscard]] image::Image<float> bake_coverage(const ChartedMesh& mesh,
+                                                const image::Image<AtlasTexel>& texels,
+                                                const SourceScene& source, float reach_box);
 
 /// Light on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by the artifact
 /// itself and by the table it stands on (ambient occlusion). `normals` are those of the source's mesh.
-[[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
-                                    const SourceScene& source, const FileNormals& normals, float reach_box);
+[[nodiscard]] image::ImageFloat bake_light(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                                           const SourceScene& source, const FileNormals& normals,
+                                           float reach_box);
 
 /// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
 /// that mipmaps and filtering do not bleed. `coverage` becomes alpha; empty = no texel is cut.
-[[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels,
-                            const Image<float>& coverage = {});
+[[nodiscard]] image::Image8 finish(const image::ImageFloat& colour, const image::Image<AtlasTexel>& texels,
+                                   const image::Image<float>& coverage = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

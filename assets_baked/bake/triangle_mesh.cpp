@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 void drop_repetitions(std::vector<std::uint32_t>& indices) {
     using Key = std::array<std::uint32_t, 4>; // sorted corners, position in the list
@@ -139,4 +139,4 @@ SourceMesh as_source(const TriangleMesh& mesh) {
     return source;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

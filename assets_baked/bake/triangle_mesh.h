@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct TriangleMesh {
     std::vector<glm::vec3> positions;
@@ -53,4 +53,4 @@ inline constexpr double hard_edge_deg = 50.0;
 /// The same triangles as a SourceMesh without materials, for ray casts.
 [[nodiscard]] SourceMesh as_source(const TriangleMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

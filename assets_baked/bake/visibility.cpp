@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -202,4 +202,4 @@ TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& fi
     return kept(mesh, sides);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Possible positions of eyes relative to the artifact; generous, because one pack serves every kiosk.
 struct ViewingZone {
@@ -38,4 +38,4 @@ struct ViewingZone {
 [[nodiscard]] TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
                                               const SourceScene& finer_scene, float tolerance_box);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -71,7 +71,11 @@ std::vector<Edge> sorted_edges(const SourceMesh& mesh) {
             const std::uint32_t b = place[mesh.triangles[t][(k + 1) % 3]];
             const std::uint32_t c = place[mesh.triangles[t][(k + 2) % 3]];
             if (a != b) {
-                edges.push_back({std::min(a, b), std::max(a, b), c, t, a < b});
+                edges.push_back({.low = std::min(a, b),
+                                 .high = std::max(a, b),
+                                 .opposite = c,
+                                 .triangle = t,
+                                 .upward = a < b});
             }
         }
     }
@@ -126,4 +130,4 @@ double inside_out_share(const SourceMesh& mesh) {
     return all > 0.0 ? inside_out / all : 0.0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

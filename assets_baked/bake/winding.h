@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// For each position, a number that equal positions share; numbers begin at 0, without gaps.
 [[nodiscard]] std::vector<std::uint32_t> numbers_of_places(const SourceMesh& mesh);
@@ -19,4 +19,4 @@ namespace frustumscreen {
 /// The share of the area, 0 to 0.5: in each connected part, the triangles on the side with less area.
 [[nodiscard]] double inside_out_share(const SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

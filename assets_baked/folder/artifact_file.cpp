@@ -16,7 +16,7 @@
 #include <set>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::folder {
 
 namespace {
 
@@ -42,20 +42,20 @@ constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
                                                      {"turn_deg", "[placement]"},
                                                      {"scale", "[placement]"},
                                                      {"lift", "[placement]"}});
-constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
+constexpr settings::Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Reads a text without surrounding blanks; one of only blanks counts as left out.
-void read_text(TableReader& table, std::string_view key, std::string& value,
-               TextShape shape = TextShape::Line) {
+void read_text(settings::TableReader& table, std::string_view key, std::string& value,
+               pack::TextShape shape = pack::TextShape::Line) {
     table.any_text(key, value);
-    if (const std::optional<std::string> fault = fault_of_text(value, shape)) {
+    if (const std::optional<std::string> fault = pack::fault_of_text(value, shape)) {
         table.refuse("folder.text", key, *fault);
     }
     value = std::string(trimmed(value));
 }
 
 /// Reads a path inside the folder; a file outside it would not move with the folder.
-void read_path(TableReader& table, std::string_view key, std::filesystem::path& value) {
+void read_path(settings::TableReader& table, std::string_view key, std::filesystem::path& value) {
     std::filesystem::path written;
     std::string text;
     table.any_text(key, text);
@@ -73,7 +73,7 @@ void read_path(TableReader& table, std::string_view key, std::filesystem::path& 
     table.path(key, value, {});
 }
 
-void read_word(TableReader& table, std::string_view key, std::string& value,
+void read_word(settings::TableReader& table, std::string_view key, std::string& value,
                std::span<const std::string_view> words) {
     std::size_t index = 0;
     table.choice(key, index, words, {});
@@ -82,32 +82,32 @@ void read_word(TableReader& table, std::string_view key, std::string& value,
     }
 }
 
-void read_placement(TableReader& table, ArtifactFile& file) {
+void read_placement(settings::TableReader& table, ArtifactFile& file) {
     read_word(table, "up", file.up, up_words);
     double turn_deg = 0.0;
     table.number("turn_deg", turn_deg, {-360.0, 360.0, "degrees"});
     if (table.has("turn_deg")) {
         file.turn_deg = turn_deg;
     }
-    table.number("scale", file.scale, {pack_format::min_scale, pack_format::max_scale, ""});
+    table.number("scale", file.scale, {pack::min_scale, pack::max_scale, ""});
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
 /// Reads a language tag in its usual case; refuses an invalid one.
-bool read_language(TableReader& table, std::string_view key, std::string& language) {
+bool read_language(settings::TableReader& table, std::string_view key, std::string& language) {
     const std::optional<std::string> usual =
-        has_language_form(language) ? parse_language_tag(language) : std::nullopt;
+        pack::has_language_form(language) ? settings::parse_language_tag(language) : std::nullopt;
     if (!usual) {
-        table.refuse(
-            "folder.language", key,
-            fmt::format("is for \"{}\"; allowed are {}", printable(language, 40), allowed_language_tags));
+        table.refuse("folder.language", key,
+                     fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
+                                 settings::allowed_language_tags));
         return false;
     }
     language = *usual;
     return true;
 }
 
-void read_caption(TableReader& table, PackCaption& caption, std::set<std::string>& languages,
+void read_caption(settings::TableReader& table, pack::PackCaption& caption, std::set<std::string>& languages,
                   ArtifactFile& file) {
     table.any_text("language", caption.language);
     read_text(table, "title", caption.title);
@@ -115,8 +115,8 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     read_text(table, "place", caption.place);
     read_text(table, "maker", caption.maker);
     read_text(table, "credit", caption.credit);
-    read_text(table, "text", caption.text, TextShape::Lines);
-    read_text(table, "description", caption.description, TextShape::Lines);
+    read_text(table, "text", caption.text, pack::TextShape::Lines);
+    read_text(table, "description", caption.description, pack::TextShape::Lines);
     std::filesystem::path recording;
     read_path(table, "recording", recording);
     table.finish(); // a misspelt key is reported before a missing one
@@ -136,10 +136,10 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     }
 }
 
-void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
+void read_hotspot(settings::TableReader& table, ArtifactHotspot& hotspot) {
     table.vector("point", hotspot.point_file, coordinate);
     std::vector<std::pair<std::string, std::string>> labels;
-    table.named_texts("labels", labels, pack_format::max_languages);
+    table.named_texts("labels", labels, pack::max_languages);
     table.finish(); // as for a text
     table.require("folder.no_point", table.has("point"), "point",
                   "is missing; write it as [x, y, z] in the scan's coordinates");
@@ -151,11 +151,12 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
         if (!read_language(table, "labels", language)) {
             return;
         }
-        const bool is_second = std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
-                                           [&](const PackLabel& each) { return each.language == language; });
+        const bool is_second =
+            std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
+                        [&](const pack::PackLabel& each) { return each.language == language; });
         table.require("folder.label_twice", !is_second, "labels",
                       fmt::format("has \"{}\" twice; allowed is each language once", language));
-        const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
+        const std::optional<std::string> fault = pack::fault_of_text(text, pack::TextShape::Line);
         table.require("folder.label_text", !fault, "labels",
                       fmt::format("in {} {}", language, fault.value_or("")));
         text = std::string(trimmed(text));
@@ -165,32 +166,34 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     }
 }
 
-void read_all(TableReader& table, ArtifactFile& file) {
+void read_all(settings::TableReader& table, ArtifactFile& file) {
     read_path(table, "scan", file.scan);
     read_path(table, "texture", file.texture);
     table.any_text("id", file.id);
-    table.require("folder.id", file.id.empty() || is_artifact_id(file.id), "id",
+    table.require("folder.id", file.id.empty() || pack::is_artifact_id(file.id), "id",
                   fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
-                              printable(file.id, 40), pack_format::max_id_bytes));
+                              printable(file.id, 40), pack::max_id_bytes));
     read_text(table, "licence", file.licence);
     read_text(table, "author", file.author);
     read_text(table, "source", file.source);
     table.integer("size", file.size, 16, 4096, {});
     table.flag("unlit", file.unlit, {});
     read_word(table, "prop", file.prop, prop_words);
-    table.table("placement", {}, [&](TableReader& inner) { read_placement(inner, file); });
+    table.table("placement", {}, [&](settings::TableReader& inner) { read_placement(inner, file); });
     std::set<std::string> languages;
-    table.tables(
-        "texts", file.texts, pack_format::max_languages,
-        [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages, file); }, {});
-    table.tables("hotspots", file.hotspots, pack_format::max_hotspots, read_hotspot, {});
-    for (PackCaption& caption : file.texts) {
+    table.tables("texts", file.texts, pack::max_languages,
+                 [&](settings::TableReader& item, pack::PackCaption& caption) {
+                     read_caption(item, caption, languages, file);
+                 },
+                 {});
+    table.tables("hotspots", file.hotspots, pack::max_hotspots, read_hotspot, {});
+    for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
 }
 
 /// Refuses [texts] in place of [[texts]].
-void refuse_single_tables(const toml::table& root, ReadState& state) {
+void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, each] : {std::pair("texts", "language"), {"hotspots", "place"}}) {
         const toml::node* node = root.get(key);
         if (node != nullptr && node->is_table()) {
@@ -203,7 +206,7 @@ void refuse_single_tables(const toml::table& root, ReadState& state) {
 }
 
 /// Refuses [[text]] in place of [[texts]]: a text has a key of that name, but not one that holds tables.
-void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
+void refuse_misspelt_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
         for (const std::string_view known : {"texts", "hotspots"}) {
@@ -219,7 +222,7 @@ void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
 
 /// Reports a key at the top of the file, right or misspelt, that belongs into one of its tables.
 void refuse_misplaced_key(const toml::table& root, std::span<const std::string> outer_keys,
-                          ReadState& state) {
+                          settings::ReadState& state) {
     std::optional<std::pair<std::uint32_t, std::string>> first;
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
@@ -248,10 +251,13 @@ void refuse_misplaced_key(const toml::table& root, std::span<const std::string> 
 } // namespace
 
 Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::filesystem::path& file) {
-    ReadState state{printable(file.string(), 4096), file.parent_path(), {}, std::nullopt};
+    settings::ReadState state{.file = printable(file.string(), 4096),
+                              .folder = file.parent_path(),
+                              .lines = {},
+                              .error = std::nullopt};
     ArtifactFile read;
-    read_toml(state, text, largest_file_bytes, [&](const toml::table& root) {
-        TableReader keys(state, &root, "");
+    settings::read_toml(state, text, largest_file_bytes, [&](const toml::table& root) {
+        settings::TableReader keys(state, &root, "");
         refuse_single_tables(root, state);
         refuse_misspelt_tables(root, state);
         read_all(keys, read);
@@ -278,4 +284,4 @@ Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder) {
     return parse_artifact_file(as_text(bytes), file);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::folder

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::folder {
 
 inline constexpr std::string_view artifact_file_name = "artifact.toml";
 /// Folder of recordings that the file does not name, relative to the artifact's folder: LANGUAGE/description.wav and
@@ -28,7 +28,7 @@ inline constexpr std::string_view recordings_folder_name = "recordings";
 struct ArtifactHotspot {
     std::string place; ///< file, line and key, for messages
     glm::dvec3 point_file{0.0};
-    std::vector<PackLabel> labels;
+    std::vector<pack::PackLabel> labels;
 };
 
 /// The file's values; missing ones have the bake's defaults.
@@ -46,7 +46,7 @@ struct ArtifactFile {
     std::optional<double> turn_deg; ///< nothing: the best turn
     double scale = 1.0;
     double lift = 0.0;
-    std::vector<PackCaption> texts; ///< in the file's order; a missing title is the first text's
+    std::vector<pack::PackCaption> texts; ///< in the file's order; a missing title is the first text's
     std::map<std::string, std::filesystem::path> recordings; ///< by language; paths including the folder
     std::vector<ArtifactHotspot> hotspots;
 };
@@ -57,4 +57,4 @@ struct ArtifactFile {
 /// Reads the `artifact.toml` of a folder.
 [[nodiscard]] Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::folder

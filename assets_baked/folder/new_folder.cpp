@@ -12,7 +12,7 @@
 #include <random>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::folder {
 
 namespace {
 
@@ -37,7 +37,7 @@ std::string new_id(std::string_view title) {
     }
     std::random_device random;
     word += fmt::format("-{:08x}", random());
-    return is_artifact_id(word) ? word : "artifact" + word;
+    return pack::is_artifact_id(word) ? word : "artifact" + word;
 }
 
 bool is_same_folder(const fs::path& a, const fs::path& b) {
@@ -210,7 +210,7 @@ std::string new_artifact_text(const ScanFacts& scan, const std::string& title, c
 Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
     const fs::path file = folder / artifact_file_name;
     const std::string name = scan.file.filename().string();
-    if (const auto fault = fault_of_text(name, TextShape::Line)) {
+    if (const auto fault = pack::fault_of_text(name, pack::TextShape::Line)) {
         return bad_input("folder.scan_name", "{}: the file's name {}", printable(scan.file.string(), 200),
                          *fault);
     }
@@ -239,4 +239,4 @@ Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
     return file;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::folder

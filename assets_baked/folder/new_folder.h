@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::folder {
 
 /// Properties of a scan that was read.
 struct ScanFacts {
@@ -33,4 +33,4 @@ struct ScanFacts {
 [[nodiscard]] Result<std::filesystem::path> start_folder(const std::filesystem::path& folder,
                                                          const ScanFacts& scan);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::folder

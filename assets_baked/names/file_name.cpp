@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::names {
 
 namespace {
 
@@ -34,4 +34,4 @@ bool is_same_file_name(std::string_view a, std::string_view b) {
     return a == b || folded_file_name(a) == folded_file_name(b);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::names

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::names {
 
 /// The folded form, equal for all names of one file. A name that is neither UTF-8 nor Windows-1252 is unchanged.
 [[nodiscard]] std::string folded_file_name(std::string_view name);
 [[nodiscard]] bool is_same_file_name(std::string_view a, std::string_view b);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::names

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::names {
 
 std::optional<std::filesystem::path> find_entry(const std::filesystem::path& folder, std::string_view name) {
     std::error_code stop;
@@ -24,4 +24,4 @@ std::optional<std::filesystem::path> find_entry(const std::filesystem::path& fol
     return first ? std::optional(folder / *first) : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::names

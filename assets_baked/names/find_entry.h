@@ -8,10 +8,10 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::names {
 
 /// The path of the entry `name` of `folder`, which may be empty for the current one.
 [[nodiscard]] std::optional<std::filesystem::path> find_entry(const std::filesystem::path& folder,
                                                               std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::names

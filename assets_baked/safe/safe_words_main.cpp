@@ -19,11 +19,11 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 constexpr std::uintmax_t max_file_bytes = 1 << 20;
-constexpr std::int32_t one_line = glyph_limits::max_side;
+constexpr std::int32_t one_line = pack::glyph_limits::max_side;
 constexpr std::array<std::int32_t, 5> staff_widths_em{46, 36, 28, 20, 14};
 
 /// The characters that a reason may contain: Latin, and the punctuation of sentences.
@@ -57,7 +57,10 @@ Result<std::vector<LanguageToBake>> read_words(const std::string& file) {
                                  "{}:{}: [{}] needs visitors = \"...\" and staff = \"...\"", file,
                                  node.source().begin.line, language.str());
             }
-            languages.push_back({std::string(language.str()), *visitors, *staff, node.source().begin.line});
+            languages.push_back({.language = std::string(language.str()),
+                                 .visitors = *visitors,
+                                 .staff = *staff,
+                                 .line = node.source().begin.line});
         }
     } catch (const toml::parse_error& error) {
         return bad_input("safe_words.syntax", "{}:{}: is not TOML: {}", file, error.source().begin.line,
@@ -82,12 +85,12 @@ std::string utf8(char32_t code) {
 /// Collects everything that the picture may show in one atlas.
 class WordsBaker {
 public:
-    explicit WordsBaker(const Shaper& shaper) : shaper_(shaper) {}
+    explicit WordsBaker(const texts::Shaper& shaper) : shaper_(shaper) {}
 
     [[nodiscard]] Result<void> add(const LanguageToBake& language) {
         std::vector<std::int32_t> widths;
         for (const std::int32_t width : staff_widths_em) {
-            widths.push_back(width * em_units);
+            widths.push_back(width * pack::em_units);
         }
         TRY_VOID(add("visitors." + language.language, language.visitors, language.language, {one_line}));
         return add("staff." + language.language, language.staff, language.language, widths);
@@ -95,9 +98,9 @@ public:
 
     /// A letter that the typeface lacks is skipped.
     [[nodiscard]] Result<void> add(char32_t character) {
-        TRY(const ShapedText alone, shaped(utf8(character)));
-        TRY(const ShapedText between, shaped("|" + utf8(character) + "|"));
-        TRY(const ShapedText bars, shaped("||"));
+        TRY(const texts::ShapedText alone, shaped(utf8(character)));
+        TRY(const texts::ShapedText between, shaped("|" + utf8(character) + "|"));
+        TRY(const texts::ShapedText bars, shaped("||"));
         if (alone.notes.empty()) {
             Letter letter{character, fmt::format("u{:04x}", static_cast<std::uint32_t>(character)), 0};
             // A space at the end of a line has no width, so the letter is measured between bars, which have
@@ -114,12 +117,14 @@ public:
     [[nodiscard]] Result<std::string> as_cpp(const std::vector<LanguageToBake>& languages);
 
 private:
-    [[nodiscard]] Result<ShapedText> shaped(const std::string& text) const {
-        return shaper_.shape({text, "en", {one_line}, false});
+    [[nodiscard]] Result<texts::ShapedText> shaped(const std::string& text) const {
+        return shaper_.shape({.text = text, .language = "en", .limits = {one_line}, .bold = false});
     }
     [[nodiscard]] Result<void> add(const std::string& key, const std::string& text,
                                    const std::string& language, std::vector<std::int32_t> widths) {
-        TRY(const ShapedText shaped, at(key, shaper_.shape({text, language, std::move(widths), false})));
+        TRY(const texts::ShapedText shaped,
+            at(key, shaper_.shape(
+                        {.text = text, .language = language, .limits = std::move(widths), .bold = false})));
         if (!shaped.notes.empty()) {
             return bad_input("safe_words.letters", "{}: {}", key, shaped.notes.front());
         }
@@ -127,8 +132,8 @@ private:
         return {};
     }
 
-    const Shaper& shaper_;
-    GlyphAtlasBuilder builder_;
+    const texts::Shaper& shaper_;
+    texts::GlyphAtlasBuilder builder_;
     std::vector<Letter> letters_;
     std::int32_t ascent_ = 0, pitch_ = 0;
 };
@@ -136,29 +141,30 @@ private:
 using Out = std::back_insert_iterator<std::string>;
 
 /// Shift to the right that centres a line's ink in the box.
-std::int32_t to_middle(const GlyphRuns& runs, std::span<const PlacedGlyph> line, std::int32_t width) {
+std::int32_t to_middle(const pack::GlyphRuns& runs, std::span<const pack::PlacedGlyph> line,
+                       std::int32_t width) {
     std::int32_t left = width;
     std::int32_t right = 0;
-    for (const PlacedGlyph& glyph : line) {
-        const GlyphBox& box = runs.boxes[glyph.glyph];
+    for (const pack::PlacedGlyph& glyph : line) {
+        const pack::GlyphBox& box = runs.boxes[glyph.glyph];
         if (box.width > 0) {
-            left = std::min(left, glyph.x + box.left * em_units / runs.texels_per_em);
-            right = std::max(right, glyph.x + (box.left + box.width) * em_units / runs.texels_per_em);
+            left = std::min(left, glyph.x + box.left * pack::em_units / runs.texels_per_em);
+            right = std::max(right, glyph.x + (box.left + box.width) * pack::em_units / runs.texels_per_em);
         }
     }
     return left < right ? (width - left - right) / 2 : 0;
 }
 
 /// Writes a setting's glyphs as an array; returns the setting as an initialiser that names it.
-std::string write_setting(std::string& cpp, const std::string& name, const GlyphRuns& runs,
-                          const GlyphSetting& setting) {
+std::string write_setting(std::string& cpp, const std::string& name, const pack::GlyphRuns& runs,
+                          const pack::GlyphSetting& setting) {
     fmt::format_to(Out(cpp), "constexpr BakedGlyph {}[]{{", name);
-    std::span<const PlacedGlyph> rest = setting.glyphs;
-    for (const GlyphLine& line : setting.lines) {
-        const std::span<const PlacedGlyph> glyphs = rest.first(line.glyphs);
+    std::span<const pack::PlacedGlyph> rest = setting.glyphs;
+    for (const pack::GlyphLine& line : setting.lines) {
+        const std::span<const pack::PlacedGlyph> glyphs = rest.first(line.glyphs);
         rest = rest.subspan(line.glyphs);
         const std::int32_t shift = to_middle(runs, glyphs, setting.width);
-        for (const PlacedGlyph& glyph : glyphs) {
+        for (const pack::PlacedGlyph& glyph : glyphs) {
             fmt::format_to(Out(cpp), "{{{},{},{}}},", glyph.glyph, glyph.x + shift, line.baseline - glyph.up);
         }
     }
@@ -167,7 +173,7 @@ std::string write_setting(std::string& cpp, const std::string& name, const Glyph
                        name);
 }
 
-void write_atlas(std::string& cpp, const DistanceAtlas& atlas) {
+void write_atlas(std::string& cpp, const pack::DistanceAtlas& atlas) {
     cpp += "constexpr unsigned char atlas[] =\n";
     for (int y = 0; y < atlas.height; ++y) {
         cpp += '"';
@@ -180,19 +186,19 @@ void write_atlas(std::string& cpp, const DistanceAtlas& atlas) {
 }
 
 Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& languages) {
-    TRY(const GlyphSheet sheet, builder_.finish());
-    const GlyphRuns& runs = sheet.runs;
+    TRY(const texts::GlyphSheet sheet, builder_.finish());
+    const pack::GlyphRuns& runs = sheet.runs;
     std::string cpp = "// Made by frustumscreen-safe-words of assets_baked/safe/words.toml.\n"
-                      "#include \"app/safe/safe_words.h\"\n\nnamespace frustumscreen {\nnamespace {\n";
+                      "#include \"app/safe/safe_words.h\"\n\nnamespace frustumscreen::safe {\nnamespace {\n";
     write_atlas(cpp, sheet.atlas);
     cpp += "constexpr BakedBox boxes[]{\n";
-    for (const GlyphBox& box : runs.boxes) {
+    for (const pack::GlyphBox& box : runs.boxes) {
         fmt::format_to(Out(cpp), "{{{},{},{},{},{},{}}},\n", box.x, box.y, box.width, box.height, box.left,
                        box.top);
     }
     cpp += "};\nconstexpr BakedLetter letters[]{\n";
     for (const Letter& letter : letters_) {
-        const GlyphSetting& setting = runs.find(letter.key)->settings.front();
+        const pack::GlyphSetting& setting = runs.find(letter.key)->settings.front();
         if (setting.glyphs.size() == 1) {
             fmt::format_to(Out(cpp), "{{0x{:x},{},{}}},\n", static_cast<std::uint32_t>(letter.character),
                            setting.glyphs.front().glyph, letter.advance);
@@ -205,10 +211,10 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
         const std::string visitors = write_setting(cpp, fmt::format("visitors_{}", n), runs,
                                                    runs.find("visitors." + language)->settings.front());
         std::string settings;
-        for (const GlyphSetting& setting : runs.find("staff." + language)->settings) {
-            settings +=
-                write_setting(cpp, fmt::format("staff_{}_{}", n, setting.limit / em_units), runs, setting) +
-                ",\n";
+        for (const pack::GlyphSetting& setting : runs.find("staff." + language)->settings) {
+            settings += write_setting(cpp, fmt::format("staff_{}_{}", n, setting.limit / pack::em_units),
+                                      runs, setting) +
+                        ",\n";
         }
         fmt::format_to(Out(cpp), "constexpr BakedSetting staff_{}[]{{\n{}}};\n", n, settings);
         fmt::format_to(Out(list), "    {{\"{}\", {}, staff_{}}},\n", language, visitors, n);
@@ -218,14 +224,14 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
         "constexpr BakedLanguage languages[]{{\n{}}};\n"
         "constexpr SafeWords words{{{}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
         "letters}};\n}} // namespace\n\n"
-        "const SafeWords& safe_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen\n",
+        "const SafeWords& safe_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen::safe\n",
         list, runs.texels_per_em, runs.spread_texels, runs.atlas_width, ascent_, pitch_);
     return cpp;
 }
 
 Result<void> bake(const std::string& file, const std::string& out) {
     TRY(const std::vector<LanguageToBake> languages, read_words(file));
-    TRY(const Shaper shaper, Shaper::open());
+    TRY(const texts::Shaper shaper, texts::Shaper::open());
     WordsBaker baker(shaper);
     for (const LanguageToBake& language : languages) {
         TRY_VOID(baker.add(language));
@@ -244,12 +250,13 @@ int run(int argc, char** argv) {
         fmt::print(stderr, "usage: frustumscreen-safe-words WORDS.toml OUT.cpp\n");
         return 2;
     }
-    return exit_status("frustumscreen-safe-words", bake(argv[1], argv[2]));
+    return programs::exit_status("frustumscreen-safe-words", bake(argv[1], argv[2]));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-safe-words", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-safe-words", frustumscreen::safe::run, argc,
+                                                 argv);
 }

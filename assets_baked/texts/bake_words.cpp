@@ -2,20 +2,20 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected, const Shaper& shaper) {
     BakedWords baked;
     for (const CollectedWords& language : collected) {
         baked.notes.insert(baked.notes.end(), language.notes.begin(), language.notes.end());
-        LanguageWords words;
+        pack::LanguageWords words;
         words.language = language.language;
         std::vector<TextToSet> texts;
         for (const Word& word : language.words) {
             if (word.key == "name") {
                 words.name = word.text;
             }
-            texts.push_back({word.key, word.text, word.language, false});
+            texts.push_back({.key = word.key, .text = word.text, .language = word.language, .bold = false});
             words.words.push_back({word.key, word.text, word.language});
         }
         TRY(SetTexts set, at(language.language, set_texts(texts, shaper)));
@@ -29,4 +29,4 @@ Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected, cons
     return baked;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 struct BakedWords {
-    std::vector<LanguageWords> languages;
+    std::vector<pack::LanguageWords> languages;
     std::vector<std::string> notes; ///< losses, a sentence each
 };
 
 [[nodiscard]] Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected,
                                             const Shaper& shaper);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

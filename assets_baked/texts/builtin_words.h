@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 struct BuiltinWords {
     std::string_view language;
@@ -15,4 +15,4 @@ struct BuiltinWords {
 
 [[nodiscard]] std::span<const BuiltinWords> builtin_words();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -99,4 +99,4 @@ Result<void> check_shaped_text(std::string_view text) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 inline constexpr std::size_t max_shaped_bytes = 100000;
 inline constexpr std::size_t max_written_lines = 200;
@@ -27,4 +27,4 @@ inline constexpr std::size_t max_written_lines = 200;
 /// `'x' (U+0078)`, for a message.
 [[nodiscard]] std::string named_letter(char32_t code_point);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

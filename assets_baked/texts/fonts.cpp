@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -81,16 +81,16 @@ std::string family_of(std::string_view language) {
     return "Noto Sans";
 }
 
-TextDirection direction_of(std::string_view language) {
+pack::TextDirection direction_of(std::string_view language) {
     switch (script_of(language)) {
     case PANGO_SCRIPT_ARABIC:
     case PANGO_SCRIPT_HEBREW:
     case PANGO_SCRIPT_SYRIAC:
     case PANGO_SCRIPT_THAANA:
     case PANGO_SCRIPT_NKO:
-        return TextDirection::RightToLeft;
+        return pack::TextDirection::RightToLeft;
     default:
-        return TextDirection::LeftToRight;
+        return pack::TextDirection::LeftToRight;
     }
 }
 
@@ -138,4 +138,4 @@ std::string Fonts::families_for(std::string_view language) const {
     return family == "Noto Sans" ? family : family + ",Noto Sans";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

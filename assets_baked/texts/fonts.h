@@ -15,7 +15,7 @@
 
 struct _FcConfig;
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 class Fonts {
 public:
@@ -41,6 +41,6 @@ private:
 /// The Noto Sans family with the letters of `language`.
 [[nodiscard]] std::string family_of(std::string_view language);
 /// The direction of the language's paragraphs.
-[[nodiscard]] TextDirection direction_of(std::string_view language);
+[[nodiscard]] pack::TextDirection direction_of(std::string_view language);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -9,7 +9,7 @@
 #include <memory>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -22,8 +22,8 @@ struct CloseFace {
 
 /// A glyph's own picture of distances, and its box without a position in the atlas.
 struct DrawnGlyph {
-    GlyphBox box;
-    DistanceAtlas distances;
+    pack::GlyphBox box;
+    pack::DistanceAtlas distances;
 };
 
 /// Letters are rendered larger than stored by this factor.
@@ -57,7 +57,7 @@ public:
 
 private:
     int left_ = 0, top_ = 0;
-    Image<std::uint8_t> inside_;
+    image::Image<std::uint8_t> inside_;
 };
 
 /// Signed distances from the centres of pixels to the letter's edge, up to a reach. First along columns, then
@@ -119,7 +119,7 @@ private:
 };
 
 std::uint8_t code_of(double distance_texels, int spread_texels) {
-    const double code = outline_code + distance_texels / spread_texels * outline_code;
+    const double code = pack::outline_code + distance_texels / spread_texels * pack::outline_code;
     return static_cast<std::uint8_t>(std::lround(std::clamp(code, 0.0, 255.0)));
 }
 
@@ -132,7 +132,7 @@ DrawnGlyph sampled(const LetterMask& mask, int spread_texels) {
     const int top = -floor_div(-mask.top(), oversampling) + spread_texels;
     const int bottom = floor_div(mask.bottom(), oversampling) - spread_texels;
     DrawnGlyph drawn;
-    drawn.distances = DistanceAtlas(right - left, top - bottom);
+    drawn.distances = pack::DistanceAtlas(right - left, top - bottom);
     for (int row = 0; row < drawn.distances.height; ++row) {
         for (int column = 0; column < drawn.distances.width; ++column) {
             // The centre of a texel is a corner of four pixels.
@@ -203,7 +203,7 @@ private:
 };
 
 /// Packs the glyphs: shelves, the tallest glyphs first.
-void place(std::vector<DrawnGlyph>& glyphs, GlyphRuns& runs) {
+void place(std::vector<DrawnGlyph>& glyphs, pack::GlyphRuns& runs) {
     std::int64_t area = 0;
     int widest = 0;
     for (const DrawnGlyph& glyph : glyphs) {
@@ -221,7 +221,7 @@ void place(std::vector<DrawnGlyph>& glyphs, GlyphRuns& runs) {
     int y = 0;
     int shelf = 0;
     for (const std::size_t k : order) {
-        GlyphBox& box = glyphs[k].box;
+        pack::GlyphBox& box = glyphs[k].box;
         if (x + box.width > width) {
             x = 0;
             y += shelf;
@@ -236,8 +236,8 @@ void place(std::vector<DrawnGlyph>& glyphs, GlyphRuns& runs) {
     runs.atlas_height = static_cast<std::uint16_t>(y + shelf);
 }
 
-DistanceAtlas paint(const std::vector<DrawnGlyph>& glyphs, const GlyphRuns& runs) {
-    DistanceAtlas atlas(runs.atlas_width, runs.atlas_height);
+pack::DistanceAtlas paint(const std::vector<DrawnGlyph>& glyphs, const pack::GlyphRuns& runs) {
+    pack::DistanceAtlas atlas(runs.atlas_width, runs.atlas_height);
     for (const DrawnGlyph& glyph : glyphs) {
         for (int row = 0; row < glyph.box.height; ++row) {
             std::copy_n(&glyph.distances.at(0, row), glyph.box.width,
@@ -258,11 +258,11 @@ std::uint16_t GlyphAtlasBuilder::number_of(const FontFace& face, std::uint32_t g
 }
 
 void GlyphAtlasBuilder::add(const std::string& key, const ShapedText& text) {
-    GlyphText& added = texts_.emplace_back();
+    pack::GlyphText& added = texts_.emplace_back();
     added.key = key;
     added.direction = text.direction;
     for (const ShapedSetting& from : text.settings) {
-        GlyphSetting& setting = added.settings.emplace_back();
+        pack::GlyphSetting& setting = added.settings.emplace_back();
         setting.limit = from.limit;
         setting.width = from.width;
         setting.height = from.height;
@@ -274,7 +274,7 @@ void GlyphAtlasBuilder::add(const std::string& key, const ShapedText& text) {
 }
 
 Result<GlyphSheet> GlyphAtlasBuilder::finish() {
-    using namespace glyph_limits;
+    using namespace pack::glyph_limits;
     const auto too_many = [&] {
         return bad_input(
             "text.too_many_letters",
@@ -308,4 +308,4 @@ Result<GlyphSheet> GlyphAtlasBuilder::finish() {
     return sheet;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 struct GlyphAtlasOptions {
     int texels_per_em = 48; ///< docs/measurements.md gives the reasons for both values
@@ -21,8 +21,8 @@ struct GlyphAtlasOptions {
 };
 
 struct GlyphSheet {
-    GlyphRuns runs;
-    DistanceAtlas atlas;
+    pack::GlyphRuns runs;
+    pack::DistanceAtlas atlas;
 };
 
 class GlyphAtlasBuilder {
@@ -40,7 +40,7 @@ private:
     GlyphAtlasOptions options_;
     std::map<std::pair<FontFace, std::uint32_t>, std::size_t> numbers_;
     std::vector<std::pair<FontFace, std::uint32_t>> glyphs_; ///< in the order of their numbers
-    std::vector<GlyphText> texts_;
+    std::vector<pack::GlyphText> texts_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -91,7 +91,7 @@ Result<std::vector<float>> resampled(std::vector<float> samples, int rate_hz) {
 }
 
 Result<Bytes> encoded(std::span<const float> samples) {
-    SoundBytes bytes{{}, {}, true, 0};
+    SoundBytes bytes{.view = {}, .written = {}, .writing = true, .cursor = 0};
     SF_INFO info{};
     info.samplerate = speech_rate_hz;
     info.channels = 1;
@@ -195,4 +195,4 @@ Result<std::optional<Speech>> level_speech(const Recording& recording) {
                 max_true_peak_db);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 inline constexpr double speech_lufs = -23.0;
 inline constexpr double max_true_peak_db = -2.0;
@@ -38,4 +38,4 @@ struct Speech {
 /// nullopt if the recording is silent.
 [[nodiscard]] Result<std::optional<Speech>> level_speech(const Recording& recording);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <deque>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::vector<float> limit_peaks(std::span<const float> samples, int rate_hz, floa
     return limited;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// No sample of the result is above `most`, which is positive.
 [[nodiscard]] std::vector<float> limit_peaks(std::span<const float> samples, int rate_hz, float most);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

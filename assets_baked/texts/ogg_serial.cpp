@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -53,4 +53,4 @@ void set_ogg_serial(Bytes& ogg, std::uint32_t serial) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -8,10 +8,10 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// `ogg` is whole pages of one stream, as written by an encoder. Bytes from the first invalid page on stay
 /// unchanged.
 void set_ogg_serial(Bytes& ogg, std::uint32_t serial);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr std::array other_endings{".mp3", ".m4a", ".aac", ".aif", ".aiff", ".wm
 template <std::size_t count> bool ends_in(const fs::path& file, const std::array<const char*, count>& some) {
     const std::string ending = file.extension().string();
     return std::any_of(some.begin(), some.end(),
-                       [&](const char* each) { return is_same_file_name(ending, each); });
+                       [&](const char* each) { return names::is_same_file_name(ending, each); });
 }
 
 bool is_sound(const fs::path& file) {
@@ -54,8 +54,9 @@ std::vector<fs::path> sounds_in(const fs::path& folder) {
 /// The reason why a file is not used.
 std::string why_unused(const fs::path& file, const std::string& name, const RecordingNames& names) {
     const bool can_be_read = ends_in(file, endings);
-    const auto wanted = std::find_if(names.begin(), names.end(),
-                                     [&](const auto& each) { return is_same_file_name(each.first, name); });
+    const auto wanted = std::find_if(names.begin(), names.end(), [&](const auto& each) {
+        return names::is_same_file_name(each.first, name);
+    });
     if (wanted != names.end() && wanted->second) {
         return fmt::format("{} is used instead", printable(wanted->second->string(), 300));
     }
@@ -75,9 +76,10 @@ std::string why_unused(const fs::path& file, const std::string& name, const Reco
 
 std::optional<std::filesystem::path> find_recording(const std::filesystem::path& folder,
                                                     const std::string& language, const std::string& key) {
-    const std::optional<fs::path> spoken = folder.empty() ? std::nullopt : find_entry(folder, language);
+    const std::optional<fs::path> spoken =
+        folder.empty() ? std::nullopt : names::find_entry(folder, language);
     for (const char* ending : endings) {
-        if (std::optional<fs::path> file = spoken ? find_entry(*spoken, key + ending) : std::nullopt) {
+        if (std::optional<fs::path> file = spoken ? names::find_entry(*spoken, key + ending) : std::nullopt) {
             return file;
         }
     }
@@ -97,7 +99,7 @@ std::vector<std::string> unused_recordings(const fs::path& folder, const Recordi
             return each.second && each.second->lexically_normal() == file.lexically_normal();
         });
         const bool is_left_out = std::any_of(left_out.begin(), left_out.end(), [&](const std::string& each) {
-            return is_same_file_name(each, inside.begin()->string());
+            return names::is_same_file_name(each, inside.begin()->string());
         });
         if (!is_taken && !is_left_out) {
             notes.push_back(fmt::format("{}: this recording is not used: {}", printable(file.string(), 300),
@@ -116,4 +118,4 @@ Result<Speech> read_speech(const std::filesystem::path& file) {
                   : bad_input("speech.silent", name + ": the recording is silent; record it again, louder");
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

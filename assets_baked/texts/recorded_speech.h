@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// nullopt if there is no recording; `folder` may be empty, which means none.
 [[nodiscard]] std::optional<std::filesystem::path>
@@ -30,4 +30,4 @@ using RecordingNames = std::map<std::string, std::optional<std::filesystem::path
 /// Reads a recording, levelled like all speech.
 [[nodiscard]] Result<Speech> read_speech(const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

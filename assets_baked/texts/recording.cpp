@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -90,7 +90,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
                          "the recording is cut off: {} bytes of its sound are missing; copy it again",
                          missing);
     }
-    SoundBytes sound{bytes, {}, false, 0};
+    SoundBytes sound{.view = bytes, .written = {}, .writing = false, .cursor = 0};
     SF_INFO info{};
     const SoundFile file = open_sound(sound, SFM_READ, info);
     if (!file) {
@@ -122,4 +122,4 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
     return recording;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

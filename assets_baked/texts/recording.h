@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 inline constexpr int longest_recording_s = 180;
 inline constexpr std::size_t max_recording_bytes = std::size_t{128} << 20;
@@ -29,4 +29,4 @@ enum class RecordingSource { File, Stream };
 
 [[nodiscard]] Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -19,17 +19,17 @@ struct KeyedText {
     bool is_title = false;
 };
 
-std::vector<KeyedText> texts_of(const PackCaption& caption, const ScanRights& rights,
-                                std::span<const std::vector<PackLabel>> labels) {
+std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::ScanRights& rights,
+                                std::span<const std::vector<pack::PackLabel>> labels) {
     std::vector<KeyedText> texts{{"title", caption.title, true},
                                  {"text", caption.text},
-                                 {std::string(attribution_key), attribution_of(caption, rights)}};
-    const std::vector<std::string> portions = portions_of(caption.description);
-    for (std::size_t k = 0; k < portions.size() && portions.size() <= max_text_portions; ++k) {
-        texts.push_back({portion_key(k), portions[k]});
+                                 {std::string(pack::attribution_key), pack::attribution_of(caption, rights)}};
+    const std::vector<std::string> portions = pack::portions_of(caption.description);
+    for (std::size_t k = 0; k < portions.size() && portions.size() <= pack::max_text_portions; ++k) {
+        texts.push_back({pack::portion_key(k), portions[k]});
     }
     for (std::size_t k = 0; k < labels.size(); ++k) {
-        for (const PackLabel& label : labels[k]) {
+        for (const pack::PackLabel& label : labels[k]) {
             if (label.language == caption.language) {
                 texts.push_back({fmt::format("label.{}", k), label.text});
             }
@@ -54,25 +54,28 @@ void join_equal(std::vector<ShapedSetting>& settings) {
 }
 
 /// The smallest height over all widths; 0 without the text.
-double min_height(const GlyphRuns& runs, std::string_view key) {
-    const GlyphText* text = runs.find(key);
+double min_height(const pack::GlyphRuns& runs, std::string_view key) {
+    const pack::GlyphText* text = runs.find(key);
     if (text == nullptr || text->settings.empty()) {
         return 0.0;
     }
-    return std::min_element(text->settings.begin(), text->settings.end(),
-                            [](const GlyphSetting& a, const GlyphSetting& b) { return a.height < b.height; })
+    return std::min_element(
+               text->settings.begin(), text->settings.end(),
+               [](const pack::GlyphSetting& a, const pack::GlyphSetting& b) { return a.height < b.height; })
         ->height;
 }
 
 class LanguageSetter {
 public:
-    LanguageSetter(const PackCaption& caption, const CaptionLimits& limits, const Shaper& shaper,
+    LanguageSetter(const pack::PackCaption& caption, const CaptionLimits& limits, const Shaper& shaper,
                    std::vector<std::string>& notes)
         : caption_(caption), limits_(limits), shaper_(shaper), notes_(notes) {}
 
     void add(const KeyedText& text) {
-        Result<ShapedText> shaped = shaper_.shape(
-            {text.text, caption_.language, text.is_title ? limits_.title : limits_.text, text.is_title});
+        Result<ShapedText> shaped = shaper_.shape({.text = text.text,
+                                                   .language = caption_.language,
+                                                   .limits = text.is_title ? limits_.title : limits_.text,
+                                                   .bold = text.is_title});
         if (!shaped) {
             note(fmt::format("{}: {}", text.key, shaped.error().message));
             return;
@@ -84,28 +87,28 @@ public:
         builder_.add(text.key, *shaped);
     }
     void check_length() {
-        const std::size_t portions = portions_of(caption_.description).size();
-        if (portions > max_text_portions) {
+        const std::size_t portions = pack::portions_of(caption_.description).size();
+        if (portions > pack::max_text_portions) {
             note(fmt::format("description: it is as long as {} captions and is not told; allowed are {}: "
                              "shorten it to about {} letters",
-                             portions, max_text_portions,
-                             letters_of(caption_.description) * max_text_portions / portions));
+                             portions, pack::max_text_portions,
+                             letters_of(caption_.description) * pack::max_text_portions / portions));
         }
     }
 
     /// nullopt if the letters do not fit an atlas.
-    [[nodiscard]] std::optional<SetLanguage> finish() {
+    [[nodiscard]] std::optional<pack::SetLanguage> finish() {
         Result<GlyphSheet> sheet = builder_.finish();
         if (!sheet) {
             note(sheet.error().message);
             return std::nullopt;
         }
         check_height(sheet->runs);
-        return SetLanguage{caption_.language, std::move(sheet->runs), std::move(sheet->atlas)};
+        return pack::SetLanguage{caption_.language, std::move(sheet->runs), std::move(sheet->atlas)};
     }
 
 private:
-    void check_height(const GlyphRuns& runs) {
+    void check_height(const pack::GlyphRuns& runs) {
         const double text = min_height(runs, "text");
         const double height = limits_.title_em * min_height(runs, "title") + text;
         if (height > limits_.max_height && text > 0.0) {
@@ -113,7 +116,8 @@ private:
             note(fmt::format("text: the caption, where it is widest, is {:.0f} times as high as its type "
                              "size, and does not fit on a table beside the prop; allowed are {:.0f} times: "
                              "shorten the text to about {} letters",
-                             height / em_units, static_cast<double>(limits_.max_height) / em_units,
+                             height / pack::em_units,
+                             static_cast<double>(limits_.max_height) / pack::em_units,
                              static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
         }
     }
@@ -126,7 +130,7 @@ private:
         notes_.push_back(fmt::format("texts in '{}': {}", caption_.language, what));
     }
 
-    const PackCaption& caption_;
+    const pack::PackCaption& caption_;
     const CaptionLimits& limits_;
     const Shaper& shaper_;
     std::vector<std::string>& notes_;
@@ -135,11 +139,11 @@ private:
 
 } // namespace
 
-SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights& rights,
-                         std::span<const std::vector<PackLabel>> labels, const CaptionLimits& limits,
+SetArtifact set_artifact(std::span<const pack::PackCaption> captions, const pack::ScanRights& rights,
+                         std::span<const std::vector<pack::PackLabel>> labels, const CaptionLimits& limits,
                          const Shaper& shaper) {
     SetArtifact set;
-    for (const PackCaption& caption : captions) {
+    for (const pack::PackCaption& caption : captions) {
         const std::vector<KeyedText> texts = texts_of(caption, rights, labels);
         if (texts.empty()) {
             continue;
@@ -153,11 +157,11 @@ SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights
             setter.add(text);
         }
         setter.check_length();
-        if (std::optional<SetLanguage> language = setter.finish()) {
+        if (std::optional<pack::SetLanguage> language = setter.finish()) {
             set.languages.push_back(*std::move(language));
         }
     }
     return set;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// Widths of lines, in 1/1024 of each text's own type size, and the height of title and text together, in
 /// 1/1024 of the text's type size, above which a caption fits nowhere.
@@ -31,13 +31,14 @@ struct CaptionLimits {
 };
 
 struct SetArtifact {
-    std::vector<SetLanguage> languages;
+    std::vector<pack::SetLanguage> languages;
     std::vector<std::string> notes; ///< losses, a sentence each
 };
 
 /// `labels`: one list for each hotspot.
-[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights& rights,
-                                       std::span<const std::vector<PackLabel>> labels,
+[[nodiscard]] SetArtifact set_artifact(std::span<const pack::PackCaption> captions,
+                                       const pack::ScanRights& rights,
+                                       std::span<const std::vector<pack::PackLabel>> labels,
                                        const CaptionLimits& limits, const Shaper& shaper);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

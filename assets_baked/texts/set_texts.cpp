@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
 std::vector<std::int32_t> caption_limits() {
     std::vector<std::int32_t> limits;
     for (const int width : caption_widths_em) {
-        limits.push_back(width * em_units);
+        limits.push_back(width * pack::em_units);
     }
     return limits;
 }
@@ -21,8 +21,10 @@ Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shape
     SetTexts set;
     GlyphAtlasBuilder builder(options);
     for (const TextToSet& text : texts) {
-        TRY(const ShapedText shaped,
-            at(text.key, shaper.shape({text.text, text.language, caption_limits(), text.bold})));
+        TRY(const ShapedText shaped, at(text.key, shaper.shape({.text = text.text,
+                                                                .language = text.language,
+                                                                .limits = caption_limits(),
+                                                                .bold = text.bold})));
         for (const std::string& note : shaped.notes) {
             set.notes.push_back(fmt::format("{}: {}", text.key, note));
         }
@@ -32,4 +34,4 @@ Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shape
     return set;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

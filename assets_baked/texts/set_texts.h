@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// The widths that captions are wrapped to, in type sizes. At 24 pt they are 30, 15 and 7.6 cm.
 inline constexpr std::array<int, 3> caption_widths_em{36, 18, 9};
@@ -32,4 +32,4 @@ struct SetTexts {
 [[nodiscard]] Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shaper,
                                          const GlyphAtlasOptions& options = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

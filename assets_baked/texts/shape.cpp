@@ -13,7 +13,7 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -32,7 +32,7 @@ template <typename Object> using Owned = std::unique_ptr<Object, Unref>;
 
 /// Converts Pango's units at the shaping size to 1/1024 em.
 std::int32_t em_units_of(std::int64_t pango_units) {
-    static_assert(em_units == PANGO_SCALE);
+    static_assert(pack::em_units == PANGO_SCALE);
     return static_cast<std::int32_t>(std::lround(static_cast<double>(pango_units) / shaping_px));
 }
 
@@ -72,8 +72,10 @@ private:
                 missing_.insert(static_cast<char32_t>(info.glyph & ~PANGO_GLYPH_UNKNOWN_FLAG));
             } else if (info.glyph != PANGO_GLYPH_EMPTY) {
                 setting.glyphs.push_back(
-                    {face, info.glyph, x_units + em_units_of(pen + info.geometry.x_offset),
-                     static_cast<std::int16_t>(em_units_of(-info.geometry.y_offset - run.y_offset))});
+                    {.face = face,
+                     .glyph = info.glyph,
+                     .x = x_units + em_units_of(pen + info.geometry.x_offset),
+                     .up = static_cast<std::int16_t>(em_units_of(-info.geometry.y_offset - run.y_offset))});
             }
             pen += info.geometry.width;
         }
@@ -107,7 +109,7 @@ Measures measure(PangoLayout* layout) {
     return measures;
 }
 
-ShapedSetting set_lines(PangoLayout* layout, std::int32_t limit, TextDirection direction,
+ShapedSetting set_lines(PangoLayout* layout, std::int32_t limit, pack::TextDirection direction,
                         Collector& collector) {
     const Measures measures = measure(layout);
     const std::int32_t pitch = em_units_up(measures.ascent + measures.descent);
@@ -118,7 +120,7 @@ ShapedSetting set_lines(PangoLayout* layout, std::int32_t limit, TextDirection d
         auto* line = static_cast<PangoLayoutLine*>(each->data);
         PangoRectangle logical{};
         pango_layout_line_get_extents(line, nullptr, &logical);
-        const bool flush_right = direction == TextDirection::RightToLeft;
+        const bool flush_right = direction == pack::TextDirection::RightToLeft;
         const std::size_t before = setting.glyphs.size();
         collector.add_line(line, flush_right ? setting.width - em_units_of(logical.width) : 0, setting);
         setting.lines.push_back({em_units_up(measures.ascent) + setting.height,
@@ -129,15 +131,15 @@ ShapedSetting set_lines(PangoLayout* layout, std::int32_t limit, TextDirection d
 }
 
 Result<void> check_limits(const TextToShape& text) {
-    const bool allowed = !text.limits.empty() && text.limits.size() <= glyph_limits::max_settings &&
+    const bool allowed = !text.limits.empty() && text.limits.size() <= pack::glyph_limits::max_settings &&
                          std::all_of(text.limits.begin(), text.limits.end(), [](std::int32_t limit) {
-                             return limit >= em_units && limit <= glyph_limits::max_side;
+                             return limit >= pack::em_units && limit <= pack::glyph_limits::max_side;
                          });
     return allowed ? Result<void>()
                    : bad_input("text.widths",
                                "the widths are {}; allowed are 1 to {} of 1 to {} times the type size",
-                               fmt::join(text.limits, ", "), glyph_limits::max_settings,
-                               glyph_limits::max_side / em_units);
+                               fmt::join(text.limits, ", "), pack::glyph_limits::max_settings,
+                               pack::glyph_limits::max_side / pack::em_units);
 }
 
 /// A single word of this many letters takes Pango a second or two; the time grows with the square of its
@@ -152,15 +154,15 @@ Result<void> check_length(std::string_view text) {
 }
 
 Result<void> check_size(const ShapedSetting& setting) {
-    using namespace glyph_limits;
+    using namespace pack::glyph_limits;
     if (setting.lines.size() > max_lines || setting.glyphs.size() > max_glyphs || setting.height > max_side ||
         setting.width > max_side) {
         return bad_input(
             "text.setting",
             "the text takes {} lines and {} letters at a width of {} times the type size; allowed are {} "
             "lines, {} letters and a height of {} times the type size: shorten it",
-            setting.lines.size(), setting.glyphs.size(), setting.limit / em_units, max_lines, max_glyphs,
-            max_side / em_units);
+            setting.lines.size(), setting.glyphs.size(), setting.limit / pack::em_units, max_lines,
+            max_glyphs, max_side / pack::em_units);
     }
     return {};
 }
@@ -212,8 +214,9 @@ Result<ShapedText> Shaper::shape(const TextToShape& text) const {
     shaped.direction = direction_of(text.language);
     PangoContext* context = engine_->context.get();
     pango_context_set_language(context, pango_language_from_string(text.language.c_str()));
-    pango_context_set_base_dir(context, shaped.direction == TextDirection::RightToLeft ? PANGO_DIRECTION_RTL
-                                                                                       : PANGO_DIRECTION_LTR);
+    pango_context_set_base_dir(context, shaped.direction == pack::TextDirection::RightToLeft
+                                            ? PANGO_DIRECTION_RTL
+                                            : PANGO_DIRECTION_LTR);
     const std::unique_ptr<PangoFontDescription, FreeDescription> description(pango_font_description_new());
     pango_font_description_set_family(description.get(), fonts_.families_for(text.language).c_str());
     pango_font_description_set_weight(description.get(), text.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
@@ -238,7 +241,7 @@ Result<ShapedText> Shaper::shape(const TextToShape& text) const {
             shaped.notes.push_back(fmt::format(
                 "'{}': a word is wider than {:.1f} times the type size, the widest that the text may "
                 "be, and is broken anywhere; write it with a hyphen or a soft hyphen",
-                printable(text.text, 60), static_cast<double>(limit) / em_units));
+                printable(text.text, 60), static_cast<double>(limit) / pack::em_units));
             pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
         }
         shaped.settings.push_back(set_lines(layout.get(), limit, shaped.direction, collector));
@@ -253,4 +256,4 @@ Result<ShapedText> Shaper::shape(const TextToShape& text) const {
     return shaped;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 inline constexpr std::size_t max_shaped_letters = 5000;
 
@@ -48,12 +48,12 @@ struct ShapedGlyph {
 
 struct ShapedSetting {
     std::int32_t limit = 0, width = 0, height = 0;
-    std::vector<GlyphLine> lines;
+    std::vector<pack::GlyphLine> lines;
     std::vector<ShapedGlyph> glyphs;
 };
 
 struct ShapedText {
-    TextDirection direction = TextDirection::LeftToRight;
+    pack::TextDirection direction = pack::TextDirection::LeftToRight;
     std::vector<FontFace> faces;
     std::vector<ShapedSetting> settings;
     std::vector<std::string> notes; ///< losses, a sentence each
@@ -76,4 +76,4 @@ private:
     std::unique_ptr<Engine> engine_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

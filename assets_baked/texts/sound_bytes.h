@@ -13,7 +13,7 @@
 #include <memory>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// Read from `view`, or written to `written`.
 struct SoundBytes {
@@ -67,4 +67,4 @@ using SoundFile = std::unique_ptr<SNDFILE, CloseSound>;
     return SoundFile(sf_open_virtual(&io, mode, &info, &bytes));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -12,7 +12,7 @@
 #include <atomic>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -24,7 +24,7 @@ std::optional<std::filesystem::path> recording_of(const std::string& language, c
                                              : find_recording(sources.folder, language, key);
 }
 
-Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
+Result<Spoken> speak(const pack::PackCaption& caption, const SpeechSources& sources) {
     if (const auto file = recording_of(caption.language, sources)) {
         TRY(Speech speech, read_speech(*file));
         return Spoken{std::move(speech), {}};
@@ -41,11 +41,11 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
 
 /// A sentence if the lengths of recording and description differ so much that they must belong to different
 /// texts.
-std::optional<std::string> length_note(const PackCaption& caption, const std::filesystem::path& file,
+std::optional<std::string> length_note(const pack::PackCaption& caption, const std::filesystem::path& file,
                                        double seconds) {
     constexpr double min_share = 0.4;
     constexpr double max_share = 3.0;
-    const double words_s = reading_time_s(caption.description);
+    const double words_s = pack::reading_time_s(caption.description);
     const double brief_s = 3.0; // tolerance for pauses
     if (seconds >= min_share * words_s && seconds <= max_share * words_s + brief_s) {
         return std::nullopt;
@@ -81,7 +81,8 @@ private:
 
 } // namespace
 
-Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, const SpeechSources& sources) {
+Result<SpokenArtifact> speak_artifact(std::span<const pack::PackCaption> captions,
+                                      const SpeechSources& sources) {
     std::vector<Result<Spoken>> all(captions.size(), Spoken());
     std::atomic<bool> failed{false}; // one message about a voice is enough, and each attempt may take half a
                                      // minute
@@ -123,4 +124,4 @@ Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, con
     return spoken;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

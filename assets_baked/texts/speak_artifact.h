@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 struct SpeechSources {
     std::map<std::string, std::filesystem::path> recordings; ///< by language, if named explicitly
@@ -30,12 +30,12 @@ struct SpeechSources {
 };
 
 struct SpokenArtifact {
-    std::vector<SpokenLanguage> languages;
+    std::vector<pack::SpokenLanguage> languages;
     std::vector<std::string> silent; ///< descriptions and reasons, a sentence for each reason
     std::vector<std::string> notes;  ///< recordings that are unused or fit no description, a sentence each
 };
 
-[[nodiscard]] Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions,
+[[nodiscard]] Result<SpokenArtifact> speak_artifact(std::span<const pack::PackCaption> captions,
                                                     const SpeechSources& sources);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

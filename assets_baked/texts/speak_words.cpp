@@ -8,16 +8,16 @@
 #include <atomic>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
 /// The reasons why the voice cannot speak a language, by language; determined once for all words.
 class VoiceCheck {
 public:
-    VoiceCheck(const std::optional<Voice>& voice, const LanguageWords& words) {
+    VoiceCheck(const std::optional<Voice>& voice, const pack::LanguageWords& words) {
         std::map<std::string, std::string> texts;
-        for (const PlainWord& word : words.words) {
+        for (const pack::PlainWord& word : words.words) {
             texts[word.language] += word.text + "\n";
         }
         for (const auto& [language, text] : texts) {
@@ -34,8 +34,8 @@ private:
 };
 
 /// Uses the recording, otherwise the voice.
-Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const SpeakOptions& options,
-                     const VoiceCheck& check) {
+Result<Spoken> speak(const pack::PlainWord& word, const pack::LanguageWords& words,
+                     const SpeakOptions& options, const VoiceCheck& check) {
     if (const auto file = find_recording(options.recordings, words.language, word.key)) {
         TRY(Speech recorded, read_speech(*file));
         return Spoken{std::move(recorded), {}};
@@ -48,7 +48,7 @@ Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const Sp
 }
 
 /// Speaks one language; returns a sentence if some of its words are silent, otherwise an empty string.
-Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options) {
+Result<std::string> speak_language(pack::LanguageWords& words, const SpeakOptions& options) {
     const VoiceCheck check(options.voice, words);
     std::vector<Result<Spoken>> all(words.words.size(), Spoken());
     std::atomic<bool> failed{false}; // one message about a voice is enough, and each attempt may take half a
@@ -79,7 +79,7 @@ Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& opt
 
 } // namespace
 
-Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languages,
+Result<std::vector<std::string>> speak_words(std::vector<pack::LanguageWords>& languages,
                                              const SpeakOptions& options) {
     std::vector<std::string> silent;
     for (std::size_t k = 0; k < languages.size(); ++k) {
@@ -95,4 +95,4 @@ Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languag
     return silent;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

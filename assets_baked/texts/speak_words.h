@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 struct SpeakOptions {
     std::filesystem::path recordings; ///< empty: none
@@ -27,7 +27,7 @@ struct SpeakOptions {
 };
 
 /// Returns the silent words with the reason, a sentence for each language.
-[[nodiscard]] Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languages,
+[[nodiscard]] Result<std::vector<std::string>> speak_words(std::vector<pack::LanguageWords>& languages,
                                                            const SpeakOptions& options);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string espeak_voice(const std::string& language) {
 /// True for scripts without vowels. Among the scripts of espeak-ng's voices these are the ones from right to left:
 /// vowels are marks there, which texts omit entirely or in part.
 bool lacks_vowels(std::string_view language) {
-    return direction_of(language) == TextDirection::RightToLeft;
+    return direction_of(language) == pack::TextDirection::RightToLeft;
 }
 
 /// True if the voice of `language` has a sound for the letter. Voices of other scripts read Latin words as
@@ -149,4 +149,4 @@ Result<Spoken> Voice::speak(std::string_view text, const std::string& language) 
                                                      printable(command.front()), printable(text, 40))};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// The result for one text.
 struct Spoken {
@@ -46,4 +46,4 @@ private:
     ProgramLimits limits_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

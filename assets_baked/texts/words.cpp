@@ -16,7 +16,7 @@
 #include <iterator>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 namespace {
 
@@ -274,9 +274,9 @@ std::vector<std::string> builtin_word_languages() {
 }
 
 Result<WrittenWords> parse_words(std::string_view toml, const std::string& file) {
-    ReadState state{file, {}, {}, std::nullopt};
+    settings::ReadState state{.file = file, .folder = {}, .lines = {}, .error = std::nullopt};
     WrittenWords words;
-    read_toml(state, toml, max_file_bytes, [&](const toml::table& root) {
+    settings::read_toml(state, toml, max_file_bytes, [&](const toml::table& root) {
         WordsReader reader(file, words);
         reader.read(root, "");
         state.error = reader.error();
@@ -320,4 +320,4 @@ Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& f
     return collected;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

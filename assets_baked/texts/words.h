@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::texts {
 
 /// Text by key; keys missing in a file are absent.
 using WrittenWords = std::map<std::string, std::string, std::less<>>;
@@ -47,4 +47,4 @@ struct CollectedWords {
 /// The languages of the built-in words.
 [[nodiscard]] std::vector<std::string> builtin_word_languages();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::texts

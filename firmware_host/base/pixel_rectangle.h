@@ -30,13 +30,19 @@ struct PixelRectangle {
     }
     const int x = std::min(a.x, b.x);
     const int y = std::min(a.y, b.y);
-    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+    return {.x = x,
+            .y = y,
+            .width = std::max(a.x + a.width, b.x + b.width) - x,
+            .height = std::max(a.y + a.height, b.y + b.height) - y};
 }
 
 [[nodiscard]] inline PixelRectangle intersected(const PixelRectangle& a, const PixelRectangle& b) {
     const int x = std::max(a.x, b.x);
     const int y = std::max(a.y, b.y);
-    return {x, y, std::min(a.x + a.width, b.x + b.width) - x, std::min(a.y + a.height, b.y + b.height) - y};
+    return {.x = x,
+            .y = y,
+            .width = std::min(a.x + a.width, b.x + b.width) - x,
+            .height = std::min(a.y + a.height, b.y + b.height) - y};
 }
 
 } // namespace frustumscreen

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 struct CameraFrame {
     MonotonicTime time;       ///< capture time, from the kernel
@@ -57,4 +57,4 @@ public:
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

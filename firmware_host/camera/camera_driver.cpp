@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -90,7 +90,10 @@ std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest&
             continue;
         }
         if (const std::optional<Identity> identity = identity_of(**device)) {
-            found.push_back({path, identity->name, identity->bus, list_modes(**device, request)});
+            found.push_back({.path = path,
+                             .name = identity->name,
+                             .bus = identity->bus,
+                             .modes = list_modes(**device, request)});
         }
     }
     return found;
@@ -121,11 +124,11 @@ tl::expected<void, CameraState> CameraDriver::open(const std::string& path) {
     }
     TRY(const SetMode set, set_mode(**device, *mode));
     const FrameFormat& frame = set.frame;
-    CameraSetUp set_up{path,
-                       identity->name,
-                       identity->bus,
-                       {frame.format, frame.width, frame.height, set.rate_hz},
-                       lock_controls(**device, request_)};
+    CameraSetUp set_up{.path = path,
+                       .name = identity->name,
+                       .bus = identity->bus,
+                       .mode = {frame.format, frame.width, frame.height, set.rate_hz},
+                       .controls = lock_controls(**device, request_)};
     TRY(stream_, V4l2Stream::start(std::move(*device), frame));
     set_up_ = std::move(set_up);
     path_ = path;
@@ -207,4 +210,4 @@ CameraDriver::Step CameraDriver::step(CameraFrame& frame) {
     return {fresh, Nanoseconds(0)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

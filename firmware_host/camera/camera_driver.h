@@ -17,7 +17,7 @@
 #include <functional>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// A camera that the kernel lists.
 struct FoundCamera {
@@ -74,4 +74,4 @@ private:
     CameraState state_ = CameraState::NotConnected;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// In order of preference: the formats that are cheapest to decode come first.
 enum class PixelFormat : std::uint8_t { Grey, Yuyv, Mjpeg };
@@ -72,4 +72,4 @@ struct CameraSetUp {
     std::vector<LockedControl> controls;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

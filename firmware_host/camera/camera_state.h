@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 enum class CameraState : std::uint8_t {
     NotConnected,
@@ -128,4 +128,4 @@ enum class CameraHealth : std::uint8_t {
     return health == CameraHealth::Well ? "well" : health == CameraHealth::Impaired ? "impaired" : "away";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ctime>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -34,4 +34,4 @@ double CpuThrottle::end() {
     return took_s;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

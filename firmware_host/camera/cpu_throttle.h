@@ -11,7 +11,7 @@
 #include <functional>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// Processor time used by this thread.
 [[nodiscard]] double thread_seconds();
@@ -37,4 +37,4 @@ private:
     std::optional<MonotonicTime> next_; ///< skip frames before this time
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

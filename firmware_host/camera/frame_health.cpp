@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -61,8 +61,10 @@ FrameLook look_at(std::span<const std::uint8_t> luma) {
         ++counted[luma[k]];
         ++all;
     }
-    return {code_at(counted, all / 100), code_at(counted, all / 2), code_at(counted, all - 1 - all / 100),
-            hash_of(luma)};
+    return {.darkest = code_at(counted, all / 100),
+            .median = code_at(counted, all / 2),
+            .brightest = code_at(counted, all - 1 - all / 100),
+            .bytes_hash = hash_of(luma)};
 }
 
 FrameHealth::FrameHealth(double rate_hz, MonotonicTime start)
@@ -135,4 +137,4 @@ FrameVerdict FrameHealth::verdict(MonotonicTime now) {
     return verdict_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -19,7 +19,7 @@
 #include <deque>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// Statistics of a frame.
 struct FrameLook {
@@ -70,4 +70,4 @@ private:
     MonotonicTime candidate_since_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 class FrameMailbox {
 public:
@@ -37,4 +37,4 @@ private:
     bool fresh_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

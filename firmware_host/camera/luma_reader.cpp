@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 struct LumaReader::Jpeg {
     struct Destroy {
@@ -63,4 +63,4 @@ bool LumaReader::read(const FrameFormat& format, std::span<const std::byte> byte
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

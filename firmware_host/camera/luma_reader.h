@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 class LumaReader {
 public:
@@ -31,4 +31,4 @@ private:
     std::unique_ptr<Jpeg> jpeg_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -2,7 +2,7 @@
 
 #include "firmware_host/base/device_thread.h"
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 V4l2Camera::V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest request, FrameUse use,
                        double max_share)
@@ -39,4 +39,4 @@ std::optional<CameraSetUp> V4l2Camera::set_up() const {
     return set_up_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -14,7 +14,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 class V4l2Camera final : public Camera {
 public:
@@ -51,4 +51,4 @@ private:
     std::jthread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

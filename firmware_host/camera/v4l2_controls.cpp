@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -18,11 +18,24 @@ struct Recipe {
     std::uint32_t value;
     double steps_per_unit;
 };
-constexpr Recipe exposure{
-    "exposure", "ms", V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, V4L2_CID_EXPOSURE_ABSOLUTE, ticks_per_ms};
-constexpr Recipe gain{"gain", "", V4L2_CID_AUTOGAIN, 0, V4L2_CID_GAIN, 1.0};
-constexpr Recipe white_balance{
-    "white balance", "K", V4L2_CID_AUTO_WHITE_BALANCE, 0, V4L2_CID_WHITE_BALANCE_TEMPERATURE, 1.0};
+constexpr Recipe exposure{.name = "exposure",
+                          .unit = "ms",
+                          .automatic = V4L2_CID_EXPOSURE_AUTO,
+                          .manual = V4L2_EXPOSURE_MANUAL,
+                          .value = V4L2_CID_EXPOSURE_ABSOLUTE,
+                          .steps_per_unit = ticks_per_ms};
+constexpr Recipe gain{.name = "gain",
+                      .unit = "",
+                      .automatic = V4L2_CID_AUTOGAIN,
+                      .manual = 0,
+                      .value = V4L2_CID_GAIN,
+                      .steps_per_unit = 1.0};
+constexpr Recipe white_balance{.name = "white balance",
+                               .unit = "K",
+                               .automatic = V4L2_CID_AUTO_WHITE_BALANCE,
+                               .manual = 0,
+                               .value = V4L2_CID_WHITE_BALANCE_TEMPERATURE,
+                               .steps_per_unit = 1.0};
 
 std::optional<std::int32_t> read(V4l2Device& device, std::uint32_t id) {
     v4l2_control control{id, 0};
@@ -41,7 +54,7 @@ bool is_there(V4l2Device& device, std::uint32_t id) {
 }
 
 LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<double> requested) {
-    LockedControl locked{recipe.name, recipe.unit, Lock::NotThere, 0.0};
+    LockedControl locked{.name = recipe.name, .unit = recipe.unit, .lock = Lock::NotThere, .value = 0.0};
     const bool has_automatic = is_there(device, recipe.automatic);
     const bool has_value = is_there(device, recipe.value);
     if (!has_automatic && !has_value) {
@@ -78,4 +91,4 @@ std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest
     return controls;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -9,9 +9,9 @@
 #include "firmware_host/camera/camera_set_up.h"
 #include "firmware_host/camera/v4l2_device.h"
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// In this order: exposure, gain, white balance.
 [[nodiscard]] std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

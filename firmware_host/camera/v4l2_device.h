@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 class V4l2Device {
 public:
@@ -46,4 +46,4 @@ public:
 /// shares its buffers only with such a descriptor.
 [[nodiscard]] std::unique_ptr<V4l2Devices> kernel_v4l2_devices();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

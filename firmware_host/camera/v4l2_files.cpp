@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::unique_ptr<V4l2Devices> kernel_v4l2_devices() {
     return std::make_unique<V4l2Files>();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

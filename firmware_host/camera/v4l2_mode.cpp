@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <tuple>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -75,7 +75,11 @@ void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, co
                 std::vector<CameraMode>& modes) {
     const auto add = [&](std::int64_t width, std::int64_t height) {
         if (width > 0 && height > 0 && width <= longest_side && height <= longest_side) {
-            list_rates(device, fourcc, {format, static_cast<int>(width), static_cast<int>(height), 0.0},
+            list_rates(device, fourcc,
+                       {.format = format,
+                        .width = static_cast<int>(width),
+                        .height = static_cast<int>(height),
+                        .rate_hz = 0.0},
                        request.rate_hz, modes);
         }
     };
@@ -153,10 +157,12 @@ tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode
     }
     const bool says = device.ask(VIDIOC_G_PARM, parameters) == 0;
     SetMode set;
-    set.frame = {*taken, static_cast<int>(pixels.width), static_cast<int>(pixels.height),
-                 pixels.bytesperline};
+    set.frame = {.format = *taken,
+                 .width = static_cast<int>(pixels.width),
+                 .height = static_cast<int>(pixels.height),
+                 .row_bytes = pixels.bytesperline};
     set.rate_hz = says ? hertz(parameters.parm.capture.timeperframe) : 0.0;
     return set;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

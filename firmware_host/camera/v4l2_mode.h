@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 /// Layout of a frame in a camera's buffer.
 struct FrameFormat {
@@ -36,4 +36,4 @@ struct SetMode {
 /// Returns the mode that the driver has accepted.
 [[nodiscard]] tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode& mode);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

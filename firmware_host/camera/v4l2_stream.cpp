@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -135,4 +135,4 @@ V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<Mono
     return Taken::Frame;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -12,7 +12,7 @@
 #include <memory>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 class V4l2Stream {
 public:
@@ -45,4 +45,4 @@ private:
     std::optional<std::uint32_t> last_sequence_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -12,7 +12,7 @@ extern "C" {
 #include <drm_fourcc.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -131,7 +131,10 @@ std::optional<AtomicKms::Route> AtomicKms::route_to(std::uint32_t connector) con
         if (const std::uint32_t plane = primary_plane(file_, planes, crtc.index); plane != 0) {
             const KmsProperties properties(file_, plane, DRM_MODE_OBJECT_PLANE);
             const KmsProperty* shown = properties.find("FB_ID");
-            return Route{connector, crtc.id, plane, shown != nullptr ? shown->id : 0};
+            return Route{.connector = connector,
+                         .crtc = crtc.id,
+                         .plane = plane,
+                         .plane_framebuffer = shown != nullptr ? shown->id : 0};
         }
     }
     return std::nullopt;
@@ -228,4 +231,4 @@ KmsAnswer AtomicKms::darken() {
     return answer;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class AtomicKms final : public KmsDevice {
 public:
@@ -53,4 +53,4 @@ private:
     std::string_view shortcoming_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

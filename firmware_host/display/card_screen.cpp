@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize picture_size) {
     TRY(DrawingGpu gpu, DrawingGpu::choose_for(card));
@@ -34,7 +34,8 @@ void CardScreen::warm_up() const {
     const PixelSize scaled{std::max(exact.width / 2, 1), std::max(exact.height / 2, 1)};
     for (const PixelSize size : {exact, scaled}) {
         if (const Result<std::unique_ptr<ScanoutPair>> pair = make_pair(size)) {
-            static_cast<void>((*pair)->fill(0, {0, 0, exact.width, exact.height}));
+            static_cast<void>(
+                (*pair)->fill(0, {.x = 0, .y = 0, .width = exact.width, .height = exact.height}));
         }
     }
 }
@@ -43,4 +44,4 @@ Result<std::unique_ptr<ScanoutPair>> CardScreen::make_pair(PixelSize size) const
     return gpu_.card_memory() != nullptr ? make_gbm_scanout(*this, size) : make_dumb_scanout(*this, size);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -12,7 +12,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class CardScreen {
 public:
@@ -58,4 +58,4 @@ private:
     bool current_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

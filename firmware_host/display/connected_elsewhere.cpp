@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 std::vector<std::string> connected_connectors(const std::filesystem::path& folder) {
     std::vector<std::string> connected;
@@ -28,4 +28,4 @@ bool has_connected(std::span<const std::string> connected, const std::filesystem
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

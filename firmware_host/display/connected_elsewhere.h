@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// Sorted names of the connectors with something connected, such as "card1-HDMI-A-1".
 [[nodiscard]] std::vector<std::string> connected_connectors(const std::filesystem::path& folder);
@@ -21,4 +21,4 @@ namespace frustumscreen {
 [[nodiscard]] bool has_connected(std::span<const std::string> connected, const std::filesystem::path& card,
                                  std::string_view connector);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -56,4 +56,4 @@ void ConnectorWatch::run() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -18,7 +18,7 @@
 #include <optional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// As KmsCard::look.
 using LookAtCard = std::function<CardSeen(bool thoroughly)>;
@@ -54,4 +54,4 @@ private:
     std::thread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

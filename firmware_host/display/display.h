@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class Display {
 public:
@@ -54,4 +54,4 @@ public:
     [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -13,7 +13,7 @@ extern "C" {
 #include <xf86drm.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -89,4 +89,4 @@ Result<DrawingGpu> DrawingGpu::on_render_node(const char* path) {
     return on(std::move(device), false);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -18,7 +18,7 @@
 
 struct gbm_device;
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class DrawingGpu {
 public:
@@ -41,4 +41,4 @@ private:
     bool shows_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -11,7 +11,7 @@ extern "C" {
 #include <xf86drmMode.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 std::optional<DumbBuffer> DumbBuffer::create(int card, PixelSize size) {
     std::uint32_t handle = 0;
@@ -74,4 +74,4 @@ void DumbBuffer::unmap() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

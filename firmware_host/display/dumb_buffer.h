@@ -14,7 +14,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class DumbBuffer {
 public:
@@ -46,4 +46,4 @@ private:
     FramebufferId shown_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

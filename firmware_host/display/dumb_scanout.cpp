@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -83,4 +83,4 @@ Result<std::unique_ptr<ScanoutPair>> make_dumb_scanout(const CardScreen& screen,
     return pair;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -10,10 +10,10 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// `screen` must outlive the result.
 [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_dumb_scanout(const CardScreen& screen,
                                                                      PixelSize size);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

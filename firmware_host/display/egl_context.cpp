@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -137,4 +137,4 @@ bool has_gl_extension(std::string_view name) {
     return false;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class EglContext {
 public:
@@ -48,4 +48,4 @@ private:
 /// Whether the current context has this extension.
 [[nodiscard]] bool has_gl_extension(std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

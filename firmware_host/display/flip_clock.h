@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class FlipClock {
 public:
@@ -45,4 +45,4 @@ private:
     std::optional<MonotonicTime> last_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -13,7 +13,7 @@ extern "C" {
 #include <xf86drm.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 FlipEvents::FlipEvents(int card) : card_(card) {
     std::uint64_t monotonic = 0;
@@ -80,4 +80,4 @@ void FlipEvents::ask_whether_they_keep_time() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class FlipEvents {
 public:
@@ -38,4 +38,4 @@ private:
     std::vector<Flipped> seen_;     ///< not returned yet
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

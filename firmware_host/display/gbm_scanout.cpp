@@ -15,7 +15,7 @@ extern "C" {
 #include <gbm.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -149,4 +149,4 @@ Result<std::unique_ptr<ScanoutPair>> make_gbm_scanout(const CardScreen& screen, 
     return pair;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

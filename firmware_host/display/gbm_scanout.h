@@ -10,9 +10,9 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// `screen` must outlive the result.
 [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_gbm_scanout(const CardScreen& screen, PixelSize size);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

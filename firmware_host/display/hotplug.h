@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class Hotplug {
 public:
@@ -19,4 +19,4 @@ public:
 /// Events of udev. Without udev there are no events, and every wait takes its full time.
 [[nodiscard]] std::unique_ptr<Hotplug> make_udev_hotplug();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

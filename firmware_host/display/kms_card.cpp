@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -196,4 +196,4 @@ bool OtherCards::have_projector() {
     return false;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

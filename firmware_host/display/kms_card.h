@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class KmsCard {
 public:
@@ -77,4 +77,4 @@ private:
 /// master before (drm_auth.c, drm_master_check_perm).
 [[nodiscard]] bool take_screen(int card);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

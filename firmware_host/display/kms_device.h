@@ -16,7 +16,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 enum class KmsAnswer : std::uint8_t {
     Done,      ///< queued
@@ -76,4 +76,4 @@ public:
 };
 using MakeScanout = std::function<Result<std::unique_ptr<ScanoutPair>>(PixelSize size)>;
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

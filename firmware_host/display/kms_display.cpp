@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name,
                                                        const OutputRequest& request) {
@@ -62,10 +62,11 @@ Result<MonotonicTime> KmsDisplay::present(MonotonicTime /*now*/) {
     take_news();
     const PixelRectangle told = std::exchange(changed_, {});
     const std::unique_lock quiet = watch_.quiet();
-    Result<MonotonicTime> shown =
-        presenter_.present(told.empty() ? PixelRectangle{0, 0, width(), height()} : told, quiet.owns_lock());
+    Result<MonotonicTime> shown = presenter_.present(
+        told.empty() ? PixelRectangle{.x = 0, .y = 0, .width = width(), .height = height()} : told,
+        quiet.owns_lock());
     watch_.set_lit(presenter_.lit());
     return shown;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -19,7 +19,7 @@
 #include <memory>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class KmsDisplay final : public Display {
 public:
@@ -63,4 +63,4 @@ private:
     ConnectorWatch watch_;   ///< last: its thread uses the card
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

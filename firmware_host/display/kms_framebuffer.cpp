@@ -8,7 +8,7 @@ extern "C" {
 #include <xf86drmMode.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// Passes no modifiers, so the driver lays memory out as the kernel expects. Old drivers only accept depth
 /// and bits.
@@ -33,4 +33,4 @@ void remove_framebuffer(int card, FramebufferId framebuffer) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// `handle`: the memory's GEM handle on this card; `stride`: bytes of a row.
 [[nodiscard]] FramebufferId add_framebuffer(int card, PixelSize size, std::uint32_t handle,
@@ -16,4 +16,4 @@ namespace frustumscreen {
 /// Does nothing for 0.
 void remove_framebuffer(int card, FramebufferId framebuffer);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 bool is_hdmi(int card, std::uint32_t connector_id) {
     const KmsConnector connector(drmModeGetConnectorCurrent(card, connector_id), drmModeFreeConnector);
@@ -72,4 +72,4 @@ drmModeModeInfo mode_info(const ModeTiming& timing) {
     return mode;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -10,7 +10,7 @@ extern "C" {
 #include <xf86drmMode.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 using KmsResources = std::unique_ptr<drmModeRes, decltype(&drmModeFreeResources)>;
 using KmsConnector = std::unique_ptr<drmModeConnector, decltype(&drmModeFreeConnector)>;
@@ -32,4 +32,4 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
 [[nodiscard]] ModeTiming timing_of(const drmModeModeInfo& mode);
 [[nodiscard]] drmModeModeInfo mode_info(const ModeTiming& timing);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

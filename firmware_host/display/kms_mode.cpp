@@ -11,7 +11,7 @@ extern "C" {
 #include <libxcvt/libxcvt.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -20,12 +20,32 @@ constexpr double same_refresh_hz = 0.5;
 constexpr double usual_refresh_hz = 60.0; ///< of a mode made here without a requested rate
 
 /// CTA-861's formats 4 and 16; projectors with HDMI expect exactly these timings.
-constexpr ModeTiming hd_720{74250, 1280, 1390, 1430, 1650, 0,
-                            720,   725,  730,  750,  0,    mode_hsync_positive | mode_vsync_positive,
-                            false};
-constexpr ModeTiming hd_1080{148500, 1920, 2008, 2052, 2200, 0,
-                             1080,   1084, 1089, 1125, 0,    mode_hsync_positive | mode_vsync_positive,
-                             false};
+constexpr ModeTiming hd_720{.clock_khz = 74250,
+                            .width = 1280,
+                            .hsync_start = 1390,
+                            .hsync_end = 1430,
+                            .htotal = 1650,
+                            .hskew = 0,
+                            .height = 720,
+                            .vsync_start = 725,
+                            .vsync_end = 730,
+                            .vtotal = 750,
+                            .vscan = 0,
+                            .flags = mode_hsync_positive | mode_vsync_positive,
+                            .preferred = false};
+constexpr ModeTiming hd_1080{.clock_khz = 148500,
+                             .width = 1920,
+                             .hsync_start = 2008,
+                             .hsync_end = 2052,
+                             .htotal = 2200,
+                             .hskew = 0,
+                             .height = 1080,
+                             .vsync_start = 1084,
+                             .vsync_end = 1089,
+                             .vtotal = 1125,
+                             .vscan = 0,
+                             .flags = mode_hsync_positive | mode_vsync_positive,
+                             .preferred = false};
 
 bool is_usable(const ModeTiming& mode) {
     return mode.width > 0 && mode.height > 0 && refresh_hz(mode) > 0.0 && (mode.flags & mode_stereo) == 0;
@@ -177,4 +197,4 @@ void add_usual_modes(CardSeen& card) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// One mode's timing; the fields have the kernel's meaning.
 struct ModeTiming {
@@ -103,4 +103,4 @@ enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTh
 /// Adds commonly accepted modes to each connected projector that lists none because its EDID is missing.
 void add_usual_modes(CardSeen& card);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -8,7 +8,7 @@ extern "C" {
 #include <xf86drmMode.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 KmsProperties::KmsProperties(int card, std::uint32_t object, std::uint32_t kind) : object_(object) {
     const std::unique_ptr<drmModeObjectProperties, decltype(&drmModeFreeObjectProperties)> list(
@@ -22,11 +22,11 @@ KmsProperties::KmsProperties(int card, std::uint32_t object, std::uint32_t kind)
         if (!property) {
             continue;
         }
-        KmsProperty one{property->prop_id,
-                        list->prop_values[k],
-                        (property->flags & DRM_MODE_PROP_IMMUTABLE) != 0,
-                        property->name,
-                        {}};
+        KmsProperty one{.id = property->prop_id,
+                        .value = list->prop_values[k],
+                        .immutable = (property->flags & DRM_MODE_PROP_IMMUTABLE) != 0,
+                        .name = property->name,
+                        .choices = {}};
         for (int c = 0; (property->flags & DRM_MODE_PROP_ENUM) != 0 && c < property->count_enums; ++c) {
             one.choices.push_back({property->enums[c].name, property->enums[c].value});
         }
@@ -48,4 +48,4 @@ std::uint64_t KmsProperties::value(std::string_view name) const {
     return property != nullptr ? property->value : 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

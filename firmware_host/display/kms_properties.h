@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// One of the allowed values of an enumeration.
 struct KmsChoice {
@@ -44,4 +44,4 @@ private:
     std::vector<KmsProperty> all_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

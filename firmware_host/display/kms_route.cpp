@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector_id) {
     std::vector<KmsCrtc> crtcs;
@@ -32,4 +32,4 @@ std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector_id) {
     return crtcs;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

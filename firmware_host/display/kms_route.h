@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 struct KmsCrtc {
     std::uint32_t id = 0;
@@ -18,4 +18,4 @@ struct KmsCrtc {
 /// it up.
 [[nodiscard]] std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

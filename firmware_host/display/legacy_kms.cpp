@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -75,4 +75,4 @@ KmsAnswer LegacyKms::darken() {
     return answer;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

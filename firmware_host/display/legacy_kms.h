@@ -10,7 +10,7 @@
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/kms_device.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class LegacyKms final : public KmsDevice {
 public:
@@ -35,4 +35,4 @@ private:
     std::string_view shortcoming_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// Both sizes are at least 1 x 1.
 [[nodiscard]] inline PixelRectangle letterbox(PixelSize picture, PixelSize screen) {
@@ -14,7 +14,7 @@ namespace frustumscreen {
         const std::int64_t rounded = (2LL * length * numerator + denominator) / (2LL * denominator);
         return static_cast<int>(std::max<std::int64_t>(rounded, 1));
     };
-    PixelRectangle place{0, 0, screen.width, screen.height};
+    PixelRectangle place{.x = 0, .y = 0, .width = screen.width, .height = screen.height};
     if (std::int64_t{picture.width} * screen.height >= std::int64_t{screen.width} * picture.height) {
         place.height = std::min(scaled(picture.height, screen.width, picture.width), screen.height);
     } else {
@@ -41,7 +41,10 @@ namespace frustumscreen {
     const int right = to(std::min(part.x + part.width + margin, picture.width), place.width, picture.width);
     const int bottom =
         to(std::min(part.y + part.height + margin, picture.height), place.height, picture.height);
-    return {place.x + left, place.y + top, std::max(right - left, 0), std::max(bottom - top, 0)};
+    return {.x = place.x + left,
+            .y = place.y + top,
+            .width = std::max(right - left, 0),
+            .height = std::max(bottom - top, 0)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

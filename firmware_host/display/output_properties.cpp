@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string_view range_in_doubt(std::span<const KmsProperty> connector, bool hdm
            "projector's HDMI range to the other one";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 struct PropertySetting {
     std::uint32_t property = 0;
@@ -31,4 +31,4 @@ struct PropertySetting {
 [[nodiscard]] std::string_view range_in_doubt(std::span<const KmsProperty> connector, bool hdmi,
                                               const ModeTiming& mode, bool set);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -93,4 +93,4 @@ DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& req
                                 connector.name, before, reason));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 struct LitOutput {
     std::string_view connector;
@@ -26,4 +26,4 @@ struct LitOutput {
 [[nodiscard]] DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& request,
                                       std::string_view reason);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -49,8 +49,8 @@ void main() {
 }
 )";
 
-GlSampler make_sampler(GLint filter, bool of_codes) {
-    GlSampler sampler = GlSampler::generate();
+gl::GlSampler make_sampler(GLint filter, bool of_codes) {
+    gl::GlSampler sampler = gl::GlSampler::generate();
     glSamplerParameteri(sampler.get(), GL_TEXTURE_MIN_FILTER, filter);
     glSamplerParameteri(sampler.get(), GL_TEXTURE_MAG_FILTER, filter);
     glSamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -65,12 +65,13 @@ GlSampler make_sampler(GLint filter, bool of_codes) {
 
 Result<PictureCopy> PictureCopy::create() {
     const bool of_codes = has_gl_extension("GL_EXT_texture_sRGB_decode");
-    TRY(GlProgram program, make_program("", vertex_shader, of_codes ? shader_of_codes : shader_of_light));
+    TRY(gl::GlProgram program,
+        gl::make_program("", vertex_shader, of_codes ? shader_of_codes : shader_of_light));
     return PictureCopy(std::move(program), make_sampler(GL_NEAREST, of_codes),
                        make_sampler(GL_LINEAR, of_codes));
 }
 
-PictureCopy::PictureCopy(GlProgram program, GlSampler nearest, GlSampler interpolated)
+PictureCopy::PictureCopy(gl::GlProgram program, gl::GlSampler nearest, gl::GlSampler interpolated)
     : program_(std::move(program)), nearest_(std::move(nearest)), interpolated_(std::move(interpolated)) {}
 
 /// Draws the whole picture at `place` but writes only the pixels of `part`; rows are the target's.
@@ -98,11 +99,12 @@ void PictureCopy::draw(const PictureFramebuffer& picture, const Pass& pass) cons
 PixelRectangle PictureCopy::draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
                                  const PixelRectangle& part) const {
     const PixelSize size{picture.width(), picture.height()};
-    const PixelRectangle screen{0, 0, target.width, target.height};
+    const PixelRectangle screen{.x = 0, .y = 0, .width = target.width, .height = target.height};
     const PixelRectangle place = letterbox(size, target);
     const bool same = size == target;
     PixelRectangle drawn = part_on_screen(part, size, place);
-    if (part == PixelRectangle{0, 0, size.width, size.height} && !(place == screen)) {
+    if (part == PixelRectangle{.x = 0, .y = 0, .width = size.width, .height = size.height} &&
+        !(place == screen)) {
         glDisable(GL_SCISSOR_TEST);
         glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         glClear(GL_COLOR_BUFFER_BIT);
@@ -110,15 +112,22 @@ PixelRectangle PictureCopy::draw(const PictureFramebuffer& picture, PixelSize ta
     }
     const auto in_target = [&](const PixelRectangle& of) {
         const int first_row = top == TopRow::First ? of.y : target.height - of.y - of.height;
-        return PixelRectangle{of.x, first_row, of.width, of.height};
+        return PixelRectangle{.x = of.x, .y = first_row, .width = of.width, .height = of.height};
     };
-    draw(picture, {same, top, in_target(place), in_target(part_on_screen(part, size, place))});
+    draw(picture, {.exact = same,
+                   .top = top,
+                   .place = in_target(place),
+                   .part = in_target(part_on_screen(part, size, place))});
     if (same) {
         return drawn;
     }
-    const PixelRectangle code{0, 0, std::min({probe_pixels, size.width, target.width}), 1};
-    draw(picture, {true, top, in_target({0, 0, size.width, size.height}), in_target(code)});
+    const PixelRectangle code{
+        .x = 0, .y = 0, .width = std::min({probe_pixels, size.width, target.width}), .height = 1};
+    draw(picture, {.exact = true,
+                   .top = top,
+                   .place = in_target({.x = 0, .y = 0, .width = size.width, .height = size.height}),
+                   .part = in_target(code)});
     return united(drawn, code);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -18,7 +18,7 @@
 #include "firmware_host/display/picture_framebuffer.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// The row of the target that holds the picture's top row: the first in a scanned-out buffer, the last in a
 /// window.
@@ -37,12 +37,12 @@ public:
 private:
     struct Pass;
     void draw(const PictureFramebuffer& picture, const Pass& pass) const;
-    PictureCopy(GlProgram program, GlSampler nearest, GlSampler interpolated);
+    PictureCopy(gl::GlProgram program, gl::GlSampler nearest, gl::GlSampler interpolated);
 
-    GlProgram program_;
-    GlSampler nearest_;
-    GlSampler interpolated_;
-    GlVertexArray vertices_ = GlVertexArray::generate();
+    gl::GlProgram program_;
+    gl::GlSampler nearest_;
+    gl::GlSampler interpolated_;
+    gl::GlVertexArray vertices_ = gl::GlVertexArray::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

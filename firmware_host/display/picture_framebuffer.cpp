@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
     GLint limit = 0;
@@ -44,4 +44,4 @@ PictureFramebuffer::PictureFramebuffer(int width, int height) : width_(width), h
                               depth_stencil_.get());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

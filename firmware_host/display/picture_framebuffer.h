@@ -9,7 +9,7 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class PictureFramebuffer {
 public:
@@ -25,9 +25,9 @@ private:
 
     int width_;
     int height_;
-    GlFramebuffer framebuffer_ = GlFramebuffer::generate();
-    GlTexture colour_ = GlTexture::generate();
-    GlRenderbuffer depth_stencil_ = GlRenderbuffer::generate();
+    gl::GlFramebuffer framebuffer_ = gl::GlFramebuffer::generate();
+    gl::GlTexture colour_ = gl::GlTexture::generate();
+    gl::GlRenderbuffer depth_stencil_ = gl::GlRenderbuffer::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

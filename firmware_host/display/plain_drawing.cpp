@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -27,4 +27,4 @@ void draw_plainly() {
     keep_no_shaders();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

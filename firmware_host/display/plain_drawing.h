@@ -5,8 +5,8 @@
 /// Source   Mesa 22.3, docs/envvars.rst; GBM_ALWAYS_SOFTWARE: src/gbm/backends/dri/gbm_dri.c.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 void draw_plainly();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

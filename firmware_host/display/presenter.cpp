@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -267,7 +267,11 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
     if (answer == KmsAnswer::Done) {
         const bool as_requested = request_.width == 0 || fulfils(mode, request_) ||
                                   (request_.force && mode == modes_to_try(connector, request_).front());
-        lit_ = Lit{connector.id, connector.name, mode, as_requested, is_lit_blindly(connector, request_)};
+        lit_ = Lit{.connector = connector.id,
+                   .name = connector.name,
+                   .mode = mode,
+                   .as_requested = as_requested,
+                   .blindly = is_lit_blindly(connector, request_)};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         state_ = {{DeviceHealth::Well, "display.first_picture"},
@@ -312,7 +316,7 @@ bool Presenter::make_scanout(PixelSize size) {
         shown_before_ = std::move(scanout_);
     }
     scanout_ = std::move(*made);
-    stale_.fill({0, 0, request_.picture_width, request_.picture_height});
+    stale_.fill({.x = 0, .y = 0, .width = request_.picture_width, .height = request_.picture_height});
     return true;
 }
 
@@ -361,7 +365,11 @@ void Presenter::lose(MessageId id, std::string_view why) {
 }
 
 void Presenter::say_lit() {
-    state_ = state_of({lit_->name, lit_->mode, lit_->as_requested, lit_->blindly, device_.shortcoming()});
+    state_ = state_of({.connector = lit_->name,
+                       .mode = lit_->mode,
+                       .as_requested = lit_->as_requested,
+                       .blindly = lit_->blindly,
+                       .shortcoming = device_.shortcoming()});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// Longest wait for a flip before the exhibit continues without it: fifteen refreshes of 60 Hz.
 inline constexpr Nanoseconds flip_patience = std::chrono::milliseconds(250);
@@ -130,4 +130,4 @@ private:
     DeviceState state_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -10,7 +10,7 @@
 #include <cassert>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 Result<ReadBack> ReadBack::create(PixelSize screen) {
     ReadBack read_back(screen);
@@ -47,4 +47,4 @@ void ReadBack::fill(const PictureCopy& copy, const PictureFramebuffer& picture, 
     glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

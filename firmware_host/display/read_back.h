@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class ReadBack {
 public:
@@ -29,8 +29,8 @@ private:
     explicit ReadBack(PixelSize screen);
 
     PixelSize screen_;
-    GlFramebuffer framebuffer_ = GlFramebuffer::generate();
-    GlRenderbuffer colour_ = GlRenderbuffer::generate();
+    gl::GlFramebuffer framebuffer_ = gl::GlFramebuffer::generate();
+    gl::GlRenderbuffer colour_ = gl::GlRenderbuffer::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

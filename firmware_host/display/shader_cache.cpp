@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -43,4 +43,4 @@ void keep_no_shaders() {
     ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -13,7 +13,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// Keeps the cache below `folder`, which is made if missing; 64 MB at most. Errors: the disk is full or not
 /// writable; then no shaders are kept.
@@ -21,4 +21,4 @@ namespace frustumscreen {
 
 void keep_no_shaders();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -2,7 +2,7 @@
 
 #include <GLES3/gl31.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 Result<std::unique_ptr<SurfacelessDisplay>> SurfacelessDisplay::create(int width, int height) {
     TRY(EglContext context, EglContext::without_screen());
@@ -17,4 +17,4 @@ Result<MonotonicTime> SurfacelessDisplay::present(MonotonicTime now) {
     return now;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

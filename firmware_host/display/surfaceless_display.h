@@ -13,7 +13,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class SurfacelessDisplay final : public Display {
 public:
@@ -37,4 +37,4 @@ private:
     bool presented_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -13,7 +13,7 @@ extern "C" {
 #include <libudev.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::unique_ptr<Hotplug> make_udev_hotplug() {
     return std::make_unique<UdevHotplug>();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::gl {
 
 template <typename Kind> class GlHandle {
 public:
@@ -57,4 +57,4 @@ using GlRenderbuffer = GlHandle<gl_kind::Counted<glGenRenderbuffers, glDeleteRen
 using GlSampler = GlHandle<gl_kind::Counted<glGenSamplers, glDeleteSamplers>>;
 using GlProgram = GlHandle<gl_kind::Program>;
 
-} // namespace frustumscreen
+} // namespace frustumscreen::gl

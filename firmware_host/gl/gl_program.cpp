@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::gl {
 
 namespace {
 
@@ -55,4 +55,4 @@ Result<GlProgram> make_program(std::string_view defines, std::string_view vertex
     return program;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::gl

@@ -9,11 +9,11 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::gl {
 
 /// Both stages get '#version 300 es', highp for all types (the lowp samplers that ES defaults to change
 /// results) and `defines`.
 [[nodiscard]] Result<GlProgram> make_program(std::string_view defines, std::string_view vertex,
                                              std::string_view fragment);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::gl

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 class ButtonLines {
 public:
@@ -42,4 +42,4 @@ struct LineRequest {
 
 using OpenLines = std::function<Result<std::unique_ptr<ButtonLines>>()>;
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 namespace {
 
@@ -117,4 +117,4 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
     return dark ? Error{ErrorKind::DeviceLost, "panel.ended", {}} : dark.error();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

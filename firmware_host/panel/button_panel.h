@@ -17,7 +17,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 class ButtonPanel final : public Panel {
 public:
@@ -60,4 +60,4 @@ private:
     std::jthread thread_;                   ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 Buttons::Buttons(std::size_t count, const ButtonTimes& times) : times_(times), buttons_(count) {}
 
@@ -165,4 +165,4 @@ bool Buttons::any_chatters() const {
                        [](const Button& button) { return button.chatters; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 struct ButtonTimes {
     Nanoseconds debounce = std::chrono::milliseconds(30);
@@ -89,4 +89,4 @@ private:
     bool chord_said_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -9,7 +9,7 @@
 #include <array>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<std::byte> read_cp2112_configuration(const std::string& gpio_chip) {
                                                                               : std::vector<std::byte>{};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

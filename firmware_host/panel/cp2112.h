@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 /// The special function of this pin; empty: it is a GPIO, or the bytes are not such a report.
 [[nodiscard]] std::string_view cp2112_function(std::span<const std::byte> configuration, unsigned pin);
@@ -33,4 +33,4 @@ namespace frustumscreen {
 /// device. Empty: no such chip, not a CP2112, no answer, or no permission.
 [[nodiscard]] std::vector<std::byte> read_cp2112_configuration(const std::string& gpio_chip);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

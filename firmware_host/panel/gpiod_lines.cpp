@@ -11,7 +11,7 @@
 #include <cstring>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 namespace {
 
@@ -164,4 +164,4 @@ Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request)
                                         std::move(remark));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 bool KeyLevels::take(std::span<const std::byte> bytes) {
     bool dropped = false;
@@ -45,4 +45,4 @@ void KeyLevels::set(std::span<const std::byte> keys) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

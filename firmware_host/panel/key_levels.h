@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 class KeyLevels {
 public:
@@ -38,4 +38,4 @@ private:
     bool dropped_ = false; ///< until the next report
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

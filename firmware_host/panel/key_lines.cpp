@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 namespace {
 
@@ -188,4 +188,4 @@ Result<std::vector<std::uint16_t>> key_codes(std::span<const std::string> names)
     return codes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -7,7 +7,7 @@
 
 #include "firmware_host/panel/button_lines.h"
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 struct KeyRequest {
     std::string device;               ///< a path, or the keyboard's name
@@ -22,4 +22,4 @@ struct KeyRequest {
 /// Codes of names such as KEY_LEFT. Errors: BadConfiguration, an unknown name.
 [[nodiscard]] Result<std::vector<std::uint16_t>> key_codes(std::span<const std::string> names);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 enum class PressKind : std::uint8_t {
     Press,
@@ -50,4 +50,4 @@ public:
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 ScriptedPanel::ScriptedPanel(std::vector<PanelPress> script, Nanoseconds repeat, MonotonicTime start)
     : script_(std::move(script)), repeat_(repeat), round_start_(start) {
@@ -21,4 +21,4 @@ Result<void> ScriptedPanel::poll(MonotonicTime now, std::vector<PanelEvent>& eve
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 struct PanelPress {
     Nanoseconds at{0};
@@ -34,4 +34,4 @@ private:
     std::size_t next_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 namespace {
 
@@ -102,4 +102,4 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     return at(place, content_of(std::move(*answer)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -19,7 +19,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 namespace {
 
@@ -372,4 +372,4 @@ void note_driver_for_crashes(std::string_view driver) {
     keep(state.driver, driver);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

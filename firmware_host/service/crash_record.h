@@ -23,7 +23,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 struct CrashRecordSetUp {
     std::filesystem::path folder; ///< made if missing; empty: only the line, no file
@@ -35,4 +35,4 @@ void record_crashes(const CrashRecordSetUp& set_up);
 /// Sets the graphics driver's name and version. Call it on the render thread.
 void note_driver_for_crashes(std::string_view driver);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 HangPolicy::News HangPolicy::look(MonotonicTime now, MonotonicTime heard) {
     const bool stood_still = !looked_ || now - *looked_ > 2 * between_looks();
@@ -51,4 +51,4 @@ void HangWatch::run(const std::stop_token& stop) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -14,7 +14,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 /// Decides whether silence is a hang. If the watch itself did not run, because the machine or the process was
 /// suspended, it restarts its count, because the silence may not be the thread's fault.
@@ -53,4 +53,4 @@ private:
     std::jthread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

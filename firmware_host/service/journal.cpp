@@ -16,7 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 namespace {
 
@@ -73,4 +73,4 @@ void Journal::note(LogPriority priority, std::string_view message,
     entry.send();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

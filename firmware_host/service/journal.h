@@ -12,7 +12,7 @@
 
 struct stat;
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 /// Levels of syslog(3).
 enum class LogPriority { Error = 3, Warning = 4, Notice = 5, Info = 6 };
@@ -38,4 +38,4 @@ private:
 /// `journal_stream` is the value of JOURNAL_STREAM, device:inode; null = not set.
 [[nodiscard]] bool is_journal(const char* journal_stream, const struct stat& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

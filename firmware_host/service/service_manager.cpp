@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 ServiceManager::ServiceManager() : listens_(std::getenv("NOTIFY_SOCKET") != nullptr) {
     std::uint64_t interval_us = 0;
@@ -44,4 +44,4 @@ void ServiceManager::status(const Sentence& sentence) {
     ::sd_notify(0, message.data());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

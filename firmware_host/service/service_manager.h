@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 class ServiceManager {
 public:
@@ -36,4 +36,4 @@ private:
     Sentence status_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 namespace {
 
@@ -190,4 +190,4 @@ void StaffSocket::send(int client, std::span<const std::byte> bytes, MonotonicTi
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -27,7 +27,7 @@
 #include <string_view>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 class StaffSocket {
 public:
@@ -75,4 +75,4 @@ struct SocketPeer {
 };
 [[nodiscard]] bool is_staff(const SocketPeer& peer, uid_t own_user, gid_t staff_group);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 namespace {
 
@@ -50,4 +50,4 @@ void end_within(Nanoseconds time, int status) {
     ::setitimer(ITIMER_REAL, &once, nullptr);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -9,7 +9,7 @@
 
 #include <csignal>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 class StopSignals {
 public:
@@ -39,4 +39,4 @@ private:
 /// Ends the process after `time` with this status, even if a thread is stuck in a device.
 void end_within(Nanoseconds time, int status = 0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

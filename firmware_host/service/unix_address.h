@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 class UnixAddress {
 public:
@@ -31,4 +31,4 @@ private:
     sockaddr_un address_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

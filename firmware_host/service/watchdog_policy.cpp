@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 std::string_view sentence_of(Health health) {
     switch (health) {
@@ -70,4 +70,4 @@ bool WatchdogPolicy::feed(MonotonicTime now, Health health) {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

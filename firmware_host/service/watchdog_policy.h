@@ -16,7 +16,7 @@
 #include <span>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 enum class Health : std::uint8_t {
     Well,
@@ -66,4 +66,4 @@ private:
     std::optional<MonotonicTime> fed_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -75,4 +75,4 @@ void wake_controls(int card) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -6,9 +6,9 @@
 /// Threads  one caller; it may take as long as opening the card.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 /// `card` is ALSA's number; negative: no card, no effect.
 void wake_controls(int card);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -246,4 +246,4 @@ Result<std::unique_ptr<PcmDevice>> open_alsa(const std::string& name) {
     return std::make_unique<AlsaDevice>(std::move(pcm), name, set_up);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -140,4 +140,4 @@ void DeviceSound::report(Nanoseconds queued, bool audible) {
     reports_.put(report);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -19,7 +19,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class DeviceSound final : public Sound {
 public:
@@ -66,4 +66,4 @@ private:
     std::jthread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -147,4 +147,4 @@ float Mixer::next_of_speech() {
     return sample;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

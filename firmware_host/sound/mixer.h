@@ -14,7 +14,7 @@
 #include <array>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 /// Approaches its goal by steps of bounded size.
 class Ramp {
@@ -83,4 +83,4 @@ template <typename Take> void mix_in_blocks(Mixer& mixer, std::uint64_t count, c
 /// slope of at most 1.
 [[nodiscard]] float soft_limit(float x);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -118,4 +118,4 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
     return prompt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

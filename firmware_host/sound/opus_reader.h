@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 struct OpusLimits {
     Nanoseconds longest = std::chrono::minutes(3);
@@ -23,4 +23,4 @@ struct OpusLimits {
 /// Returns a prompt without marks; `find_pauses` finds them.
 [[nodiscard]] Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& limits = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<Mark> find_pauses(std::span<const std::int16_t> samples, const Pause
     return marks;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

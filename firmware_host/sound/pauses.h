@@ -13,7 +13,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 struct PauseLimits {
     double below_mean_db = 26.0;
@@ -26,4 +26,4 @@ struct PauseLimits {
 [[nodiscard]] std::vector<Mark> find_pauses(std::span<const std::int16_t> samples,
                                             const PauseLimits& limits = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class PcmDevice {
 public:
@@ -43,4 +43,4 @@ using OpenPcm = std::function<Result<std::unique_ptr<PcmDevice>>()>;
 
 inline constexpr Nanoseconds longest_queue = std::chrono::milliseconds(50);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

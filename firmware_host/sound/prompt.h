@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 inline constexpr int sample_rate_hz = 48'000;
 
@@ -39,4 +39,4 @@ struct Prompt {
 };
 using SharedPrompt = std::shared_ptr<const Prompt>;
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

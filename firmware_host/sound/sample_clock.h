@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class SampleClock {
 public:
@@ -28,4 +28,4 @@ private:
     std::uint64_t taken_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -1,6 +1,6 @@
 #include "firmware_host/sound/silent_sound.h"
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 SoundReport SilentSound::poll(MonotonicTime now, const SoundRequest& request) {
     mix_in_blocks(mixer_, clock_.take_due(now), [](std::span<const std::int16_t>) {});
@@ -8,4 +8,4 @@ SoundReport SilentSound::poll(MonotonicTime now, const SoundRequest& request) {
     return mixer_.report(Nanoseconds(0));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

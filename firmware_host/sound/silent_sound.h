@@ -7,7 +7,7 @@
 #include "firmware_host/sound/sample_clock.h"
 #include "firmware_host/sound/sound.h"
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class SilentSound final : public Sound {
 public:
@@ -21,4 +21,4 @@ private:
     SampleClock clock_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

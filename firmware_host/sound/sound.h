@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 struct SoundReport {
     std::uint64_t number = 0;    ///< of the spoken prompt; 0: none
@@ -43,4 +43,4 @@ public:
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 std::uint64_t SoundRequest::say(SharedPrompt prompt) {
     assert(prompt);
@@ -21,4 +21,4 @@ void SoundRequest::stop() {
     ++stops_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -8,7 +8,7 @@
 
 #include "firmware_host/sound/prompt.h"
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class SoundRequest {
 public:
@@ -34,4 +34,4 @@ private:
     double gain_db_ = 0.0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -33,4 +33,4 @@ double gain_db_at(const Volume& volume, double hour_of_day) {
     return volume.gain_db + before.gain_db + (now.gain_db - before.gain_db) * share;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 struct VolumeHour {
     double from_h = 0.0;  ///< 0 <= from_h < 24
@@ -25,4 +25,4 @@ struct Volume {
 /// Continuous in time, also over midnight.
 [[nodiscard]] double gain_db_at(const Volume& volume, double hour_of_day);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

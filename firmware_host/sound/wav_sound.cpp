@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 namespace {
 
@@ -60,4 +60,4 @@ Result<void> WavSound::write(const std::filesystem::path& path) const {
     return write_file(path, bytes);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

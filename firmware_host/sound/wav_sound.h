@@ -12,7 +12,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 
 class WavSound final : public Sound {
 public:
@@ -32,4 +32,4 @@ private:
     std::vector<std::int16_t> samples_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

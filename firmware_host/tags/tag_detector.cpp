@@ -3,7 +3,7 @@
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 namespace {
 
@@ -72,4 +72,4 @@ void TagDetector::find(std::span<const std::uint8_t> luma, int width, int height
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 struct FoundTag {
     int id = 0;
@@ -53,4 +53,4 @@ private:
     TagDetectorOptions options_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

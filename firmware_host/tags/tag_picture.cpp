@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 TagModules tag_modules_of(int id) {
     const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(tag36h11_create(),
@@ -26,4 +26,4 @@ TagModules tag_modules_of(int id) {
     return modules;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 
 /// Modules per row: the black square of `black_modules`, with a white margin of one module.
 inline constexpr std::size_t tag_modules = 10;
@@ -19,4 +19,4 @@ using TagModules = std::array<std::array<bool, tag_modules>, tag_modules>;
 /// `id`: 0 to 586.
 [[nodiscard]] TagModules tag_modules_of(int id);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

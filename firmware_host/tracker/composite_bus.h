@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class CompositeBus final : public UsbBus {
 public:
@@ -31,4 +31,4 @@ private:
     std::vector<std::unique_ptr<UsbBus>> buses_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -8,7 +8,7 @@
 #include <cctype>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -133,4 +133,4 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 struct RecordingOptions {
     int station = prop_station;
@@ -35,4 +35,4 @@ struct ConvertedRecording {
 [[nodiscard]] Result<ConvertedRecording> convert_recording(std::string_view text, std::string_view name,
                                                            const RecordingOptions& options);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::uint32_t crc32_ieee(std::span<const std::byte> bytes) {
     return ~divide<std::uint32_t>(bytes, ieee, 0xFFFFFFFFU);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// CRC-16/ARC: reflected polynomial 0xA001, initial value 0. "123456789" gives 0xBB3D.
 [[nodiscard]] std::uint16_t crc16_arc(std::span<const std::byte> bytes);
@@ -16,4 +16,4 @@ namespace frustumscreen {
 /// gives 0xCBF43926.
 [[nodiscard]] std::uint32_t crc32_ieee(std::span<const std::byte> bytes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -134,4 +134,4 @@ MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
     return time;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

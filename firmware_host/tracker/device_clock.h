@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class DeviceClock {
 public:
@@ -70,4 +70,4 @@ private:
     bool wrong_rate_ = false; ///< the fitted slope is out of range
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 struct SensorPose {
     int sensor = 0; ///< number of the connector, from 1
@@ -53,4 +53,4 @@ enum class DiscardReason {
            std::abs(position_m.y) < farthest_m && std::abs(position_m.z) < farthest_m;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

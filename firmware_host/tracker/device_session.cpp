@@ -5,7 +5,7 @@
 #include "firmware_host/tracker/space_mouse_session.h"
 #include "firmware_host/tracker/viper_session.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 std::unique_ptr<DeviceSession> make_session(UsbTrackerModel model, const UsbTrackerSetUp& set_up) {
     switch (model) {
@@ -22,4 +22,4 @@ std::unique_ptr<DeviceSession> make_session(UsbTrackerModel model, const UsbTrac
     return nullptr;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// Settings of a tracker of any make.
 struct UsbTrackerSetUp {
@@ -44,4 +44,4 @@ struct SessionTimes {
     static constexpr int tries = 3;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

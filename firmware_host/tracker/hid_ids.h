@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 inline constexpr std::uint16_t space_mouse_vendor = 0x256f;
 /// Older models have the parent company's vendor id, and products 0xc6xx.
@@ -36,4 +36,4 @@ struct HidIdentity {
     return std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

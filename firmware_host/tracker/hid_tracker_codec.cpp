@@ -3,7 +3,7 @@
 #include "firmware_host/base/byte_reader.h"
 #include "firmware_host/tracker/crc.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -80,4 +80,4 @@ HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report) {
     return id == pose_report ? parse_pose(reader) : parse_info(reader);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -11,7 +11,7 @@
 #include <span>
 #include <variant>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// Usage of its top-level collection; vendor and product id are the maker's.
 inline constexpr std::uint16_t hid_tracker_usage_page = 0xFF46;
@@ -38,4 +38,4 @@ using HidTrackerMessage = std::variant<DiscardReason, HidTrackerInfo, HidTracker
 /// whatever its other fields contain.
 [[nodiscard]] HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -1,6 +1,6 @@
 #include "firmware_host/tracker/hid_tracker_session.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -75,4 +75,4 @@ UsbTrackerState HidTrackerSession::state(MonotonicTime now) const {
     return booting_ ? UsbTrackerState::Booting : intake_.state(now);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -7,7 +7,7 @@
 #include "firmware_host/tracker/device_session.h"
 #include "firmware_host/tracker/hid_tracker_codec.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class HidTrackerSession final : public DeviceSession {
 public:
@@ -33,4 +33,4 @@ private:
     SequenceChecker intake_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

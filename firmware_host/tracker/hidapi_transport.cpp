@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -99,7 +99,10 @@ public:
         UsbTrackerState trouble = UsbTrackerState::NotConnected;
         const DeviceList devices(hid_enumerate(0, 0)); // initialises hidapi the first time
         for (const hid_device_info* at = devices.get(); at != nullptr; at = at->next) {
-            if (known_hid_tracker({at->vendor_id, at->product_id, at->usage_page, at->usage}) != model_ ||
+            if (known_hid_tracker({.vendor = at->vendor_id,
+                                   .product = at->product_id,
+                                   .usage_page = at->usage_page,
+                                   .usage = at->usage}) != model_ ||
                 std::find(but_not.begin(), but_not.end(), at->path) != but_not.end()) {
                 continue;
             }
@@ -123,4 +126,4 @@ std::unique_ptr<UsbBus> make_hid_bus(UsbTrackerModel model) {
     return std::make_unique<HidapiBus>(model);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

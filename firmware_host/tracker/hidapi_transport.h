@@ -7,9 +7,9 @@
 
 #include "firmware_host/tracker/usb_transport.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// Finds devices of `model` only: Hid or SpaceMouse.
 [[nodiscard]] std::unique_ptr<UsbBus> make_hid_bus(UsbTrackerModel model);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::unique_ptr<UsbBus> make_libusb_bus() {
     return std::make_unique<LibusbBus>();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,8 +5,8 @@
 
 #include "firmware_host/tracker/usb_transport.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 [[nodiscard]] std::unique_ptr<UsbBus> make_libusb_bus();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

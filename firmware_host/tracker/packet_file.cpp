@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -89,4 +89,4 @@ std::optional<Packet> PacketReader::next() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -9,7 +9,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 inline constexpr std::size_t longest_packet = std::size_t{1} << 16;
 
@@ -45,4 +45,4 @@ private:
     std::int64_t latest_ns_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

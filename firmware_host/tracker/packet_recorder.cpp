@@ -5,7 +5,7 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -126,4 +126,4 @@ PacketRecorder::Counts PacketRecorder::counts() const {
     return counts_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -15,7 +15,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class PacketRecorder final : public PacketTap {
 public:
@@ -60,4 +60,4 @@ private:
     std::jthread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

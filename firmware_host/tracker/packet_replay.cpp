@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -129,4 +129,4 @@ Result<void> PacketReplayTracker::poll(MonotonicTime now, std::vector<PoseSample
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

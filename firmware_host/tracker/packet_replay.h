@@ -11,7 +11,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class PacketReplay {
 public:
@@ -78,4 +78,4 @@ private:
     Nanoseconds round_; ///< length of a round, in our time
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::optional<OpenedDevice> OpenedDevice::from(std::span<const std::byte> bytes)
     return opened;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// These numbers are stored in recordings.
 enum class PacketKind : std::uint32_t {
@@ -40,4 +40,4 @@ struct OpenedDevice {
     [[nodiscard]] static std::optional<OpenedDevice> from(std::span<const std::byte> bytes);
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::optional<int> patriot_units_answer(std::string_view text) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

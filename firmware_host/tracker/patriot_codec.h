@@ -17,7 +17,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 using PatriotMessage = std::variant<NeedMore, DiscardReason, DeviceFrame>;
 struct PatriotStep {
@@ -30,4 +30,4 @@ struct PatriotStep {
 /// nullopt: no complete line of `text` is such an answer.
 [[nodiscard]] std::optional<int> patriot_units_answer(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -107,4 +107,4 @@ void PatriotSession::receive(std::span<const std::byte> bytes, MonotonicTime arr
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class PatriotSession final : public DeviceSession {
 public:
@@ -44,4 +44,4 @@ private:
     SequenceChecker intake_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::string write_poses(std::span<const PoseSample> samples) {
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

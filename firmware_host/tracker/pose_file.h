@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 enum class PoseOrder {
     AsWritten,
@@ -28,4 +28,4 @@ enum class PoseOrder {
 /// Shortest decimals that read back as the same numbers.
 [[nodiscard]] std::string write_poses(std::span<const PoseSample> samples);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -80,4 +80,4 @@ Result<std::vector<PoseSample>> pose_path(std::span<const PoseSample> keys, Nano
     return path;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

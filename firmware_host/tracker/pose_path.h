@@ -17,11 +17,11 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// `keys` are in the order of their times for each station. A key that is not ok ends its station's path; the
 /// next one begins a new path. Returns poses of all stations at every period from the first key's time to the
 /// last key's, in the order of their times.
 [[nodiscard]] Result<std::vector<PoseSample>> pose_path(std::span<const PoseSample> keys, Nanoseconds period);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

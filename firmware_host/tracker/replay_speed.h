@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// `length` times `factor`, limited to 146 years either way, so a recording's end can be added to its
 /// beginning.
@@ -15,4 +15,4 @@ namespace frustumscreen {
     return Nanoseconds(std::llround(std::clamp(static_cast<double>(length.count()) * factor, -most, most)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat, double speed)
     : recording_(std::move(samples)) {
@@ -56,4 +56,4 @@ Result<void> ReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& sam
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

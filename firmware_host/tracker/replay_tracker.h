@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class ReplayTracker final : public Tracker {
 public:
@@ -34,4 +34,4 @@ private:
     std::size_t next_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

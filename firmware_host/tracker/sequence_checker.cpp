@@ -1,6 +1,6 @@
 #include "firmware_host/tracker/sequence_checker.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -139,4 +139,4 @@ UsbTrackerState SequenceChecker::state(MonotonicTime now) const {
     return UsbTrackerState::Streaming;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -13,7 +13,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class SequenceChecker {
 public:
@@ -55,4 +55,4 @@ private:
     std::optional<MonotonicTime> distorted_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class SetUpProgress {
 public:
@@ -77,4 +77,4 @@ private:
     bool failed_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -135,4 +135,4 @@ Result<void> SimulatedTracker::poll(MonotonicTime now, std::vector<PoseSample>& 
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

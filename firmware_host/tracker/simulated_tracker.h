@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 struct SimulatedVisitor {
     std::uint64_t seed = 1;
@@ -46,4 +46,4 @@ private:
     std::int64_t next_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -2,7 +2,7 @@
 
 #include "firmware_host/base/byte_reader.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -42,4 +42,4 @@ SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report) {
     return motion;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -15,7 +15,7 @@
 #include <span>
 #include <variant>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// In counts; nullopt if the report does not contain it.
 struct SpaceMouseMotion {
@@ -29,4 +29,4 @@ using SpaceMouseMessage = std::variant<DiscardReason, SpaceMouseOther, SpaceMous
 /// `report` is one report, with its id first.
 [[nodiscard]] SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -1,6 +1,6 @@
 #include "firmware_host/tracker/space_mouse_session.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -42,7 +42,11 @@ void SpaceMouseSession::advance(MonotonicTime to) {
 void SpaceMouseSession::sample(MonotonicTime to, std::vector<PoseSample>& samples) {
     for (; *next_sample_ <= to; *next_sample_ += sample_period) {
         advance(*next_sample_);
-        samples.push_back({at_, prop_station, position_m_, rotation_, true});
+        samples.push_back({.time = at_,
+                           .station = prop_station,
+                           .position_m = position_m_,
+                           .rotation = rotation_,
+                           .ok = true});
     }
 }
 
@@ -71,4 +75,4 @@ void SpaceMouseSession::receive(std::span<const std::byte> report, MonotonicTime
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -12,7 +12,7 @@
 #include "firmware_host/tracker/device_session.h"
 #include "firmware_host/tracker/space_mouse_codec.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class SpaceMouseSession final : public DeviceSession {
 public:
@@ -55,4 +55,4 @@ private:
     SequenceChecker intake_; ///< only counts refused reports
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

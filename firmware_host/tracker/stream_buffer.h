@@ -9,7 +9,7 @@
 #include <cstring>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class StreamBuffer {
 public:
@@ -37,4 +37,4 @@ private:
     std::size_t size_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

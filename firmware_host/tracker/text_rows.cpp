@@ -7,7 +7,7 @@
 
 #include <charconv>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::string quoted(std::string_view field) {
     return '"' + printable(field, 30) + '"';
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class TextRows {
 public:
@@ -40,4 +40,4 @@ private:
 /// The field in a form fit for a message: printable, not long, in quotes.
 [[nodiscard]] std::string quoted(std::string_view field);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 enum Station : int { prop_station = 1, head_station = 2, torch_station = 3 };
 
@@ -87,4 +87,4 @@ public:
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 inline constexpr std::uint16_t polhemus_vendor = 0x0f44;
 
@@ -41,4 +41,4 @@ inline constexpr std::array<KnownTracker, 9> known_trackers{{
     return std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

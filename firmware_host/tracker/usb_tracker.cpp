@@ -2,7 +2,7 @@
 
 #include "firmware_host/base/device_thread.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, PacketTap* tap)
     : table_frame_(bus->reports_table_frame()), driver_(std::move(bus), set_up, monotonic_now, tap),
@@ -36,4 +36,4 @@ Result<void> UsbTracker::poll(MonotonicTime now, std::vector<PoseSample>& sample
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

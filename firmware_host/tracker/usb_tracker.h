@@ -15,7 +15,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class UsbTracker final : public Tracker {
 public:
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
     [[nodiscard]] DeviceCondition condition() const override { return condition_of(state_); }
     [[nodiscard]] TrackerHealth health() const override { return health_of(state_); }
-    [[nodiscard]] bool hangs() const override { return frustumscreen::hangs(state_); }
+    [[nodiscard]] bool hangs() const override { return frustumscreen::tracker::hangs(state_); }
     [[nodiscard]] TrackerCounts counts() const override { return seen_counts_; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
@@ -55,4 +55,4 @@ private:
     std::jthread thread_; ///< last: it uses all members above
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

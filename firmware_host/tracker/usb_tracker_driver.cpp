@@ -1,6 +1,6 @@
 #include "firmware_host/tracker/usb_tracker_driver.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 UsbTrackerDriver::UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock,
                                    PacketTap* tap)
@@ -108,4 +108,4 @@ TrackerCounts UsbTrackerDriver::counts() const {
     return counts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -14,7 +14,7 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class UsbTrackerDriver {
 public:
@@ -58,4 +58,4 @@ private:
     std::array<std::byte, 4096> buffer_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

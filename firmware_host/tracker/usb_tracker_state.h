@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 enum class UsbTrackerState {
     NotConnected,
@@ -130,4 +130,4 @@ enum class UsbTrackerState {
            state == UsbTrackerState::Silent || state == UsbTrackerState::DeviceFault;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

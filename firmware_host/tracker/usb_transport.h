@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class UsbTransport {
 public:
@@ -50,4 +50,4 @@ public:
     [[nodiscard]] virtual bool reports_table_frame() const { return false; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -146,4 +146,4 @@ ViperCommandBytes::ViperCommandBytes(ViperCommand command, ViperAction action,
     put(crc16_arc(bytes()));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -17,7 +17,7 @@
 #include <span>
 #include <variant>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 enum class ViperCommand : std::uint32_t {
     Hemisphere = 0,  ///< of a sensor: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space of
@@ -74,4 +74,4 @@ private:
     std::size_t size_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

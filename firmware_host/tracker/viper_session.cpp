@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 namespace {
 
@@ -44,8 +44,11 @@ std::vector<ViperSession::Step> ViperSession::steps(const std::array<float, 3>& 
     const auto add = [&steps](C name, A action, Need need, Failing failing,
                               std::span<const std::byte> payload = {}, std::uint32_t sensor = 0,
                               ViperFilterTarget target = ViperFilterTarget::Both) {
-        steps.push_back(
-            {ViperCommandBytes(name, action, payload, sensor, target), name, action, need, failing});
+        steps.push_back({.command = ViperCommandBytes(name, action, payload, sensor, target),
+                         .name = name,
+                         .action = action,
+                         .need = need,
+                         .failing = failing});
     };
     const auto set = [&add](C name, std::span<const std::byte> payload, std::uint32_t sensor = 0) {
         add(name, A::Set, Need::Ack, Failing::TriesAgain, payload, sensor);
@@ -222,4 +225,4 @@ UsbTrackerState ViperSession::state(MonotonicTime now) const {
                             : state;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

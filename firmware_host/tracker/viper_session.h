@@ -10,7 +10,7 @@
 #include "firmware_host/tracker/stream_buffer.h"
 #include "firmware_host/tracker/viper_codec.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 class ViperSession final : public DeviceSession {
 public:
@@ -57,4 +57,4 @@ private:
     SequenceChecker intake_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 
 class MouseHand {
 public:
@@ -39,15 +39,22 @@ public:
         eye_elevation_ = std::clamp(eye_elevation_ + up, lowest_, highest_);
     }
 
-    [[nodiscard]] PoseSample prop(MonotonicTime now) const {
-        return {now, prop_station, glm::dvec3(centre_m_, 0.0),
-                glm::angleAxis(angle_, glm::dvec3(0.0, 0.0, 1.0)), true};
+    [[nodiscard]] tracker::PoseSample prop(MonotonicTime now) const {
+        return {.time = now,
+                .station = tracker::prop_station,
+                .position_m = glm::dvec3(centre_m_, 0.0),
+                .rotation = glm::angleAxis(angle_, glm::dvec3(0.0, 0.0, 1.0)),
+                .ok = true};
     }
-    [[nodiscard]] PoseSample head(MonotonicTime now) const {
+    [[nodiscard]] tracker::PoseSample head(MonotonicTime now) const {
         const glm::dvec3 direction(std::cos(eye_azimuth_) * std::cos(eye_elevation_),
                                    std::sin(eye_azimuth_) * std::cos(eye_elevation_),
                                    std::sin(eye_elevation_));
-        return {now, head_station, eye_distance_m_ * direction, {1.0, 0.0, 0.0, 0.0}, true};
+        return {.time = now,
+                .station = tracker::head_station,
+                .position_m = eye_distance_m_ * direction,
+                .rotation = {1.0, 0.0, 0.0, 0.0},
+                .ok = true};
     }
 
 private:
@@ -63,4 +70,4 @@ private:
     double eye_elevation_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::window

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 
 namespace {
 
@@ -49,10 +49,10 @@ public:
     void show();
     void pump(MonotonicTime now);
 
-    [[nodiscard]] const PictureFramebuffer& picture() const { return *picture_; }
+    [[nodiscard]] const display::PictureFramebuffer& picture() const { return *picture_; }
     [[nodiscard]] bool has_shown() const { return shown_; }
     [[nodiscard]] const MouseHand& hand() const { return hand_; }
-    [[nodiscard]] std::vector<PanelEvent>& presses() { return presses_; }
+    [[nodiscard]] std::vector<panel::PanelEvent>& presses() { return presses_; }
 
 private:
     [[nodiscard]] Result<void> create_window();
@@ -67,17 +67,17 @@ private:
     SDL_Window* window_ = nullptr;
     SDL_GLContext drawing_ = nullptr;
     SDL_GLContext copying_ = nullptr;
-    std::optional<PictureFramebuffer> picture_;
-    std::optional<PictureCopy> copy_;
+    std::optional<display::PictureFramebuffer> picture_;
+    std::optional<display::PictureCopy> copy_;
     std::optional<SeenSurfacesPass> visitor_;
-    std::optional<GlTexture> help_texture_; ///< a texture of codes, and the framebuffer to copy it from
-    std::optional<GlFramebuffer> help_;
+    std::optional<gl::GlTexture> help_texture_; ///< a texture of codes, and the framebuffer to copy it from
+    std::optional<gl::GlFramebuffer> help_;
     SeenSurfaces seen_;
     bool helps_ = false;
     bool shown_ = false; ///< a picture has been shown
     bool stale_ = false; ///< the window's content is out of date
     MouseHand hand_;
-    std::vector<PanelEvent> presses_;
+    std::vector<panel::PanelEvent> presses_;
 };
 
 Result<void> SdlWindow::open() {
@@ -99,7 +99,7 @@ Result<void> SdlWindow::open() {
         return no_window("the desktop has no OpenGL ES 3");
     }
     SDL_GL_SetSwapInterval(0); // the exhibit sets its own pace
-    TRY(copy_, PictureCopy::create());
+    TRY(copy_, display::PictureCopy::create());
     TRY(visitor_, SeenSurfacesPass::create());
     keep_help();
     SDL_GL_SetAttribute(SDL_GL_SHARE_WITH_CURRENT_CONTEXT, 1);
@@ -107,7 +107,7 @@ Result<void> SdlWindow::open() {
     if (drawing_ == nullptr) {
         return no_window("the desktop has no second OpenGL ES context");
     }
-    TRY(picture_, PictureFramebuffer::create(set_up_.width, set_up_.height));
+    TRY(picture_, display::PictureFramebuffer::create(set_up_.width, set_up_.height));
     return {};
 }
 
@@ -151,12 +151,14 @@ void SdlWindow::show() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     const PixelSize target = drawable();
     const PixelSize half{std::max(target.width / 2, 1), target.height};
-    copy_->draw(*picture_, half, TopRow::Last, {0, 0, set_up_.width, set_up_.height});
+    copy_->draw(*picture_, half, display::TopRow::Last,
+                {.x = 0, .y = 0, .width = set_up_.width, .height = set_up_.height});
     if (set_up_.see) {
         seen_.triangles.clear();
         seen_.lines.clear();
         set_up_.see(hand_.prop({}), hand_.head({}).position_m, half, seen_);
-        visitor_->draw(*picture_, seen_, {half.width, 0, half.width, half.height});
+        visitor_->draw(*picture_, seen_,
+                       {.x = half.width, .y = 0, .width = half.width, .height = half.height});
     }
     if (helps_ && help_) {
         draw_help(target);
@@ -171,8 +173,8 @@ void SdlWindow::keep_help() {
     if (set_up_.help.rgba.empty()) {
         return;
     }
-    help_texture_ = GlTexture::generate();
-    help_ = GlFramebuffer::generate();
+    help_texture_ = gl::GlTexture::generate();
+    help_ = gl::GlFramebuffer::generate();
     glBindTexture(GL_TEXTURE_2D, help_texture_->get());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, set_up_.help.size.width, set_up_.help.size.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, set_up_.help.rgba.data());
@@ -209,7 +211,7 @@ std::optional<glm::dvec2> SdlWindow::on_table(int x, int y) const {
     if (x >= half.width && set_up_.table_from_view) {
         return set_up_.table_from_view({x - half.width + 0.5, y + 0.5}, hand_.head({}).position_m, half);
     }
-    const PixelRectangle place = letterbox({set_up_.width, set_up_.height}, half);
+    const PixelRectangle place = display::letterbox({set_up_.width, set_up_.height}, half);
     return set_up_.table_from_picture({(x + 0.5 - place.x) * set_up_.width / place.width,
                                        (y + 0.5 - place.y) * set_up_.height / place.height});
 }
@@ -231,7 +233,7 @@ void SdlWindow::pressed(SDL_Keycode key, MonotonicTime now) {
     if (key == SDLK_ESCAPE) {
         std::raise(SIGTERM);
     } else if (key >= SDLK_1 && key <= SDLK_5) {
-        presses_.push_back({now, static_cast<int>(key - SDLK_1), PressKind::Press});
+        presses_.push_back({now, static_cast<int>(key - SDLK_1), panel::PressKind::Press});
     } else if (key == SDLK_h) {
         helps_ = !helps_;
         stale_ = true;
@@ -280,7 +282,7 @@ void SdlWindow::pump(MonotonicTime now) {
     }
 }
 
-class WindowDisplay final : public Display {
+class WindowDisplay final : public display::Display {
 public:
     explicit WindowDisplay(std::shared_ptr<SdlWindow> window) : window_(std::move(window)) {}
     [[nodiscard]] int width() const override { return window_->picture().width(); }
@@ -291,16 +293,16 @@ public:
         window_->show();
         return now;
     }
-    [[nodiscard]] std::string name() const override { return "window, " + gl_driver_name(); }
+    [[nodiscard]] std::string name() const override { return "window, " + display::gl_driver_name(); }
 
 private:
     std::shared_ptr<SdlWindow> window_;
 };
 
-class MouseTracker final : public Tracker {
+class MouseTracker final : public tracker::Tracker {
 public:
     explicit MouseTracker(std::shared_ptr<SdlWindow> window) : window_(std::move(window)) {}
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<tracker::PoseSample>& samples) override {
         window_->pump(now);
         samples.push_back(window_->hand().prop(now));
         samples.push_back(window_->hand().head(now));
@@ -312,11 +314,11 @@ private:
     std::shared_ptr<SdlWindow> window_;
 };
 
-class KeyPanel final : public Panel {
+class KeyPanel final : public panel::Panel {
 public:
     explicit KeyPanel(std::shared_ptr<SdlWindow> window) : window_(std::move(window)) {}
-    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/, std::vector<PanelEvent>& events) override {
-        std::vector<PanelEvent>& presses = window_->presses();
+    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/, std::vector<panel::PanelEvent>& events) override {
+        std::vector<panel::PanelEvent>& presses = window_->presses();
         events.insert(events.end(), presses.begin(), presses.end());
         presses.clear();
         return {};
@@ -336,4 +338,4 @@ Result<Window> open_window(const WindowSetUp& set_up) {
                   std::make_unique<KeyPanel>(window)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::window

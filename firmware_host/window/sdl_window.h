@@ -22,7 +22,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 
 /// A picture drawn over the window without scaling: sRGB codes, RGBA, row 0 at the top.
 struct WindowHelp {
@@ -42,16 +42,17 @@ struct WindowSetUp {
     TableFromPicture table_from_picture;
     std::function<std::optional<glm::dvec2>(const glm::dvec2& pixel, const glm::dvec3& eye_m, PixelSize half)>
         table_from_view;
-    std::function<void(const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half, SeenSurfaces& seen)>
+    std::function<void(const tracker::PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
+                       SeenSurfaces& seen)>
         see;
     WindowHelp help;
 };
 
 struct Window {
-    std::unique_ptr<Display> display;
-    std::unique_ptr<Tracker> tracker; ///< the prop and the head
-    std::unique_ptr<Panel> panel;
+    std::unique_ptr<display::Display> display;
+    std::unique_ptr<tracker::Tracker> tracker; ///< the prop and the head
+    std::unique_ptr<panel::Panel> panel;
 };
 [[nodiscard]] Result<Window> open_window(const WindowSetUp& set_up);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::window

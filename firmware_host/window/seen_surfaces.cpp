@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 
 namespace {
 
@@ -51,11 +51,11 @@ void attribute(GLuint location, GLint numbers, std::size_t offset) {
 } // namespace
 
 Result<SeenSurfacesPass> SeenSurfacesPass::create() {
-    TRY(GlProgram program, make_program("", vertex_shader, fragment_shader));
+    TRY(gl::GlProgram program, gl::make_program("", vertex_shader, fragment_shader));
     return SeenSurfacesPass(std::move(program));
 }
 
-SeenSurfacesPass::SeenSurfacesPass(GlProgram program) : program_(std::move(program)) {
+SeenSurfacesPass::SeenSurfacesPass(gl::GlProgram program) : program_(std::move(program)) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
         glSamplerParameteri(sampler_.get(), filter, GL_LINEAR);
     }
@@ -77,7 +77,7 @@ void SeenSurfacesPass::draw(const std::vector<SeenVertex>& vertices, GLenum shap
     glDrawArrays(shape, 0, static_cast<GLsizei>(vertices.size()));
 }
 
-void SeenSurfacesPass::draw(const PictureFramebuffer& picture, const SeenSurfaces& seen,
+void SeenSurfacesPass::draw(const display::PictureFramebuffer& picture, const SeenSurfaces& seen,
                             const PixelRectangle& place) const {
     glEnable(GL_SCISSOR_TEST);
     glScissor(place.x, place.y, place.width, place.height);
@@ -98,4 +98,4 @@ void SeenSurfacesPass::draw(const PictureFramebuffer& picture, const SeenSurface
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::window

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 
 struct SeenVertex {
     glm::vec4 clip{0.0F};    ///< in the visitor's view, OpenGL's clip coordinates
@@ -34,16 +34,17 @@ class SeenSurfacesPass {
 public:
     [[nodiscard]] static Result<SeenSurfacesPass> create();
     /// Draws into `place` of the bound framebuffer, over black; rows count from the bottom.
-    void draw(const PictureFramebuffer& picture, const SeenSurfaces& seen, const PixelRectangle& place) const;
+    void draw(const display::PictureFramebuffer& picture, const SeenSurfaces& seen,
+              const PixelRectangle& place) const;
 
 private:
-    explicit SeenSurfacesPass(GlProgram program);
+    explicit SeenSurfacesPass(gl::GlProgram program);
     void draw(const std::vector<SeenVertex>& vertices, GLenum shape) const;
 
-    GlProgram program_;
-    GlBuffer buffer_ = GlBuffer::generate();
-    GlVertexArray vertices_ = GlVertexArray::generate();
-    GlSampler sampler_ = GlSampler::generate();
+    gl::GlProgram program_;
+    gl::GlBuffer buffer_ = gl::GlBuffer::generate();
+    gl::GlVertexArray vertices_ = gl::GlVertexArray::generate();
+    gl::GlSampler sampler_ = gl::GlSampler::generate();
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::window

@@ -16,14 +16,14 @@
 #include <tuple>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Each is built once for all tests.
-const SourceMesh& built(std::string_view name, std::int64_t triangles) {
-    static std::map<std::pair<std::string_view, std::int64_t>, SourceMesh> meshes;
+const bake::SourceMesh& built(std::string_view name, std::int64_t triangles) {
+    static std::map<std::pair<std::string_view, std::int64_t>, bake::SourceMesh> meshes;
     auto& mesh = meshes[{name, triangles}];
     if (mesh.triangles.empty()) {
         mesh = make_builtin(name, triangles).value();
@@ -32,7 +32,7 @@ const SourceMesh& built(std::string_view name, std::int64_t triangles) {
 }
 
 /// Vertices at one place become one number: seams of the texture do not count.
-std::vector<std::uint32_t> places_of(const SourceMesh& mesh) {
+std::vector<std::uint32_t> places_of(const bake::SourceMesh& mesh) {
     std::map<std::tuple<double, double, double>, std::uint32_t> numbers;
     std::vector<std::uint32_t> places;
     for (const glm::dvec3& p : mesh.positions) {
@@ -48,7 +48,7 @@ struct Sight {
     bool front = false;
     glm::vec2 uv{0.0F};
 };
-Sight look(const SourceMesh& mesh, const glm::dvec3& origin, const glm::dvec3& direction) {
+Sight look(const bake::SourceMesh& mesh, const glm::dvec3& origin, const glm::dvec3& direction) {
     Sight sight;
     for (const auto& triangle : mesh.triangles) {
         const glm::dvec3 a = mesh.positions[triangle[0]];
@@ -74,15 +74,15 @@ class EveryBuiltin : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(EveryBuiltin, HasTheNumberOfTrianglesAskedFor) {
     for (const std::int64_t triangles : {1'000, 8'000, 400'000}) {
-        const SourceMesh& mesh = built(GetParam(), triangles);
+        const bake::SourceMesh& mesh = built(GetParam(), triangles);
         EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(triangles),
                     0.05 * static_cast<double>(triangles));
     }
 }
 
 TEST_P(EveryBuiltin, IsTheSameEveryTime) {
-    const SourceMesh& a = built(GetParam(), 8'000);
-    const SourceMesh b = make_builtin(GetParam(), 8'000).value();
+    const bake::SourceMesh& a = built(GetParam(), 8'000);
+    const bake::SourceMesh b = make_builtin(GetParam(), 8'000).value();
     EXPECT_EQ(a.positions, b.positions);
     EXPECT_EQ(a.uvs, b.uvs);
     EXPECT_EQ(a.triangles, b.triangles);
@@ -90,7 +90,7 @@ TEST_P(EveryBuiltin, IsTheSameEveryTime) {
 }
 
 TEST_P(EveryBuiltin, IsASoundMesh) {
-    const SourceMesh& mesh = built(GetParam(), 8'000);
+    const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
     ASSERT_EQ(mesh.triangle_materials.size(), mesh.triangles.size());
     ASSERT_EQ(mesh.materials.size(), 1U);
@@ -113,7 +113,7 @@ TEST_P(EveryBuiltin, IsASoundMesh) {
 }
 
 TEST_P(EveryBuiltin, HasNeighboursThatAgreeWhichSideIsOut) {
-    const SourceMesh& mesh = built(GetParam(), 8'000);
+    const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     const std::vector<std::uint32_t> places = places_of(mesh);
     std::set<Edge> edges;
     for (const auto& triangle : mesh.triangles) {
@@ -128,7 +128,7 @@ TEST_P(EveryBuiltin, HasNeighboursThatAgreeWhichSideIsOut) {
 }
 
 TEST_P(EveryBuiltin, ShowsItsFrontFromAllAround) {
-    const SourceMesh& mesh = built(GetParam(), 8'000);
+    const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     int seen = 0;
     for (int azimuth = 0; azimuth < 360; azimuth += 20) {
         for (int height = 10; height < 320; height += 15) {
@@ -144,19 +144,20 @@ TEST_P(EveryBuiltin, ShowsItsFrontFromAllAround) {
     EXPECT_GT(seen, 100);
 }
 
-ArtifactFile folder_of(std::string_view name) {
-    const Result<ArtifactFile> file = parse_artifact_file(builtin_folder_text(name), artifact_file_name);
+folder::ArtifactFile folder_of(std::string_view name) {
+    const Result<folder::ArtifactFile> file =
+        folder::parse_artifact_file(builtin_folder_text(name), folder::artifact_file_name);
     EXPECT_TRUE(file) << (file ? "" : file.error().message);
-    return file.value_or(ArtifactFile{});
+    return file.value_or(folder::ArtifactFile{});
 }
 
 TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
-    const ArtifactFile file = folder_of(GetParam());
+    const folder::ArtifactFile file = folder_of(GetParam());
     EXPECT_EQ(file.scan, std::string(GetParam()) + ".glb");
     ASSERT_EQ(file.texts.size(), 5U);
     std::set<std::string> seen;
     for (std::size_t k = 0; k < 5; ++k) {
-        const PackCaption& caption = file.texts[k];
+        const pack::PackCaption& caption = file.texts[k];
         EXPECT_EQ(caption.language, (std::array{"en", "de", "fr", "es", "el"}.at(k)));
         for (const std::string& text : {caption.title, caption.text, caption.period, caption.place,
                                         caption.maker, caption.credit, caption.description}) {
@@ -169,17 +170,17 @@ TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
 }
 
 TEST_P(EveryBuiltin, HasTwoHotspotsOnItsSurfaceThatLookOutward) {
-    const SourceMesh& mesh = built(GetParam(), 8'000);
-    const Result<BoxFrame> frame = make_box_frame(mesh, {"y", 0.0, 0.0});
+    const bake::SourceMesh& mesh = built(GetParam(), 8'000);
+    const Result<bake::BoxFrame> frame = bake::make_box_frame(mesh, {"y", 0.0, 0.0});
     ASSERT_TRUE(frame);
-    const std::vector<glm::dvec3> points = in_box(mesh, *frame);
-    const SourceScene scene(mesh, points);
-    const ArtifactFile file = folder_of(GetParam());
+    const std::vector<glm::dvec3> points = bake::in_box(mesh, *frame);
+    const bake::SourceScene scene(mesh, points);
+    const folder::ArtifactFile file = folder_of(GetParam());
     ASSERT_EQ(file.hotspots.size(), 2U);
-    for (const ArtifactHotspot& given : file.hotspots) {
+    for (const folder::ArtifactHotspot& given : file.hotspots) {
         ASSERT_EQ(given.labels.size(), 5U);
-        const Result<PackHotspot> hotspot =
-            put_on_surface({given.place, given.point_file, given.labels}, scene, *frame, {});
+        const Result<pack::PackHotspot> hotspot =
+            bake::put_on_surface({given.place, given.point_file, given.labels}, scene, *frame, {});
         ASSERT_TRUE(hotspot) << hotspot.error().message;
         const glm::dvec3 wanted(frame->box_from_file * glm::dvec4(given.point_file, 1.0));
         EXPECT_LT(glm::distance(wanted, hotspot->point), 0.02) << given.place;
@@ -196,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(Artifacts, EveryBuiltin, testing::ValuesIn(builtin_name
 });
 
 TEST(Amphora, IsClosedButForItsTextureSeams) {
-    const SourceMesh& mesh = built("amphora", 8'000);
+    const bake::SourceMesh& mesh = built("amphora", 8'000);
     const std::vector<std::uint32_t> places = places_of(mesh);
     std::map<Edge, int> balance;
     for (const auto& triangle : mesh.triangles) {
@@ -219,7 +220,7 @@ TEST(Amphora, IsClosedButForItsTextureSeams) {
 }
 
 TEST(Amphora, IsHollowAndItsHandlesLetTheLightThrough) {
-    const SourceMesh& mesh = built("amphora", 8'000);
+    const bake::SourceMesh& mesh = built("amphora", 8'000);
     const Sight into_the_mouth = look(mesh, {0.5, 600.0, 0.5}, {0.0, -1.0, 0.0});
     EXPECT_GT(into_the_mouth.t, 400.0) << "deeper than the neck";
     EXPECT_TRUE(into_the_mouth.front);
@@ -231,7 +232,7 @@ TEST(Amphora, IsHollowAndItsHandlesLetTheLightThrough) {
 
 TEST(Amphora, CarriesReliefThatMoreTrianglesShow) {
     // Radii around one height in the frieze: a plain turned body would have one.
-    const SourceMesh& mesh = built("amphora", 400'000);
+    const bake::SourceMesh& mesh = built("amphora", 400'000);
     double least = 1e9;
     double most = 0.0;
     for (const glm::dvec3& p : mesh.positions) {
@@ -246,7 +247,7 @@ TEST(Amphora, CarriesReliefThatMoreTrianglesShow) {
 }
 
 TEST(NautilusCup, IsThinAndConcave) {
-    const SourceMesh& mesh = built("nautilus-cup", 8'000);
+    const bake::SourceMesh& mesh = built("nautilus-cup", 8'000);
     const Sight from_above = look(mesh, {35.0, 600.0, 0.5}, {0.0, -1.0, 0.0});
     const double inner_floor = 600.0 - from_above.t;
     const Sight from_below = look(mesh, {35.0, 5.0 + 30.0, 0.5}, {0.0, 1.0, 0.0});
@@ -273,12 +274,12 @@ TEST(Builtin, NoLastLookFindsAMistake) {
             // As a file has it, with 32-bit numbers, and as it is made.
             const Result<Bytes> file = write_glb(built(name, triangles));
             ASSERT_TRUE(file) << file.error().message;
-            const Result<SourceMesh> read = load_mesh_bytes(*file, "artifact.glb");
+            const Result<bake::SourceMesh> read = bake::load_mesh_bytes(*file, "artifact.glb");
             ASSERT_TRUE(read) << read.error().message;
-            for (const SourceMesh* mesh : {&built(name, triangles), &*read}) {
-                const Scraps scraps = find_scraps(*mesh);
+            for (const bake::SourceMesh* mesh : {&built(name, triangles), &*read}) {
+                const bake::Scraps scraps = bake::find_scraps(*mesh);
                 EXPECT_EQ(scraps.triangles, 0U) << name;
-                for (const SourceNote& note : last_look(*mesh, scraps, Lighting::Museum)) {
+                for (const bake::SourceNote& note : bake::last_look(*mesh, scraps, bake::Lighting::Museum)) {
                     ADD_FAILURE() << name << ", " << triangles << " triangles: " << note.text;
                 }
                 ++looks;
@@ -290,4 +291,4 @@ TEST(Builtin, NoLastLookFindsAMistake) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

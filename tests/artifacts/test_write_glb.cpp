@@ -7,20 +7,20 @@
 #include <memory>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::artifacts {
 namespace {
 
 /// Two triangles with two materials, one of them a texture.
-SourceMesh small_mesh() {
-    SourceMesh mesh;
+bake::SourceMesh small_mesh() {
+    bake::SourceMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, -3.5}};
     mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {0.25F, 0.75F}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     mesh.triangle_materials = {1, 0};
     mesh.materials = {{.base_colour = {0.5F, 0.25F, 0.125F, 1.0F}},
                       {.texture = 0, .alpha_mask = true, .alpha_cutoff = 0.25F}};
-    mesh.textures = {
-        {std::make_shared<const Image8>(3, 2, glm::u8vec4(10, 20, 30, 255)), Wrap::Mirror, Wrap::Clamp}};
+    mesh.textures = {{std::make_shared<const image::Image8>(3, 2, glm::u8vec4(10, 20, 30, 255)),
+                      bake::Wrap::Mirror, bake::Wrap::Clamp}};
     return mesh;
 }
 
@@ -66,7 +66,7 @@ Value read(const Glb& glb, int accessor, std::size_t element, std::size_t compon
 } // namespace
 
 TEST(WriteGlb, HoldsEveryVertexAndTriangle) {
-    const SourceMesh mesh = small_mesh();
+    const bake::SourceMesh mesh = small_mesh();
     const Glb glb = parse(*write_glb(mesh));
     const auto& primitives = glb.json["meshes"][0]["primitives"];
     ASSERT_EQ(primitives.size(), 2U);
@@ -98,7 +98,7 @@ TEST(WriteGlb, HoldsMaterialsAndTheTextureAsPng) {
     EXPECT_EQ(glb.json["samplers"][0]["wrapT"], 33071);
     const auto& view = glb.json["bufferViews"][glb.json["images"][0]["bufferView"].get<std::size_t>()];
     const auto first = glb.binary.begin() + view["byteOffset"].get<std::ptrdiff_t>();
-    const auto image = decode_png8(Bytes(first, first + view["byteLength"].get<std::ptrdiff_t>()));
+    const auto image = image::decode_png8(Bytes(first, first + view["byteLength"].get<std::ptrdiff_t>()));
     ASSERT_TRUE(image.has_value());
     EXPECT_EQ(image->width, 3);
     EXPECT_EQ(image->height, 2);
@@ -115,4 +115,4 @@ TEST(WriteGlb, EveryViewIsAlignedAndInsideTheBuffer) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::artifacts

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 TEST(Atlas, PackedRectanglesNeitherOverlapNorLeaveThePicture) {
     std::mt19937 random(7);
@@ -42,4 +42,4 @@ TEST(Atlas, PackedRectanglesNeitherOverlapNorLeaveThePicture) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

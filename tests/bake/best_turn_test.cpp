@@ -12,14 +12,15 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
 /// The largest size after a turn, from all vertices of the mesh and the prop's own planes.
 double size_after(const SourceMesh& mesh, double turn_deg, double lift = 0.0) {
     const auto frame = make_box_frame(mesh, {"z", turn_deg, lift});
     EXPECT_TRUE(frame);
-    return largest_scale_inside(make_frustum({}), in_box(mesh, *frame)) / frame->file_units_per_box;
+    return geometry::largest_scale_inside(geometry::make_frustum({}), in_box(mesh, *frame)) /
+           frame->file_units_per_box;
 }
 
 SourceMesh box(const glm::dvec3& size, double turn_deg = 0.0) {
@@ -34,7 +35,7 @@ SourceMesh box(const glm::dvec3& size, double turn_deg = 0.0) {
 /// An upright plate, so thin that it is largest across the prop's diagonal.
 TEST(BestTurn, AThinPlateStandsAcrossTheDiagonal) {
     const SourceMesh plate = box({4.0, 1e-4, 1.0});
-    const double turn = best_turn_deg(plate, "z", 0.0, make_frustum({}));
+    const double turn = best_turn_deg(plate, "z", 0.0, geometry::make_frustum({}));
     EXPECT_EQ(std::abs(turn), 45.0);
     EXPECT_GT(size_after(plate, turn), 1.3 * size_after(plate, 0.0));
 }
@@ -51,7 +52,7 @@ TEST(BestTurn, NoTurnMakesItClearlyLarger) {
             }
         }
         const double lift = round % 2 == 0 ? 0.0 : 0.3;
-        const double turn = best_turn_deg(mesh, "z", lift, make_frustum({}));
+        const double turn = best_turn_deg(mesh, "z", lift, geometry::make_frustum({}));
         const double size = size_after(mesh, turn, lift);
         for (int other = 0; other < 360; ++other) {
             EXPECT_GE(size, 0.9949 * size_after(mesh, other, lift))
@@ -73,14 +74,14 @@ TEST(BestTurn, ARoundArtifactAndACubeAreNotTurned) {
         test::add_triangle(round, 2 * k, 2 * next, 2 * k + 1);
         test::add_triangle(round, 2 * next, 2 * next + 1, 2 * k + 1);
     }
-    EXPECT_EQ(best_turn_deg(round, "z", 0.0, make_frustum({})), 0.0);
-    EXPECT_EQ(best_turn_deg(box({1, 1, 1}), "z", 0.0, make_frustum({})), 0.0);
-    EXPECT_EQ(best_turn_deg(box({1, 1, 1}), "z", 0.0, make_cube(0.16)), 0.0);
+    EXPECT_EQ(best_turn_deg(round, "z", 0.0, geometry::make_frustum({})), 0.0);
+    EXPECT_EQ(best_turn_deg(box({1, 1, 1}), "z", 0.0, geometry::make_frustum({})), 0.0);
+    EXPECT_EQ(best_turn_deg(box({1, 1, 1}), "z", 0.0, geometry::make_cube(0.16)), 0.0);
 }
 
 /// The boxes are so high that their height alone limits the size.
 TEST(BestTurn, TheBroadSideLooksAtTheVisitorAndAChestStandsStraight) {
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     EXPECT_EQ(best_turn_deg(box({1.0, 0.4, 12.0}), "z", 0.0, prop), 0.0);
     EXPECT_EQ(best_turn_deg(box({0.4, 1.0, 12.0}), "z", 0.0, prop), 90.0);
     EXPECT_EQ(best_turn_deg(box({0.95, 1.0, 12.0}), "z", 0.0, prop), 0.0) << "not clearly broader";
@@ -89,9 +90,9 @@ TEST(BestTurn, TheBroadSideLooksAtTheVisitorAndAChestStandsStraight) {
 TEST(BestTurn, ATurnedFileComesToTheSameStanding) {
     for (const double turned : {10.0, 30.0, -20.0}) {
         const SourceMesh plate = box({4.0, 0.01, 1.0}, turned);
-        const double turn = best_turn_deg(plate, "z", 0.0, make_frustum({}));
+        const double turn = best_turn_deg(plate, "z", 0.0, geometry::make_frustum({}));
         EXPECT_NEAR(std::abs(std::remainder(turn + turned, 90.0)), 45.0, 3.0) << turned;
-        EXPECT_EQ(turn, best_turn_deg(plate, "z", 0.0, make_frustum({}))) << "it is deterministic";
+        EXPECT_EQ(turn, best_turn_deg(plate, "z", 0.0, geometry::make_frustum({}))) << "it is deterministic";
     }
 }
 
@@ -115,4 +116,4 @@ TEST(BestTurn, ALiftRaisesTheArtifactInItsBox) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

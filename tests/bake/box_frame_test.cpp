@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 TEST(BoxFrame, EveryUpAxisTurnsToPlusZWithoutMirroring) {
     const std::vector<std::pair<const char*, glm::dvec3>> axes{{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
@@ -60,11 +60,13 @@ TEST(BoxFrame, ExtremesGiveTheSameScaleAsAllPoints) {
         }
         const std::vector<glm::dvec3> extremes = profile_extremes(points);
         EXPECT_LT(extremes.size(), points.size() / 2);
-        for (const PropShape& prop : {make_frustum({}), make_frustum({0.2, 0.05, 0.3}), make_cube(0.12)}) {
-            const double all = largest_scale_inside(prop, points);
-            EXPECT_NEAR(largest_scale_inside(prop, extremes), all, 1e-12 * all);
+        for (const geometry::PropShape& prop :
+             {geometry::make_frustum({}), geometry::make_frustum({0.2, 0.05, 0.3}),
+              geometry::make_cube(0.12)}) {
+            const double all = geometry::largest_scale_inside(prop, points);
+            EXPECT_NEAR(geometry::largest_scale_inside(prop, extremes), all, 1e-12 * all);
         }
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

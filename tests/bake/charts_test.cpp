@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST(Charts, NoTexelIsInsideTwoTriangles) {
     EXPECT_GT(owners.size(), 20000U);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

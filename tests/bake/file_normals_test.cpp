@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
 enum class Normals { None, Flat, Smooth };
@@ -56,10 +56,10 @@ public:
         options.size = 128;
         options.measuring = 0.1;
         options.up = "z";
-        Result<Pack> baked = bake(prism(walls, kind), options);
+        Result<pack::Pack> baked = bake(prism(walls, kind), options);
         EXPECT_TRUE(baked);
         pack_ = *std::move(baked);
-        const PackLevel& level = pack_.levels.back();
+        const pack::PackLevel& level = pack_.levels.back();
         surface_ = textured_source(level, pack_.textures[level.texture], pack_.box_size);
         scene_ = std::make_unique<SourceScene>(surface_, surface_.positions);
     }
@@ -72,13 +72,13 @@ public:
         const auto aside = static_cast<float>(across * std::sin(half)); // the wall is sin(half) wide
         const SurfaceHit hit = scene_->trace(out + along * aside + glm::vec3(0, 0, 0.5F), -out);
         EXPECT_TRUE(hit.hit);
-        return 255.0 * srgb_from_linear(static_cast<double>(scene_->colour(hit).x));
+        return 255.0 * image::srgb_from_linear(static_cast<double>(scene_->colour(hit).x));
     }
-    [[nodiscard]] const Image8& picture() const { return pack_.textures.front(); }
+    [[nodiscard]] const image::Image8& picture() const { return pack_.textures.front(); }
 
 private:
     int walls_;
-    Pack pack_;
+    pack::Pack pack_;
     SourceMesh surface_;
     std::unique_ptr<SourceScene> scene_;
 };
@@ -136,11 +136,11 @@ TEST(FileNormals, TurnedInwardsGiveTheSameLight) {
     options.relief = false;
     options.size = 64;
     options.measuring = 0.1;
-    const Result<Pack> one = bake(mesh, options);
-    const Result<Pack> other = bake(inward, options);
+    const Result<pack::Pack> one = bake(mesh, options);
+    const Result<pack::Pack> other = bake(inward, options);
     ASSERT_TRUE(one && other);
     EXPECT_EQ(one->textures.front().texels, other->textures.front().texels);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

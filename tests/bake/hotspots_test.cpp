@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
 /// A mesh in its box, with the file's z axis up.
@@ -12,7 +12,7 @@ struct InBox {
     explicit InBox(SourceMesh made)
         : mesh(std::move(made)), frame(make_box_frame(mesh, {"z", 0.0, 0.0}).value()),
           points(in_box(mesh, frame)), scene(mesh, points) {}
-    [[nodiscard]] Result<PackHotspot> put(const glm::dvec3& point) const {
+    [[nodiscard]] Result<pack::PackHotspot> put(const glm::dvec3& point) const {
         return put_on_surface({"hotspots[0].point", point, {{"en", "here"}}}, scene, frame, {});
     }
     SourceMesh mesh;
@@ -96,4 +96,4 @@ TEST(Hotspots, a_noisy_surface_has_a_calm_normal) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
 /// A flat square of `cells` x `cells` x 2 triangles, one unit wide, at `corner`.
@@ -77,7 +77,8 @@ TEST(LastLook, AnArtifactThatIsBlackIsTold) {
     mesh.materials[0].base_colour = glm::vec4(0, 0, 0, 1);
     EXPECT_TRUE(guesses(mesh, "black"));
     mesh.materials[0].base_colour = glm::vec4(1.0F);
-    mesh.textures.push_back({std::make_shared<const Image8>(Image8(2, 2, glm::u8vec4(0, 0, 0, 255)))});
+    mesh.textures.push_back(
+        {std::make_shared<const image::Image8>(image::Image8(2, 2, glm::u8vec4(0, 0, 0, 255)))});
     mesh.materials[0].texture = 0;
     EXPECT_TRUE(guesses(mesh, "black"));
 }
@@ -169,19 +170,19 @@ TEST(LastLook, AllOfAPartOrBothSidesOfASheetAreNotInsideOut) {
 }
 
 /// A square with texture coordinates and a picture.
-SourceMesh painted(const Image8& picture) {
+SourceMesh painted(const image::Image8& picture) {
     SourceMesh mesh;
     add_square(mesh, 4, {0, 0, 0});
     for (const glm::dvec3& position : mesh.positions) {
         mesh.uvs.emplace_back(position);
     }
-    mesh.textures.push_back({std::make_shared<const Image8>(picture)});
+    mesh.textures.push_back({std::make_shared<const image::Image8>(picture)});
     mesh.materials[0].texture = 0;
     return mesh;
 }
 
 TEST(LastLook, ColoursThatAreAllOneAreTold) {
-    Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
+    image::Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
     EXPECT_TRUE(guesses(painted(picture),
                         "all of its colours are one, red 200, green 120, blue 60, though it has a picture"));
     picture.at(2, 1).g = 123;
@@ -204,7 +205,7 @@ TEST(LastLook, ColoursThatAreAllOneAreTold) {
 }
 
 TEST(LastLook, LightThatFallsOnLightIsTold) {
-    Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
+    image::Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
     picture.at(0, 0) = glm::u8vec4(9, 9, 9, 255);
     SourceMesh mesh = painted(picture);
     mesh.materials.push_back(mesh.materials[0]);
@@ -241,4 +242,4 @@ TEST(LastLook, CoordinatesWithTooFewDecimalsAreTold) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

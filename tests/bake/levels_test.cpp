@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -23,8 +23,8 @@ BakeOptions quick(bool unlit = true) {
     return options;
 }
 
-LevelOutline level_of(std::uint64_t triangles, float mean_box, float p95_box) {
-    LevelOutline level;
+pack::LevelOutline level_of(std::uint64_t triangles, float mean_box, float p95_box) {
+    pack::LevelOutline level;
     level.triangles = triangles;
     level.error.mean_box = mean_box;
     level.error.p95_box = p95_box;
@@ -34,7 +34,7 @@ LevelOutline level_of(std::uint64_t triangles, float mean_box, float p95_box) {
 } // namespace
 
 TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
-    const std::vector<LevelOutline> levels{
+    const std::vector<pack::LevelOutline> levels{
         level_of(40'000, 1e-4F, 3e-4F), level_of(10'000, 4e-4F, 9e-4F),
         level_of(20'000, 5e-4F, 9e-4F), // more costly, and not more exact
         level_of(30'000, 2e-4F, 2e-3F), // a smaller mean error, but a larger 95th percentile
@@ -44,7 +44,7 @@ TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
 }
 
 TEST(Levels, OfThoseWithFewTrianglesOnlyTheNearestIsOnTheFront) {
-    const std::vector<LevelOutline> levels{
+    const std::vector<pack::LevelOutline> levels{
         level_of(1'000, 5e-4F, 9e-4F),
         level_of(10, 2e-3F, 5e-3F), // as costly for a frame as the first
         level_of(1'200, 5e-4F, 9e-4F),
@@ -61,9 +61,10 @@ TEST(Levels, MeasuredErrorOfACoarseSphereIsItsSagitta) {
     test::add_sphere(coarse, {0, 0, 0.5}, 0.5, rows);
     const SourceScene source(fine, fine.positions);
     const TriangleMesh surface = weld(coarse, coarse.positions);
-    const PackLevel level = make_level(chart(surface, 1.0F / 64.0F), glm::dvec3(1.0));
+    const pack::PackLevel level = make_level(chart(surface, 1.0F / 64.0F), glm::dvec3(1.0));
     const SourceSamples samples = sample_source(source, weld(fine, fine.positions), 0.1F);
-    const LevelError error = measure(level, Image8(4, 4), glm::dvec3(1.0), source, samples, false);
+    const pack::LevelError error =
+        measure(level, image::Image8(4, 4), glm::dvec3(1.0), source, samples, false);
     // A quad spans 180/16 degrees each way; its centre lies r (1 - cos(half)^2) below the sphere.
     const double half = std::numbers::pi / rows / 2.0;
     EXPECT_NEAR(error.max_box, 0.5 * (1.0 - std::cos(half) * std::cos(half)), 4e-4);
@@ -74,10 +75,11 @@ TEST(Levels, MeasuredErrorOfACoarseSphereIsItsSagitta) {
 TEST(Levels, ClustersCoverAllTrianglesOnceAndBoundThem) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 48);
-    const PackLevel level = make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
+    const pack::PackLevel level =
+        make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
     const TriangleMesh surface = surface_of(level, glm::dvec3(1.0));
     std::uint32_t next = 0;
-    for (const PackCluster& cluster : level.clusters) {
+    for (const pack::PackCluster& cluster : level.clusters) {
         EXPECT_EQ(cluster.first_index, next);
         next += cluster.index_count;
         for (std::uint32_t k = cluster.first_index; k < next; ++k) {
@@ -90,7 +92,8 @@ TEST(Levels, ClustersCoverAllTrianglesOnceAndBoundThem) {
 TEST(Levels, AConeCulledClusterFacesAwayFromTheEye) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 48);
-    const PackLevel level = make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
+    const pack::PackLevel level =
+        make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
     const TriangleMesh surface = surface_of(level, glm::dvec3(1.0));
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
@@ -98,7 +101,7 @@ TEST(Levels, AConeCulledClusterFacesAwayFromTheEye) {
     for (int round = 0; round < 300; ++round) {
         const glm::vec3 eye = glm::normalize(glm::vec3(normal(random), normal(random), normal(random))) *
                               (0.8F + static_cast<float>(round) * 0.03F);
-        for (const PackCluster& cluster : level.clusters) {
+        for (const pack::PackCluster& cluster : level.clusters) {
             if (glm::dot(glm::normalize(cluster.cone_apex - eye), cluster.cone_axis) < cluster.cone_cutoff) {
                 continue;
             }
@@ -122,7 +125,7 @@ TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
         BakeOptions options = quick();
         options.prop = prop;
         options.up = "z";
-        const Pack pack = bake(mesh, options).value();
+        const pack::Pack pack = bake(mesh, options).value();
         EXPECT_EQ(pack.prop_kind, prop.kind);
         const TriangleMesh surface = surface_of(pack.levels.back(), pack.box_size);
         double area = 0.0;
@@ -140,7 +143,7 @@ TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
 TEST(Levels, TheFrontFallsInErrorAsItGrowsInCost) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 64);
-    const Result<Pack> pack = bake(mesh, quick());
+    const Result<pack::Pack> pack = bake(mesh, quick());
     ASSERT_TRUE(pack);
     ASSERT_GE(pack->levels.size(), 3U);
     for (std::size_t k = 1; k < pack->levels.size(); ++k) {
@@ -154,7 +157,7 @@ TEST(Levels, TheSameObjectAtAnyScaleAndPlaceGivesTheSameLevels) {
     for (const double scale : {1.0, 1e-3, 1e3}) {
         SourceMesh mesh = test::empty_mesh();
         test::add_sphere(mesh, glm::dvec3(300.0, -20.0, 77.0) * scale, 0.5 * scale, 32);
-        const Result<Pack> pack = bake(mesh, quick());
+        const Result<pack::Pack> pack = bake(mesh, quick());
         ASSERT_TRUE(pack);
         EXPECT_NEAR(pack->box_size.x, 1.0, 1e-3);
         if (triangles == 0) {
@@ -175,7 +178,7 @@ TEST(Levels, OneTriangleRepeatedTrianglesAndSliversMakeASoundPack) {
     test::add_triangle(mesh, 0, 1, 3); // a sliver on top
     BakeOptions options = quick();
     options.up = "z";
-    const Result<Pack> pack = bake(mesh, options);
+    const Result<pack::Pack> pack = bake(mesh, options);
     ASSERT_TRUE(pack) << pack.error().message;
     EXPECT_GE(pack->levels.front().indices.size(), 6U); // both sides are seen
     EXPECT_LT(pack->levels[pack->default_level].error.max_box, 0.05F);
@@ -187,7 +190,7 @@ TEST(Levels, ATextureKeepsItsColours) {
     for (const glm::dvec3& p : mesh.positions) { // smooth vertex colours replace a texture
         mesh.colours.emplace_back(0.5 + p.x, 0.5 + p.y, p.z, 1.0);
     }
-    const Result<Pack> pack = bake(mesh, quick());
+    const Result<pack::Pack> pack = bake(mesh, quick());
     ASSERT_TRUE(pack);
     EXPECT_LT(pack->levels[pack->default_level].error.colour_rmse, 2.0F);
 }
@@ -204,15 +207,15 @@ TEST(Levels, MuseumLightIsBrighterAboveThanBelowAndNeverBlack) {
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 32);
     BakeOptions options = quick(false);
     options.up = "z";
-    const Result<Pack> pack = bake(mesh, options);
+    const Result<pack::Pack> pack = bake(mesh, options);
     ASSERT_TRUE(pack);
-    const PackLevel& level = pack->levels.back();
-    const Image8& texture = pack->textures[level.texture];
+    const pack::PackLevel& level = pack->levels.back();
+    const image::Image8& texture = pack->textures[level.texture];
     double above = 0.0;
     double below = 0.0;
     int above_count = 0;
     int below_count = 0;
-    for (const PackVertex& vertex : level.vertices) {
+    for (const pack::PackVertex& vertex : level.vertices) {
         const auto x = static_cast<int>(vertex.uv[0] / 65535.0 * texture.width);
         const auto y = static_cast<int>(vertex.uv[1] / 65535.0 * texture.height);
         const glm::u8vec4 colour =
@@ -231,4 +234,4 @@ TEST(Levels, MuseumLightIsBrighterAboveThanBelowAndNeverBlack) {
     EXPECT_GT(above / above_count, 1.5 * below / below_count);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

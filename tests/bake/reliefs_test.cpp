@@ -13,10 +13,10 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
-Pack sphere_pack(int size) {
+pack::Pack sphere_pack(int size) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 64);
     for (const glm::dvec3& p : mesh.positions) {
@@ -39,11 +39,11 @@ TEST(Reliefs, AreOf96TexelsAndTwiceAsManyUpToTheBakesSize) {
 }
 
 TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
-    const Pack pack = sphere_pack(192);
-    const std::vector<ReliefOutline> reliefs = reliefs_of(pack).value();
+    const pack::Pack pack = sphere_pack(192);
+    const std::vector<pack::ReliefOutline> reliefs = pack::reliefs_of(pack).value();
     ASSERT_EQ(reliefs.size(), 2U);
-    for (const ReliefOutline& outline : reliefs) {
-        const BlockRelief relief = relief_of(pack, outline).value();
+    for (const pack::ReliefOutline& outline : reliefs) {
+        const relief::BlockRelief relief = pack::relief_of(pack, outline).value();
         EXPECT_EQ(relief.grids.size(), 5U) << "a frustum's";
         double worst = 0.0;
         for (const glm::vec3& point : surface_of(relief).positions) {
@@ -86,8 +86,8 @@ TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
     options.unlit = true;
     options.measuring = 0.1;
     options.up = "z";
-    const Pack pack = bake(soup, options).value();
-    const std::vector<ReliefOutline> reliefs = reliefs_of(pack).value();
+    const pack::Pack pack = bake(soup, options).value();
+    const std::vector<pack::ReliefOutline> reliefs = pack::reliefs_of(pack).value();
     ASSERT_FALSE(reliefs.empty());
     EXPECT_GT(pack.levels.front().indices.size() / 3, soup.triangles.size() / 2);
     EXPECT_LT(reliefs.front().blocks, soup.triangles.size() / 2);
@@ -105,8 +105,8 @@ TEST(Reliefs, OfASheetASideIsMetFromEitherSide) {
     test::add_triangle(sheet, 0, 2, 1);
     test::add_triangle(sheet, 0, 3, 2);
     const SourceScene source(sheet, sheet.positions, Sides::Front);
-    const BlockRelief relief =
-        bake_blocks({source, {1.0, 0.1, 1.0}, {ReliefDirection::PlusY, ReliefDirection::MinusY}, 48});
+    const relief::BlockRelief relief = bake_blocks(
+        {source, {1.0, 0.1, 1.0}, {pack::ReliefDirection::PlusY, pack::ReliefDirection::MinusY}, 48});
     const ReliefScene drawn(relief);
     constexpr int rays = 100;
     for (const float side : {1.0F, -1.0F}) {
@@ -123,4 +123,4 @@ TEST(Reliefs, OfASheetASideIsMetFromEitherSide) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

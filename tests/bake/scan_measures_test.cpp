@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
 TEST(ScanMeasures, CountDifferentPointsAndMeasureAlongTheFilesAxes) {
@@ -31,7 +31,7 @@ TEST(ScanMeasures, RefuseWhatABakeRefuses) {
     test::add_triangle(line, 0, 1, 1);
     for (const SourceMesh* mesh : {&point, &line}) {
         const Result<ScanMeasures> measures = measure_scan(*mesh, {});
-        const Result<Pack> pack = bake(*mesh, {});
+        const Result<pack::Pack> pack = bake(*mesh, {});
         ASSERT_FALSE(measures);
         ASSERT_FALSE(pack);
         EXPECT_EQ(measures.error().id, pack.error().id.view());
@@ -64,13 +64,13 @@ TEST(ScanMeasures, TheEstimateIsOfTheBakesOrder) {
         options.measuring = 0.1;
         options.relief = relief;
         const Result<ScanMeasures> measures = measure_scan(mesh, options);
-        Result<Pack> pack = bake(mesh, options);
+        Result<pack::Pack> pack = bake(mesh, options);
         ASSERT_TRUE(measures && pack);
         pack->id = "sphere";
         pack->title = "Sphere";
         pack->languages = {"en"};
         pack->captions = {{"en", "Sphere", ""}};
-        const Result<Bytes> bytes = write_pack(*pack);
+        const Result<Bytes> bytes = pack::write_pack(*pack);
         ASSERT_TRUE(bytes) << bytes.error().message;
         const double ratio =
             static_cast<double>(measures->estimated_bytes) / static_cast<double>(bytes->size());
@@ -83,4 +83,4 @@ TEST(ScanMeasures, TheEstimateIsOfTheBakesOrder) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

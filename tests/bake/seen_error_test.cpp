@@ -11,17 +11,17 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
 constexpr double radius = 0.5;
 
 /// A pack with one level, the mesh.
-Pack pack_of(const SourceMesh& mesh) {
-    Pack pack;
+pack::Pack pack_of(const SourceMesh& mesh) {
+    pack::Pack pack;
     pack.box_size = glm::dvec3(1.0);
-    pack.textures = {Image8(4, 4, glm::u8vec4(255))};
+    pack.textures = {image::Image8(4, 4, glm::u8vec4(255))};
     pack.levels = {make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), pack.box_size)};
     return pack;
 }
@@ -91,7 +91,8 @@ TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
     };
     const SourceMesh source_mesh = mesh_of(wall, plate);
     const SourceScene source(source_mesh, source_mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(mesh_of(smaller(wall), smaller(plate))), {}, source, {});
+    const pack::SeenErrors seen =
+        seen_errors(pack_of(mesh_of(smaller(wall), smaller(plate))), {}, source, {});
     int compared = 0;
     for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
         if (seen.eyes[k].towards.y > -0.7) {
@@ -110,10 +111,11 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
     constexpr double smaller = 2e-3;
     const SourceMesh source_mesh = sphere(192);
     const SourceScene source(source_mesh, source_mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(sphere(192, smaller)), {}, source, ViewingZone::all_around());
+    const pack::SeenErrors seen =
+        seen_errors(pack_of(sphere(192, smaller)), {}, source, ViewingZone::all_around());
     ASSERT_EQ(seen.levels.size(), 1U);
     ASSERT_EQ(seen.levels[0].size(), seen.eyes.size());
-    const SeenError mean = mean_of(seen.levels[0]);
+    const pack::SeenError mean = mean_of(seen.levels[0]);
     EXPECT_NEAR(static_cast<double>(mean.mean_box), 2.0 * smaller, 0.15 * smaller);
     // A ray at the share s of the radius deviates by d / sqrt(1 - s^2); s^2 < 0.95 holds for 95 % of the disc.
     EXPECT_NEAR(static_cast<double>(mean.p95_box), smaller / std::sqrt(0.05), 0.35 * smaller);
@@ -130,7 +132,7 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
         EXPECT_GT(static_cast<double>(seen.eyes[k].steepness), 1.35);
         double shares = 0.0;
         glm::dvec3 middle(0.0);
-        for (const SeenPatch& patch : seen.eyes[k].patches) {
+        for (const pack::SeenPatch& patch : seen.eyes[k].patches) {
             shares += patch.share;
             middle += patch.share * patch.place;
         }
@@ -150,18 +152,19 @@ TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
     const SourceMesh small_mesh = sphere(rows, smaller);
     const SourceScene source(source_mesh, source_mesh.positions);
     const SourceScene small(small_mesh, small_mesh.positions);
-    const std::vector<MeasuredRelief> reliefs{
-        {bake_blocks({small,
-                      glm::dvec3(1.0),
-                      {ReliefDirection::PlusX, ReliefDirection::MinusX, ReliefDirection::PlusY,
-                       ReliefDirection::MinusY, ReliefDirection::PlusZ},
-                      128}),
+    const std::vector<pack::MeasuredRelief> reliefs{
+        {bake_blocks(
+             {small,
+              glm::dvec3(1.0),
+              {pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX, pack::ReliefDirection::PlusY,
+               pack::ReliefDirection::MinusY, pack::ReliefDirection::PlusZ},
+              128}),
          {}}};
-    const SeenErrors seen = seen_errors(pack_of(sphere(16)), reliefs, source, {});
+    const pack::SeenErrors seen = seen_errors(pack_of(sphere(16)), reliefs, source, {});
     ASSERT_EQ(seen.reliefs.size(), 1U);
     ASSERT_EQ(seen.reliefs[0].size(), seen.eyes.size());
     EXPECT_NEAR(static_cast<double>(mean_of(seen.reliefs[0]).mean_box), 2.0 * smaller, 0.5 * smaller);
-    for (const SeenError& each : seen.reliefs[0]) {
+    for (const pack::SeenError& each : seen.reliefs[0]) {
         EXPECT_GT(static_cast<double>(each.mean_box), 1.3 * smaller);
         EXPECT_LT(static_cast<double>(each.mean_box), 2.8 * smaller);
     }
@@ -170,11 +173,11 @@ TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
 TEST(SeenError, OfTheSourceItselfIsThatOfThePacksCodes) {
     const SourceMesh mesh = sphere(64);
     const SourceScene source(mesh, mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(mesh), {}, source, {});
+    const pack::SeenErrors seen = seen_errors(pack_of(mesh), {}, source, {});
     ASSERT_EQ(seen.levels.size(), 1U);
     ASSERT_EQ(seen.levels[0].size(), seen.eyes.size());
     ASSERT_FALSE(seen.eyes.empty());
-    for (const SeenError& each : seen.levels[0]) {
+    for (const pack::SeenError& each : seen.levels[0]) {
         EXPECT_LT(each.mean_box, 2e-5F); // codes are 1.5e-5 apart
         EXPECT_LT(each.silhouette_share, 1e-3F);
     }
@@ -183,17 +186,17 @@ TEST(SeenError, OfTheSourceItselfIsThatOfThePacksCodes) {
 TEST(SeenError, EyesAreSpreadEvenlyOverTheZone) {
     const SourceMesh mesh = sphere(16);
     const SourceScene source(mesh, mesh.positions);
-    const Pack pack = pack_of(mesh);
+    const pack::Pack pack = pack_of(mesh);
     glm::dvec3 sum(0.0);
-    const SeenErrors around = seen_errors(pack, {}, source, ViewingZone::all_around());
-    for (const SeenEye& eye : around.eyes) {
+    const pack::SeenErrors around = seen_errors(pack, {}, source, ViewingZone::all_around());
+    for (const pack::SeenEye& eye : around.eyes) {
         EXPECT_NEAR(glm::length(eye.towards), 1.0, 1e-12);
         sum += eye.towards;
     }
     EXPECT_LT(glm::length(sum) / static_cast<double>(around.eyes.size()), 0.02);
-    for (const SeenEye& eye : seen_errors(pack, {}, source, {}).eyes) {
+    for (const pack::SeenEye& eye : seen_errors(pack, {}, source, {}).eyes) {
         EXPECT_GT(eye.towards.z, std::sin(3.0 * std::numbers::pi / 180.0));
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,19 +9,19 @@
 
 namespace frustumscreen::test {
 
-inline SourceMesh empty_mesh() {
-    SourceMesh mesh;
+inline bake::SourceMesh empty_mesh() {
+    bake::SourceMesh mesh;
     mesh.materials.resize(1);
     return mesh;
 }
 
-inline void add_triangle(SourceMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+inline void add_triangle(bake::SourceMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     mesh.triangles.push_back({a, b, c});
     mesh.triangle_materials.push_back(0);
 }
 
 /// A sphere of `rows` x 2 `rows` quads about `centre`; outward.
-inline void add_sphere(SourceMesh& mesh, const glm::dvec3& centre, double radius, int rows) {
+inline void add_sphere(bake::SourceMesh& mesh, const glm::dvec3& centre, double radius, int rows) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const int columns = 2 * rows;
     for (int j = 0; j <= rows; ++j) {
@@ -45,7 +45,7 @@ inline void add_sphere(SourceMesh& mesh, const glm::dvec3& centre, double radius
 }
 
 /// An axis-aligned box from `low` to `high`; outward.
-inline void add_box(SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high) {
+inline void add_box(bake::SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int k = 0; k < 8; ++k) {
         mesh.positions.emplace_back((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,

@@ -7,23 +7,23 @@
 
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 namespace {
 
-Pack baked(SourceMesh mesh) {
+pack::Pack baked(SourceMesh mesh) {
     BakeOptions options;
     options.relief = false;
     options.size = 32;
     options.up = "z";
     options.unlit = true;
     options.measuring = 0.05;
-    Result<Pack> pack = bake(mesh, options);
+    Result<pack::Pack> pack = bake(mesh, options);
     EXPECT_TRUE(pack) << (pack ? "" : pack.error().message);
     return *std::move(pack);
 }
 
-const Image8& of_red_sphere() {
-    static const Image8 picture = [] {
+const image::Image8& of_red_sphere() {
+    static const image::Image8 picture = [] {
         SourceMesh mesh = test::empty_mesh();
         test::add_sphere(mesh, {0, 0, 0}, 1.0, 40);
         mesh.materials[0].base_colour = {0.4F, 0.1F, 0.02F, 1.0F}; // linear
@@ -32,7 +32,7 @@ const Image8& of_red_sphere() {
     return picture;
 }
 
-double covered(const Image8& picture) {
+double covered(const image::Image8& picture) {
     double sum = 0.0;
     for (const glm::u8vec4& texel : picture.texels) {
         sum += texel.a / 255.0;
@@ -41,7 +41,7 @@ double covered(const Image8& picture) {
 }
 
 TEST(TablePicture, of_a_sphere_is_a_disc_that_fills_the_frame) {
-    const Image8& picture = of_red_sphere();
+    const image::Image8& picture = of_red_sphere();
     EXPECT_EQ(std::max(picture.width, picture.height), table_picture_px);
     EXPECT_GE(std::min(picture.width, picture.height), table_picture_px - 3);
     const double disc = 0.25 * std::numbers::pi * (table_picture_px - 2) * (table_picture_px - 2);
@@ -53,7 +53,7 @@ TEST(TablePicture, of_a_sphere_is_a_disc_that_fills_the_frame) {
 }
 
 TEST(TablePicture, has_no_dark_fringe) {
-    const Image8& picture = of_red_sphere();
+    const image::Image8& picture = of_red_sphere();
     const glm::u8vec4 middle = picture.at(picture.width / 2, picture.height / 2);
     int edge = 0;
     for (const glm::u8vec4& texel : picture.texels) { // also the empty ones, because filters mix them in
@@ -64,7 +64,8 @@ TEST(TablePicture, has_no_dark_fringe) {
     EXPECT_GT(edge, 300) << "the outline is smooth";
     EXPECT_EQ(middle.r, 235) << "as bright as the exhibit shows it";
     // The exposure is one factor of linear light for all channels: 0.1 / 0.4 of the code 235.
-    EXPECT_NEAR(middle.g, 255.0 * srgb_from_linear(0.25 * linear_from_srgb(235.0 / 255.0)), 2.0);
+    EXPECT_NEAR(middle.g, 255.0 * image::srgb_from_linear(0.25 * image::linear_from_srgb(235.0 / 255.0)),
+                2.0);
 }
 
 TEST(TablePicture, is_seen_from_one_side_and_from_above) {
@@ -76,7 +77,7 @@ TEST(TablePicture, is_seen_from_one_side_and_from_above) {
         mesh.materials[k].base_colour = colours[k];
     }
     mesh.triangle_materials = {1, 1, 1, 1, 0, 0, 2, 2, 3, 3, 0, 0}; // +-x red, -y green, +z blue
-    const Image8 picture = baked(std::move(mesh)).table_picture;
+    const image::Image8 picture = baked(std::move(mesh)).table_picture;
     std::array<int, 4> seen{};
     for (const glm::u8vec4& texel : picture.texels) {
         if (texel.a > 250) {
@@ -93,4 +94,4 @@ TEST(TablePicture, is_seen_from_one_side_and_from_above) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

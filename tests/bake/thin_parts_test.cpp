@@ -12,7 +12,7 @@
 #include <numbers>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -106,11 +106,11 @@ TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
     options.size = 64;
     options.unlit = true;
     options.up = "z";
-    const Result<Pack> pack = bake(mesh, options);
+    const Result<pack::Pack> pack = bake(mesh, options);
     ASSERT_TRUE(pack) << pack.error().message;
-    const PackLevel& level = pack->levels[pack->default_level];
+    const pack::PackLevel& level = pack->levels[pack->default_level];
     EXPECT_LT(level.indices.size() / 3, mesh.triangles.size() / 2);
-    const double mm_per_box = 1e3 * place(*pack, options.prop.shape).metres_per_box;
+    const double mm_per_box = 1e3 * pack::place(*pack, options.prop.shape).metres_per_box;
     EXPECT_LE(static_cast<double>(level.error.max_box) * mm_per_box, 1.0);
 
     std::vector<glm::dvec3> points;
@@ -130,7 +130,7 @@ TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
 
 TEST(ThinParts, ALevelWhoseWorstPlaceIsOffByMoreThanAMillimetreIsNotGoodEnough) {
     const double mm_per_box = 100.0;
-    const SeenError seen{1e-5F, 1e-4F, 1e-5F, 1e-4F};
+    const pack::SeenError seen{1e-5F, 1e-4F, 1e-5F, 1e-4F};
     EXPECT_TRUE(good_enough({1e-5F, 1e-4F, 0.0099F, 0.0F}, seen, mm_per_box));
     EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0101F, 0.0F}, seen, mm_per_box));
     EXPECT_FALSE(good_enough({1e-5F, 1e-4F, 0.0F, 0.0F}, {1e-3F, 1e-3F, 1e-5F, 1e-4F}, mm_per_box));
@@ -157,9 +157,9 @@ TEST(ThinParts, TheGreatestErrorSeesThatABladeIsCut) {
     const SourceScene source(mesh, mesh.positions);
     const SourceSamples samples = sample_source(source, weld(mesh, mesh.positions), 1e-3F);
     const SourceMesh cut = body_with_blades(blade_end - 0.1);
-    const LevelError error = measure_shape(weld(cut, cut.positions), source, samples);
+    const pack::LevelError error = measure_shape(weld(cut, cut.positions), source, samples);
     EXPECT_NEAR(error.max_box, 0.1, 1e-3);
     EXPECT_LT(error.mean_box, 1e-3); // the mean does not show a lost blade
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

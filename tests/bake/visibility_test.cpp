@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -42,4 +42,4 @@ TEST(Visibility, TheInsideOfACupIsSeenThroughItsMouth) {
     EXPECT_LE(seen_of(mesh).triangle_count(), 20U);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

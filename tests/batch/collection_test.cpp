@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST_F(CollectionFolder, AFolderIsKnownByNamesAndBytesAlone) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

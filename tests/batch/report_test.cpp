@@ -2,7 +2,7 @@
 #include "app/programs/batch/batch_report.h"
 #include "tests/programs/program_folder.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 class Report : public ProgramFolder {
@@ -102,4 +102,4 @@ TEST(Summary, SaysHowManyOfEach) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,35 +7,35 @@
 #include <numbers>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
-Settings old_table() {
-    Settings settings;
+settings::Settings old_table() {
+    settings::Settings settings;
     settings.projector.pinhole = {320, 200, 480.0, 480.0, 160.0, 100.0};
     settings.projector.table_from_projector.translation = {0.0, 0.0, 1.2};
-    settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
+    settings.prop = {settings::PropKind::Frustum, 0.16, 0.09, 0.12, settings::PropZone::Table};
     return settings;
 }
 
 /// Counts pixels whose ray ends on a face through which the eye sees the ellipsoid, in the ordinary way,
 /// pixel by pixel.
-double counted_pixels(const Settings& settings, double yaw, const glm::dvec3& half) {
-    const RigidTransform prop_from_table =
-        RigidTransform{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)}.inverse();
-    const PropShape prop = make_prop(settings.prop);
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+double counted_pixels(const settings::Settings& settings, double yaw, const glm::dvec3& half) {
+    const geometry::RigidTransform prop_from_table =
+        geometry::RigidTransform{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)}.inverse();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const geometry::RigidTransform& table_from_projector = settings.projector.table_from_projector;
     const glm::dvec3 eye = prop_from_table.point(settings.eye.default_m);
     const glm::dvec3 lens = prop_from_table.point(table_from_projector.translation);
     constexpr int finer = 2;
-    const Pinhole fine = settings.projector.pinhole.scaled_to(finer * 320, finer * 200);
+    const geometry::Pinhole fine = settings.projector.pinhole.scaled_to(finer * 320, finer * 200);
     double count = 0.0;
     for (int y = 0; y < fine.height; ++y) {
         for (int x = 0; x < fine.width; ++x) {
             const glm::dvec3 ray =
                 prop_from_table.direction(table_from_projector.direction(fine.ray({x + 0.5, y + 0.5})));
-            PropHit hit;
-            if (!intersect(prop, lens, ray, hit)) {
+            geometry::PropHit hit;
+            if (!geometry::intersect(prop, lens, ray, hit)) {
                 continue;
             }
             const glm::dvec3 lit = lens + hit.t * ray;
@@ -54,7 +54,7 @@ double counted_pixels(const Settings& settings, double yaw, const glm::dvec3& ha
 }
 
 TEST(Advice, CountsTheProjectorsPixelsOnAnArtifact) {
-    const Settings settings = old_table();
+    const settings::Settings settings = old_table();
     const SetUpFigures figures = examine(settings);
     EXPECT_NEAR(figures.slim_height_m, 0.12, 1e-9) << "half as wide as high: the prop's height limits it";
     EXPECT_NEAR(figures.wide_height_m, 0.16 / (1.0 + 0.07 / 0.12), 1e-9) << "as wide as high: its walls do";
@@ -66,7 +66,7 @@ TEST(Advice, CountsTheProjectorsPixelsOnAnArtifact) {
 }
 
 TEST(Advice, KnowsWhetherThePictureCoversTheTable) {
-    Settings settings = old_table();
+    settings::Settings settings = old_table();
     EXPECT_TRUE(examine(settings).covered);
     settings.projector.pinhole.fx *= 1.02;
     EXPECT_FALSE(examine(settings).covered);
@@ -80,7 +80,7 @@ TEST(Advice, WhatWorksKeepsItsPromises) {
     options.lowest_m = options.highest_m = 1.5;
     options.sides_m = 0.2;
     options.evenness = 0.3;
-    const Settings settings = old_table();
+    const settings::Settings settings = old_table();
     const SetUpFigures now = examine(settings);
     double done = 0.0;
     const std::vector<SetUpChoice> found = choices(settings, options, [&](double share) {
@@ -101,12 +101,13 @@ TEST(Advice, WhatWorksKeepsItsPromises) {
         EXPECT_GE(choice.figures.slim_height_m, 0.99 * now.slim_height_m);
         EXPECT_GE(choice.figures.pixels, now.pixels);
         for (const glm::dvec2 side : {glm::dvec2(-1, -1), glm::dvec2(1, 1)}) {
-            EXPECT_TRUE(lit_at_each_yaw(choice.settings, 0.999 * side * choice.figures.reach_m,
-                                        settings.eye.default_m));
+            EXPECT_TRUE(settings::lit_at_each_yaw(choice.settings, 0.999 * side * choice.figures.reach_m,
+                                                  settings.eye.default_m));
         }
         EXPECT_LE(choice.figures.reach_m.x * choice.figures.reach_m.y * std::sqrt(choice.figures.reference),
                   best->figures.reach_m.x * best->figures.reach_m.y * std::sqrt(best->figures.reference));
-        const Result<CheckedSettings> pasted = parse_settings(setup_toml(choice), "advice.toml");
+        const Result<settings::CheckedSettings> pasted =
+            settings::parse_settings(setup_toml(choice), "advice.toml");
         ASSERT_TRUE(pasted) << pasted.error().message;
         EXPECT_NEAR(examine(**pasted).pixels, choice.figures.pixels, 0.01 * choice.figures.pixels);
     }
@@ -154,4 +155,4 @@ TEST(Advice, SaysSoWhereNothingWorks) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

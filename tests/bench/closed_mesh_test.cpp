@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
-SourceMesh tetrahedron() {
-    SourceMesh mesh;
+bake::SourceMesh tetrahedron() {
+    bake::SourceMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     mesh.triangle_materials = {0, 0, 0, 0};
-    mesh.materials = {SourceMaterial{}};
+    mesh.materials = {bake::SourceMaterial{}};
     return mesh;
 }
 
@@ -19,28 +19,28 @@ TEST(ClosedMesh, ATetrahedronIsClosed) {
 }
 
 TEST(ClosedMesh, VerticesSplitAtASeamAreStillOne) {
-    SourceMesh mesh = tetrahedron();
+    bake::SourceMesh mesh = tetrahedron();
     mesh.positions.push_back(mesh.positions[0] + glm::dvec3(1e-12, 0, 0));
     mesh.triangles[1][0] = 4;
     EXPECT_TRUE(is_closed(mesh));
 }
 
 TEST(ClosedMesh, AHoleAFlipInsideOutOrAMaskIsNot) {
-    SourceMesh hole = tetrahedron();
+    bake::SourceMesh hole = tetrahedron();
     hole.triangles.pop_back();
     EXPECT_FALSE(is_closed(hole));
-    SourceMesh flipped = tetrahedron();
+    bake::SourceMesh flipped = tetrahedron();
     std::swap(flipped.triangles[3][0], flipped.triangles[3][1]);
     EXPECT_FALSE(is_closed(flipped));
-    SourceMesh inside_out = tetrahedron();
+    bake::SourceMesh inside_out = tetrahedron();
     for (auto& triangle : inside_out.triangles) {
         std::swap(triangle[0], triangle[1]);
     }
     EXPECT_FALSE(is_closed(inside_out));
-    SourceMesh masked = tetrahedron();
+    bake::SourceMesh masked = tetrahedron();
     masked.materials[0].alpha_mask = true;
     EXPECT_FALSE(is_closed(masked));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,21 +7,21 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 constexpr int side = 32;
 constexpr double codes = 65535.0;
 
 /// Hills of several sizes that cover every height.
-Image16 hills(std::uint64_t seed) {
+image::Image16 hills(std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> random(0.0, 2.0 * std::numbers::pi);
     std::array<double, 8> phase{};
     for (double& p : phase) {
         p = random(engine);
     }
-    Image16 depth(side, side);
+    image::Image16 depth(side, side);
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             double height = 0.0;
@@ -36,7 +36,7 @@ Image16 hills(std::uint64_t seed) {
 }
 
 /// The widest cone, at most 1, that contains no texel of `narrows`; tests all pairs.
-template <typename Narrows> double widest(const Image16& depth, int x, int y, const Narrows& narrows) {
+template <typename Narrows> double widest(const image::Image16& depth, int x, int y, const Narrows& narrows) {
     double ratio = 1.0;
     for (int v = 0; v < side; ++v) {
         for (int u = 0; u < side; ++u) {
@@ -51,8 +51,8 @@ template <typename Narrows> double widest(const Image16& depth, int x, int y, co
 
 TEST(ConeMap, AnEmptyConeIsTheWidestThatHoldsNothing) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-        const Image16 depth = hills(seed);
-        const Image16 cones = empty_cones(depth);
+        const image::Image16 depth = hills(seed);
+        const image::Image16 cones = empty_cones(depth);
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
                 const double expected = widest(depth, x, y, [](int, int) { return true; });
@@ -63,8 +63,8 @@ TEST(ConeMap, AnEmptyConeIsTheWidestThatHoldsNothing) {
 }
 
 TEST(ConeMap, ARelaxedConeIsNarrowedOnlyWhereTheSurfaceFallsBehind) {
-    const Image16 depth = hills(10);
-    const Image16 cones = relaxed_cones(depth);
+    const image::Image16 depth = hills(10);
+    const image::Image16 cones = relaxed_cones(depth);
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const auto falls = [&](int u, int v) {
@@ -80,9 +80,9 @@ TEST(ConeMap, ARelaxedConeIsNarrowedOnlyWhereTheSurfaceFallsBehind) {
 }
 
 TEST(ConeMap, ARelaxedConeIsAtLeastAsWideAsTheEmptyOne) {
-    const Image16 depth = hills(4);
-    const Image16 empty = empty_cones(depth);
-    const Image16 relaxed = relaxed_cones(depth);
+    const image::Image16 depth = hills(4);
+    const image::Image16 empty = empty_cones(depth);
+    const image::Image16 relaxed = relaxed_cones(depth);
     double sum_empty = 0.0;
     double sum_relaxed = 0.0;
     for (std::size_t k = 0; k < empty.texels.size(); ++k) {
@@ -94,7 +94,7 @@ TEST(ConeMap, ARelaxedConeIsAtLeastAsWideAsTheEmptyOne) {
 }
 
 /// Surface interpolated between the texels' middles.
-double bilinear(const Image16& depth, double x, double y) {
+double bilinear(const image::Image16& depth, double x, double y) {
     const int left = std::clamp(static_cast<int>(std::floor(x)), 0, side - 2);
     const int top = std::clamp(static_cast<int>(std::floor(y)), 0, side - 2);
     const double u = x - left;
@@ -109,8 +109,8 @@ TEST(ConeMap, ARayCrossesTheSurfaceOnceAtMostInsideARelaxedCone) {
     std::uniform_real_distribution<double> random(0.0, 1.0);
     int entered = 0;
     for (const std::uint64_t seed : {5, 6, 7, 8}) {
-        const Image16 depth = hills(seed);
-        const Image16 cones = relaxed_cones(depth);
+        const image::Image16 depth = hills(seed);
+        const image::Image16 cones = relaxed_cones(depth);
         for (int ray = 0; ray < 5000; ++ray) {
             const int x = static_cast<int>(random(engine) * side);
             const int y = static_cast<int>(random(engine) * side);
@@ -147,7 +147,7 @@ TEST(ConeMap, ARayCrossesTheSurfaceOnceAtMostInsideARelaxedCone) {
 
 TEST(MaxMipmap, EachTexelIsTheTightBoundOfAllTexelsBelowIt) {
     std::mt19937_64 engine(9);
-    Image<glm::u16vec2> material(side, side);
+    image::Image<glm::u16vec2> material(side, side);
     for (glm::u16vec2& texel : material.texels) {
         texel = engine() % 3 == 0 ? glm::u16vec2(65535, 0) : glm::u16vec2(engine() % 30000, 40000);
         texel.y = static_cast<std::uint16_t>(texel.y == 0 ? 0 : texel.y + engine() % 20000);
@@ -172,4 +172,4 @@ TEST(MaxMipmap, EachTexelIsTheTightBoundOfAllTexelsBelowIt) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,24 +8,24 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 SetUp set_up_of(const char* name) {
-    const Result<CheckedSettings> settings =
-        load_settings(std::filesystem::path(source_dir()) / "config" / (std::string(name) + ".toml"));
+    const Result<settings::CheckedSettings> settings = settings::load_settings(
+        std::filesystem::path(source_dir()) / "config" / (std::string(name) + ".toml"));
     EXPECT_TRUE(settings) << settings.error().message;
     return {name, **settings};
 }
 
 /// The reference's small amphora, baked for this test.
-const Pack& small_amphora() {
-    static const Pack pack = [] {
-        const Result<SourceMesh> mesh = make_builtin("amphora", 20'000);
-        BakeOptions options;
+const pack::Pack& small_amphora() {
+    static const pack::Pack pack = [] {
+        const Result<bake::SourceMesh> mesh = artifacts::make_builtin("amphora", 20'000);
+        bake::BakeOptions options;
         options.size = 128;
         options.unlit = true;
-        Pack made = *bake(*mesh, options);
+        pack::Pack made = *bake::bake(*mesh, options);
         made.provenance.source_name = "amphora.glb";
         return made;
     }();
@@ -56,7 +56,7 @@ TEST(Counts, AFrameTakesNoMoreThanTheProjectsReference) {
 TEST(Counts, ATriangleIsNeverCountedMoreOftenThanThePropHasFaces) {
     const Result<CountedPack> counted = count_frames(set_up_of("near"), small_amphora(), 8, 3);
     ASSERT_TRUE(counted) << counted.error().message;
-    const PackLevel& level = small_amphora().levels[small_amphora().default_level];
+    const pack::PackLevel& level = small_amphora().levels[small_amphora().default_level];
     const FrameCounts& counts = counted->counts;
     EXPECT_GT(counts.triangles,
               0.25 * static_cast<double>(level.indices.size()) / 3.0); // one side of it is visible
@@ -103,4 +103,4 @@ TEST(Counts, AFileThatIsNoReferenceIsRefusedInOneLine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

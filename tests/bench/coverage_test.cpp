@@ -12,11 +12,11 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 TechniqueResult technique_of(std::vector<double> true_mm,
-                             std::vector<std::optional<ErrorEstimate>> estimates) {
+                             std::vector<std::optional<scene::ErrorEstimate>> estimates) {
     TechniqueResult technique;
     technique.name = "mesh 0";
     for (const double mm : true_mm) {
@@ -30,10 +30,10 @@ TechniqueResult technique_of(std::vector<double> true_mm,
 }
 
 TEST(Coverage, CountsThePosesWhoseTruthIsNearTheEstimateAndBelowItsP95) {
-    const ErrorEstimate one{1.0, 3.0};
+    const scene::ErrorEstimate one{1.0, 3.0};
     const Coverage coverage =
         coverage_of(technique_of({0.69, 0.71, 1.0, 1.39, 1.41, 1.2, 5.0},
-                                 {one, one, one, one, one, ErrorEstimate{1.0, 1.1}, std::nullopt}));
+                                 {one, one, one, one, one, scene::ErrorEstimate{1.0, 1.1}, std::nullopt}));
     EXPECT_EQ(coverage.poses, 6U);
     EXPECT_EQ(coverage.covered, 3U);
     EXPECT_EQ(coverage.below_p95, 5U);
@@ -53,27 +53,28 @@ TEST(Coverage, IsHeldAtNineOfTenPosesOfAllTogether) {
 }
 
 /// Separate convex bodies, a ball, a box and a thin plate, with edges that hide each other.
-std::shared_ptr<SourceMesh> things() {
-    auto mesh = std::make_shared<SourceMesh>(test::empty_mesh());
+std::shared_ptr<bake::SourceMesh> things() {
+    auto mesh = std::make_shared<bake::SourceMesh>(test::empty_mesh());
     test::add_sphere(*mesh, {-0.2, 0.0, 0.3}, 0.25, 40);
     test::add_box(*mesh, {0.15, -0.1, 0.05}, {0.4, 0.3, 0.6});
     test::add_box(*mesh, {-0.3, -0.35, 0.05}, {0.3, -0.34, 0.4});
     return mesh;
 }
 
-void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double max_median) {
-    BakeOptions options;
+void expect_covered(const std::shared_ptr<const bake::SourceMesh>& mesh, double max_median) {
+    bake::BakeOptions options;
     options.size = 64;
     options.unlit = true;
-    const Pack pack = bake(*mesh, options).value();
+    const pack::Pack pack = bake::bake(*mesh, options).value();
     SetUp set_up{"near", near_settings()};
     set_up.settings.projector.pinhole = set_up.settings.projector.pinhole.scaled_to(1280, 800);
     const SetUpResult result = measure_estimates(set_up, pack, mesh, {.poses = 4, .seed = 7, .rays = 4},
                                                  [](const std::string&, double) {})
                                    .value();
     const std::vector<NamedCoverage> rows = coverages_of("shape", result);
-    EXPECT_EQ(rows.size(), pack.levels.size() + reliefs_of(pack).value().size() + 1); // plus the choice of
-                                                                                      // `auto`
+    EXPECT_EQ(rows.size(),
+              pack.levels.size() + pack::reliefs_of(pack).value().size() + 1); // plus the choice of
+                                                                               // `auto`
     double poses = 0.0;
     double covered = 0.0;
     for (const NamedCoverage& row : rows) {
@@ -99,4 +100,4 @@ TEST(Coverage, HoldsForThingsThatHideEachOther) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// An upright rectangle perpendicular to Y at `y_m`, from the table up; its texture's u runs along X.
-void add_board(SourceMesh& mesh, double y_m, std::int32_t material) {
+void add_board(bake::SourceMesh& mesh, double y_m, std::int32_t material) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
         mesh.positions.emplace_back(0.06 * (corner.x - 0.5), y_m, 0.07 * corner.y);
@@ -22,8 +22,8 @@ void add_board(SourceMesh& mesh, double y_m, std::int32_t material) {
 
 /// Six red pickets in a row, with an arch cut out of their middle; the cut-out texels are bright green and
 /// must stay invisible.
-std::shared_ptr<const Image8> pickets() {
-    auto image = std::make_shared<Image8>(192, 192);
+std::shared_ptr<const image::Image8> pickets() {
+    auto image = std::make_shared<image::Image8>(192, 192);
     for (int y = 0; y < 192; ++y) {
         for (int x = 0; x < 192; ++x) {
             const bool between = x % 32 >= 18;
@@ -34,9 +34,9 @@ std::shared_ptr<const Image8> pickets() {
     return image;
 }
 
-std::shared_ptr<SourceMesh> fence(bool with_wall) {
-    auto mesh = std::make_shared<SourceMesh>();
-    mesh->textures = {{pickets(), Wrap::Clamp, Wrap::Clamp}};
+std::shared_ptr<bake::SourceMesh> fence(bool with_wall) {
+    auto mesh = std::make_shared<bake::SourceMesh>();
+    mesh->textures = {{pickets(), bake::Wrap::Clamp, bake::Wrap::Clamp}};
     mesh->materials = {{glm::vec4(1.0F), 0, true, 0.3F},
                        {glm::vec4(0.05F, 0.1F, 0.8F, 1.0F), -1, false, 0.5F}};
     add_board(*mesh, -0.01, 0);
@@ -51,24 +51,24 @@ class CutOut : public DrawnNear {
 protected:
     void bake_fence(bool with_wall, bool relief = false) {
         mesh_ = fence(with_wall);
-        BakeOptions options;
+        bake::BakeOptions options;
         options.size = 512;
         options.unlit = true;
         options.relief = relief;
         options.measuring = 0.05;
-        Result<Pack> pack = bake(*mesh_, options);
+        Result<pack::Pack> pack = bake::bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
         pack_ = std::move(*pack);
     }
 
     [[nodiscard]] PictureError error_of(std::uint32_t level, const BenchPose& pose) {
-        auto technique = make_pack_level(stage_, pack_, level, {finest_samples}, "level").value();
-        const Truth truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact).value();
+        auto technique = make_pack_level(stage_, pack_, level, {render::finest_samples}, "level").value();
+        const Truth truth = Truth::build(mesh_, pack::place(pack_, stage_.prop).prop_from_artifact).value();
         return DrawnNear::error_of(*technique, pose, ray_cast(truth, pose));
     }
 
-    std::shared_ptr<SourceMesh> mesh_;
-    Pack pack_;
+    std::shared_ptr<bake::SourceMesh> mesh_;
+    pack::Pack pack_;
 };
 
 TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
@@ -77,7 +77,7 @@ TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
     ASSERT_TRUE(poses);
     for (const std::uint32_t level :
          {pack_.default_level, static_cast<std::uint32_t>(pack_.levels.size() - 1)}) {
-        EXPECT_TRUE(has_cut_texels(pack_.textures[pack_.levels[level].texture]));
+        EXPECT_TRUE(image::has_cut_texels(pack_.textures[pack_.levels[level].texture]));
         for (const BenchPose& pose : *poses) {
             const PictureError error = error_of(level, pose);
             EXPECT_TRUE(error.silhouette_percent <= 0.6 || error.outline_shift_px <= 0.2)
@@ -103,11 +103,13 @@ TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
 TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
     for (const bool with_wall : {false, true}) {
         ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall, true));
-        const Truth truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact).value();
-        const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+        const Truth truth = Truth::build(mesh_, pack::place(pack_, stage_.prop).prop_from_artifact).value();
+        const std::vector<pack::ReliefOutline> outlines = pack::reliefs_of(pack_).value();
         ASSERT_FALSE(outlines.empty());
-        const auto relief = std::make_shared<const BlockRelief>(relief_of(pack_, outlines.back()).value());
-        auto technique = make_pack_relief(stage_, pack_, relief, {}, {finest_samples}, "relief").value();
+        const auto relief =
+            std::make_shared<const relief::BlockRelief>(pack::relief_of(pack_, outlines.back()).value());
+        auto technique =
+            make_pack_relief(stage_, pack_, relief, {}, {render::finest_samples}, "relief").value();
         const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
         ASSERT_TRUE(poses);
         for (const BenchPose& pose : *poses) {
@@ -127,17 +129,17 @@ TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
 TEST_F(CutOut, AnArtifactWithoutMaskPaysNothing) {
     mesh_ = fence(true);
     mesh_->materials[0].alpha_mask = false;
-    BakeOptions options;
+    bake::BakeOptions options;
     options.size = 128;
     options.unlit = true;
     options.relief = false;
     options.measuring = 0.05;
-    const Result<Pack> pack = bake(*mesh_, options);
+    const Result<pack::Pack> pack = bake::bake(*mesh_, options);
     ASSERT_TRUE(pack);
-    for (const Image8& texture : pack->textures) {
-        EXPECT_FALSE(has_cut_texels(texture));
+    for (const image::Image8& texture : pack->textures) {
+        EXPECT_FALSE(image::has_cut_texels(texture));
     }
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

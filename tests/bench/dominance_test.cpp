@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// Mean silhouette in percent, geometric error in mm, colour error in codes.
@@ -172,4 +172,4 @@ TEST(Verdicts, TheTableOfVerdictsHasFourFieldsARow) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ TEST_F(DrawTables, WhereThereIsNoScriptThePackageIsNamed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

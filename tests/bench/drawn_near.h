@@ -12,7 +12,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class DrawnNear : public ::testing::Test {
 protected:
@@ -23,13 +23,14 @@ protected:
     [[nodiscard]] PictureError error_of(Technique& technique, const BenchPose& pose,
                                         const TruthPicture& truth) const {
         technique.draw(pose);
-        Image8 colour = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+        image::Image8 colour = render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
         auto points = technique.hit_points(pose);
         return measure(truth, {std::move(colour), std::move(points).value()});
     }
 
-    std::unique_ptr<SurfacelessDisplay> display_ = SurfacelessDisplay::create(640, 400).value();
-    Stage stage_{near_settings(), make_frustum({}), display_->framebuffer()};
+    std::unique_ptr<display::SurfacelessDisplay> display_ =
+        display::SurfacelessDisplay::create(640, 400).value();
+    Stage stage_{near_settings(), geometry::make_frustum({}), display_->framebuffer()};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

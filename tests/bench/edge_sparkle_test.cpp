@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 TEST(ChangeHistogram, SaysWhatTheListOfChangesSays) {
@@ -38,10 +38,11 @@ TEST(ChangeHistogram, SaysWhatTheListOfChangesSays) {
 }
 
 TEST(EdgeZones, LieAtTheEdgesOfFacesThatEyeAndLensSee) {
-    const Settings settings = near_settings();
+    const settings::Settings settings = near_settings();
     // The top is 0.09 m wide, 0.78 m below the lens, and a metre at 1 m spans 1400 pixels: its front edge is
     // in row 200 + 1400 * 0.045 / 0.78 = 280.77, and its columns extend from 239.2 to 400.8.
-    const Image<EdgeZone> zones = edge_zones(settings, make_prop(settings.prop), pose_at(0.0, 0.0, 0.0));
+    const image::Image<EdgeZone> zones =
+        edge_zones(settings, settings::make_prop(settings.prop), pose_at(0.0, 0.0, 0.0));
     EXPECT_EQ(zones.at(320, 280), EdgeZone::Shared);
     EXPECT_EQ(zones.at(320, 279), EdgeZone::Near); // 1.27 pixels away
     EXPECT_EQ(zones.at(320, 281), EdgeZone::Near);
@@ -57,9 +58,9 @@ TEST(EdgeZones, LieAtTheEdgesOfFacesThatEyeAndLensSee) {
 
 TEST(EdgeSparkle, CountsWhatChangesOnEdgesAndBesideThem) {
     const glm::u8vec4 grey(50, 50, 50, 255);
-    std::array<Image8, 2> sharp{Image8(9, 5, grey), Image8(9, 5, grey)};
-    std::array<Image8, 2> feathered = sharp;
-    std::array<Image<EdgeZone>, 2> zones{Image<EdgeZone>(9, 5), Image<EdgeZone>(9, 5)};
+    std::array<image::Image8, 2> sharp{image::Image8(9, 5, grey), image::Image8(9, 5, grey)};
+    std::array<image::Image8, 2> feathered = sharp;
+    std::array<image::Image<EdgeZone>, 2> zones{image::Image<EdgeZone>(9, 5), image::Image<EdgeZone>(9, 5)};
     zones[0].at(2, 2) = EdgeZone::Shared; // only before the step
     zones[0].at(4, 2) = zones[1].at(4, 2) = EdgeZone::Beside;
     zones[0].at(5, 2) = EdgeZone::Beside; // away after it: not judged
@@ -80,14 +81,14 @@ TEST(EdgeSparkle, CountsWhatChangesOnEdgesAndBesideThem) {
 }
 
 TEST(EdgeSparkle, FeatheringCalmsTheEdgesAndNothingElse) {
-    const std::shared_ptr<SourceMesh> white = ring();
-    white->textures[0].image = std::make_shared<Image8>(8, 8, glm::u8vec4(255));
-    BakeOptions options;
+    const std::shared_ptr<bake::SourceMesh> white = ring();
+    white->textures[0].image = std::make_shared<image::Image8>(8, 8, glm::u8vec4(255));
+    bake::BakeOptions options;
     options.size = 64;
     options.relief = false;
     options.unlit = true;
     options.measuring = 0.05;
-    const Result<Pack> pack = bake(*white, options);
+    const Result<pack::Pack> pack = bake::bake(*white, options);
     ASSERT_TRUE(pack) << pack.error().message;
     const Result<std::vector<SparkleRow>> rows =
         edge_sparkle({"near", near_settings()}, *pack, {pose_at(0.0, -0.02, 0.3)}, 12, {}, [](double) {});
@@ -105,4 +106,4 @@ TEST(EdgeSparkle, FeatheringCalmsTheEdgesAndNothingElse) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,16 +9,16 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     const auto mesh = ring();
-    BakeOptions options;
+    bake::BakeOptions options;
     options.size = 64;
     options.relief = false;
     options.unlit = true;
-    const Pack pack = bake(*mesh, options).value();
+    const pack::Pack pack = bake::bake(*mesh, options).value();
     ASSERT_GT(pack.levels.size(), 1U);
     std::vector<LevelFigures> figures = measure_figures(pack, *mesh);
     ASSERT_EQ(figures.size(), pack.levels.size());
@@ -45,4 +45,4 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

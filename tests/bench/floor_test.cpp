@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 class Floor : public DrawnNear {
@@ -30,7 +30,8 @@ TEST_F(Floor, ItsCodesAreAveragedAsCodesAndLieOnThePropAlone) {
         const std::unique_ptr<Technique> technique = floor(filter);
         for (const BenchPose& pose : poses_) {
             technique->draw(pose);
-            const Image8 drawn = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+            const image::Image8 drawn =
+                render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
             const TruthPicture truth = ray_cast(truth_, pose);
             double sum = 0.0;
             int lit = 0;
@@ -66,4 +67,4 @@ TEST_F(Floor, EachVisibleFaceIsTwoTrianglesDrawnOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

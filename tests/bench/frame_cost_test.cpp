@@ -14,15 +14,15 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
-const Pack& ring_pack() {
-    static const Pack pack = [] {
-        BakeOptions options;
+const pack::Pack& ring_pack() {
+    static const pack::Pack pack = [] {
+        bake::BakeOptions options;
         options.size = 64;
         options.measuring = 0.05;
-        return bake(*ring(), options).value();
+        return bake::bake(*ring(), options).value();
     }();
     return pack;
 }
@@ -31,9 +31,9 @@ class FrameCosts : public ::testing::Test {
 protected:
     FrameCosts() { large_.projector.pinhole = settings_.projector.pinhole.scaled_to(1280, 800); }
     /// Pixels that show the ring, averaged over one rotation of the prop at the table's middle.
-    [[nodiscard]] double pixels_hit(const Settings& settings) const {
-        const PropShape prop = make_prop(settings.prop);
-        const Result<Truth> truth = Truth::build(ring(), place(pack_, prop).prop_from_artifact);
+    [[nodiscard]] double pixels_hit(const settings::Settings& settings) const {
+        const geometry::PropShape prop = settings::make_prop(settings.prop);
+        const Result<Truth> truth = Truth::build(ring(), pack::place(pack_, prop).prop_from_artifact);
         constexpr int turns = 12;
         double hits = 0.0;
         for (int k = 0; k < turns; ++k) {
@@ -46,13 +46,13 @@ protected:
         return hits;
     }
 
-    Settings settings_ = near_settings();
-    Settings large_ = near_settings(); ///< with four times as many pixels
-    const Pack& pack_ = ring_pack();
+    settings::Settings settings_ = near_settings();
+    settings::Settings large_ = near_settings(); ///< with four times as many pixels
+    const pack::Pack& pack_ = ring_pack();
 };
 
 TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
-    const std::array<const Settings*, 3> set_ups{&settings_, &large_, &settings_};
+    const std::array<const settings::Settings*, 3> set_ups{&settings_, &large_, &settings_};
     double done = 0.0;
     const Result<std::vector<SetUpCost>> costs = frame_costs(set_ups, pack_, [&](double share) {
         EXPECT_GE(share, done);
@@ -71,7 +71,7 @@ TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
 }
 
 TEST_F(FrameCosts, TheSamplesHoldEveryPixelThatTheRayCastHits) {
-    const std::array<const Settings*, 2> set_ups{&settings_, &large_};
+    const std::array<const settings::Settings*, 2> set_ups{&settings_, &large_};
     const Result<std::vector<SetUpCost>> costs = frame_costs(set_ups, pack_, [](double) {});
     ASSERT_TRUE(costs) << costs.error().message;
     for (std::size_t k = 0; k < set_ups.size(); ++k) {
@@ -85,4 +85,4 @@ TEST_F(FrameCosts, TheSamplesHoldEveryPixelThatTheRayCastHits) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,17 +12,18 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// A hand that moves along a screw: around a point, upwards, and rotating with it.
-RigidTransform screw(double t_s) {
-    return {rotation_of({0.0, 0.0, 0.5 * t_s}), {0.2 * std::cos(t_s), 0.2 * std::sin(t_s), 0.1 * t_s}};
+geometry::RigidTransform screw(double t_s) {
+    return {tracking::rotation_of({0.0, 0.0, 0.5 * t_s}),
+            {0.2 * std::cos(t_s), 0.2 * std::sin(t_s), 0.1 * t_s}};
 }
 
 TEST(HandMotion, WhatIsSlidGoesAsTheHandAcrossTheTableAndTurnsWithIt) {
     const HandMotion motion = slid(screw, 1.0);
-    const RigidTransform moved = motion(0.3);
+    const geometry::RigidTransform moved = motion(0.3);
     EXPECT_NEAR(moved.translation.x, 0.2 * (std::cos(1.3) - std::cos(1.0)), 1e-12);
     EXPECT_NEAR(moved.translation.y, 0.2 * (std::sin(1.3) - std::sin(1.0)), 1e-12);
     EXPECT_NEAR(2.0 * std::atan2(moved.rotation.z, moved.rotation.w), 0.15, 1e-12);
@@ -31,17 +32,17 @@ TEST(HandMotion, WhatIsSlidGoesAsTheHandAcrossTheTableAndTurnsWithIt) {
 
 TEST(HandMotion, WhatIsSlidIsNeitherLiftedNorTilted) {
     const HandMotion tilts = [](double t_s) {
-        return RigidTransform{rotation_of({0.4 * t_s, 0.3, 0.0}), {0.0, 0.0, t_s}};
+        return geometry::RigidTransform{tracking::rotation_of({0.4 * t_s, 0.3, 0.0}), {0.0, 0.0, t_s}};
     };
-    const RigidTransform moved = slid(tilts, 0.5)(0.4);
+    const geometry::RigidTransform moved = slid(tilts, 0.5)(0.4);
     EXPECT_EQ(moved.translation, glm::dvec3(0.0));
     EXPECT_LT(glm::distance(moved.rotation * glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.0, 0.0, 1.0)), 1e-12);
 }
 
 TEST(HandMotion, ARecordingGoesStraightFromPoseToPose) {
-    const glm::dquat turned = rotation_of({0.0, 0.0, 0.6});
+    const glm::dquat turned = tracking::rotation_of({0.0, 0.0, 0.6});
     const std::array<RecordedPose, 2> poses{{{1.0, {}}, {1.5, {turned, glm::dvec3(0.1, 0.0, 0.0)}}}};
-    const RigidTransform half_way = recorded(poses)(1.25);
+    const geometry::RigidTransform half_way = recorded(poses)(1.25);
     EXPECT_NEAR(half_way.translation.x, 0.05, 1e-12);
     EXPECT_NEAR(2.0 * std::atan2(half_way.rotation.z, half_way.rotation.w), 0.3, 1e-12);
     EXPECT_EQ(recorded(poses)(9.0).translation.x, 0.1);
@@ -61,7 +62,7 @@ TEST(HandMotion, RecordedHandsAreSlidAtTheirSpeed) {
         for (std::size_t k = 1; k < poses->size(); ++k) {
             const RecordedPose& before = (*poses)[k - 1];
             const double apart_s = (*poses)[k].t_s - before.t_s;
-            const RigidTransform moved = slid(recorded(*poses), before.t_s)(apart_s);
+            const geometry::RigidTransform moved = slid(recorded(*poses), before.t_s)(apart_s);
             EXPECT_EQ(moved.translation.z, 0.0);
             speeds_m_s.push_back(glm::length(moved.translation) / apart_s);
         }
@@ -70,4 +71,4 @@ TEST(HandMotion, RecordedHandsAreSlidAtTheirSpeed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

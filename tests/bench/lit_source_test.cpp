@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 struct Block {
@@ -50,8 +50,8 @@ double light_of_dome(const glm::dvec3& place, const Block& block) {
 const Block block{{0.1, -0.4, 0.0}, {0.2, 0.4, 0.5}};
 
 /// A floor and the block on it, as one mesh; the box's frame is the file's.
-std::shared_ptr<SourceMesh> floor_and_block() {
-    auto mesh = std::make_shared<SourceMesh>(test::empty_mesh());
+std::shared_ptr<bake::SourceMesh> floor_and_block() {
+    auto mesh = std::make_shared<bake::SourceMesh>(test::empty_mesh());
     mesh->positions = {{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}};
     test::add_triangle(*mesh, 0, 1, 2);
     test::add_triangle(*mesh, 0, 2, 3);
@@ -99,7 +99,7 @@ TEST(LitSource, TheTruthsSixteenRaysAreLitByIt) {
     view.projector = {64, 48, 220.0, 220.0, 32.0, 24.0};
     view.prop_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.9}};
     view.eye_m = {-0.1, -0.3, 0.6};
-    const TruthPicture picture = truth.cast(make_frustum({}), view, true);
+    const TruthPicture picture = truth.cast(geometry::make_frustum({}), view, true);
     int compared = 0;
     for (std::size_t k = 0; k < picture.hit.texels.size(); ++k) {
         if (picture.hit.texels[k] == 0 || picture.point_m.texels[k].z > 1e-6F) {
@@ -108,14 +108,14 @@ TEST(LitSource, TheTruthsSixteenRaysAreLitByIt) {
         const glm::dvec3 place = glm::dvec3(picture.point_m.texels[k]) / 0.1;
         const double light = light_of_dome({place.x, place.y, 1.5e-3}, block);
         const glm::u8vec4& colour = picture.colour.texels[k];
-        EXPECT_NEAR(static_cast<double>(linear_from_srgb8()[colour.r]), 0.5 * light, 0.5 * 0.04);
-        EXPECT_NEAR(static_cast<double>(linear_from_srgb8()[colour.g]), 0.25 * light, 0.25 * 0.04);
+        EXPECT_NEAR(static_cast<double>(image::linear_from_srgb8()[colour.r]), 0.5 * light, 0.5 * 0.04);
+        EXPECT_NEAR(static_cast<double>(image::linear_from_srgb8()[colour.g]), 0.25 * light, 0.25 * 0.04);
         ++compared;
     }
     EXPECT_GT(compared, 50);
-    const TruthPicture shape = truth.cast(make_frustum({}), view, false);
+    const TruthPicture shape = truth.cast(geometry::make_frustum({}), view, false);
     EXPECT_EQ(shape.hit.texels, picture.hit.texels);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

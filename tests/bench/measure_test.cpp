@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
@@ -84,16 +84,16 @@ TEST(Measure, SixteenCodesOffIsNotYetBad) {
 
 TEST(Measure, PixelsAtThePicturesEdgeAreOutline) {
     const PictureError error = measure(truth_of({"######", "######", "######", "######", "######", "######"}),
-                                       {Image8(6, 6), {6, 6}});
+                                       {image::Image8(6, 6), {6, 6}});
     EXPECT_EQ(error.outline_pixels, 20);
 }
 
 TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
     TruthPicture truth = truth_of(square);
     truth.shown16 = truth.colour;
-    truth.met_by_16 = Image<std::uint8_t>(6, 6);
+    truth.met_by_16 = image::Image<std::uint8_t>(6, 6);
     ShownImages shown{truth.colour, {6, 6, glm::u8vec4(0, 0, 0, 255)}, 2};
-    Image<float> of_samples(6, 6);
+    image::Image<float> of_samples(6, 6);
     for (int y = 1; y < 5; ++y) {
         for (int x = 1; x < 5; ++x) {
             truth.met_by_16.at(x, y) = 16;
@@ -101,12 +101,12 @@ TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
             of_samples.at(x, y) = 1.0F;
         }
     }
-    truth.met_by_16.at(5, 1) = 4;                                   // a missing quarter,
-    shown.white.at(0, 0) = {srgb8_from_linear(0.5), 188, 188, 255}; // half a pixel too much
+    truth.met_by_16.at(5, 1) = 4;                                          // a missing quarter,
+    shown.white.at(0, 0) = {image::srgb8_from_linear(0.5), 188, 188, 255}; // half a pixel too much
     of_samples.at(5, 1) = 0.5F;             // exact rays would show a quarter too much
     shown.colour.at(2, 2).g = 112;          // 12 codes in one of 45 channels,
     shown.colour.at(1, 1) = {0, 0, 0, 255}; // and pixels not hit in both are not counted
-    ImageFloat points = truth.point_m;
+    image::ImageFloat points = truth.point_m;
     points.at(1, 1) = glm::vec3(nan_f);
     const ShownError error = measure_shown(truth, shown, of_samples, points);
     EXPECT_NEAR(error.cover_px, (0.25 + 0.5) / 12.0, 1e-3);
@@ -143,4 +143,4 @@ TEST(Measure, ASummaryHasTheMeanAndEachFiguresWorst) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

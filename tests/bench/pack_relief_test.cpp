@@ -12,30 +12,30 @@
 #include <array>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 class PackRelief : public DrawnNear {
 protected:
-    static std::shared_ptr<SourceMesh> upright_ring() {
-        std::shared_ptr<SourceMesh> mesh = ring();
+    static std::shared_ptr<bake::SourceMesh> upright_ring() {
+        std::shared_ptr<bake::SourceMesh> mesh = ring();
         mesh->default_up = 'z';
         return mesh;
     }
-    static Pack baked(int size, bool unlit) {
-        BakeOptions options;
+    static pack::Pack baked(int size, bool unlit) {
+        bake::BakeOptions options;
         options.size = size;
         options.unlit = unlit;
         options.measuring = 0.05;
-        return bake(*upright_ring(), options).value();
+        return bake::bake(*upright_ring(), options).value();
     }
-    static const Pack& ring_pack() {
-        static const Pack pack = baked(192, true);
+    static const pack::Pack& ring_pack() {
+        static const pack::Pack pack = baked(192, true);
         return pack;
     }
 
-    const std::shared_ptr<SourceMesh> mesh_ = upright_ring();
-    const Pack& pack_ = ring_pack();
+    const std::shared_ptr<bake::SourceMesh> mesh_ = upright_ring();
+    const pack::Pack& pack_ = ring_pack();
 };
 
 TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
@@ -58,13 +58,13 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
     ASSERT_EQ(on_gpu.size(), 2U);
     EXPECT_EQ(reliefs[0].name, "relief96");
     EXPECT_EQ(reliefs[1].name, "relief192");
-    const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+    const std::vector<pack::ReliefOutline> outlines = pack::reliefs_of(pack_).value();
     for (std::size_t k = 0; k < reliefs.size(); ++k) {
         EXPECT_EQ(reliefs[k].triangles, outlines[k].blocks);
         EXPECT_EQ(reliefs[k].samples, pack_.samples);
         EXPECT_GT(reliefs[k].error.mean.truth_pixels, 300);
         EXPECT_GT(reliefs[k].error.mean.geometric_mean_mm, 0.0);
-        const double texel_mm = 1e3 * place(pack_, stage_.prop).metres_per_box / outlines[k].texels;
+        const double texel_mm = 1e3 * pack::place(pack_, stage_.prop).metres_per_box / outlines[k].texels;
         EXPECT_LT(reliefs[k].error.mean.geometric_mean_mm, 0.5 * texel_mm);
         EXPECT_LT(reliefs[k].error.worst.outline_shift_px, 1.0);
         EXPECT_FALSE(reliefs[k].drawn_as.empty());
@@ -73,8 +73,8 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
         EXPECT_NEAR(on_gpu[k].error.mean.geometric_mean_mm, reliefs[k].error.mean.geometric_mean_mm,
                     0.1 * texel_mm);
         EXPECT_LT(on_gpu[k].error.worst.drawn_shift_px, 0.1);
-        EXPECT_EQ(reliefs[k].bytes, bytes_of(relief_of(pack_, outlines[k]).value()));
-        for (const std::optional<ErrorEstimate>& estimate : reliefs[k].estimates) {
+        EXPECT_EQ(reliefs[k].bytes, relief::bytes_of(pack::relief_of(pack_, outlines[k]).value()));
+        for (const std::optional<scene::ErrorEstimate>& estimate : reliefs[k].estimates) {
             EXPECT_TRUE(estimate.has_value());
         }
     }
@@ -85,8 +85,8 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
 /// With and without light baked into the colours: light that falls off towards an outline must not count as a
 /// shift.
 TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
-    const Pack with_light = baked(96, false);
-    for (const Pack* const pack : std::array<const Pack*, 2>{&pack_, &with_light}) {
+    const pack::Pack with_light = baked(96, false);
+    for (const pack::Pack* const pack : std::array<const pack::Pack*, 2>{&pack_, &with_light}) {
         const std::vector<std::uint32_t> levels{pack->default_level};
         Result<Comparison> opened =
             open_comparison({"near", stage_.settings}, *pack, levels, mesh_, {{}, 3, 3});
@@ -105,17 +105,17 @@ TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
             EXPECT_GT(result.error.worst.drawn_shift_px, 0.0) << result.name;
             EXPECT_LT(result.error.worst.drawn_shift_px, 0.05) << result.name;
         }
-        EXPECT_EQ(judged, 1 + reliefs_of(*pack).value().size());
+        EXPECT_EQ(judged, 1 + pack::reliefs_of(*pack).value().size());
     }
 }
 
 /// Reliefs baked by the bench equal those in the pack.
 TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
-    const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+    const std::vector<pack::ReliefOutline> outlines = pack::reliefs_of(pack_).value();
     ASSERT_FALSE(outlines.empty());
-    for (const ReliefOutline& outline : outlines) {
-        const BlockRelief packed = relief_of(pack_, outline).value();
-        const BlockRelief baked = blocks_of_pack(pack_, static_cast<int>(outline.texels));
+    for (const pack::ReliefOutline& outline : outlines) {
+        const relief::BlockRelief packed = pack::relief_of(pack_, outline).value();
+        const relief::BlockRelief baked = blocks_of_pack(pack_, static_cast<int>(outline.texels));
         ASSERT_EQ(baked.blocks.size(), packed.blocks.size());
         EXPECT_EQ(baked.corner_codes, packed.corner_codes);
         EXPECT_EQ(baked.covers, packed.covers);
@@ -123,4 +123,4 @@ TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// Greatest distance between chord and arc, around both of the torus's circles.
@@ -23,14 +23,14 @@ double distance_from_ring(const glm::dvec3& point) {
 
 class PeerMeshes : public DrawnNear {
 protected:
-    std::shared_ptr<SourceMesh> mesh_ = ring();
+    std::shared_ptr<bake::SourceMesh> mesh_ = ring();
     std::vector<BenchPose> poses_ = draw_poses(stage_.settings, stage_.prop, 5, 11).value();
 };
 
 TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {
     for (const bool masked : {false, true}) {
         if (masked) { // every other stripe is cut out
-            auto image = std::make_shared<Image8>(*mesh_->textures[0].image);
+            auto image = std::make_shared<image::Image8>(*mesh_->textures[0].image);
             for (int k = 0; k < 256 * 256; ++k) {
                 image->texels[static_cast<std::size_t>(k)].a = k / 256 % 64 < 32 ? 255 : 0;
             }
@@ -44,7 +44,7 @@ TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {
         for (const BenchPose& pose : poses_) {
             const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), false);
             (*cast)->draw(pose);
-            const Image8 colour = read_colour(stage_.framebuffer, 640, 400);
+            const image::Image8 colour = render::read_colour(stage_.framebuffer, 640, 400);
             const auto points = (*cast)->hit_points(pose);
             ASSERT_TRUE(points);
             int hits = 0;
@@ -109,7 +109,7 @@ TEST_F(PeerMeshes, SimplifyingKeepsSeamsAndMaterials) {
     const std::array<std::size_t, 1> targets = {1500};
     const std::vector<LevelOfDetail> levels = levels_of_detail(*mesh_, targets);
     ASSERT_EQ(levels.size(), 1U);
-    const SourceMesh& level = levels[0].mesh;
+    const bake::SourceMesh& level = levels[0].mesh;
     for (std::size_t t = 0; t < level.triangles.size(); ++t) {
         for (const std::uint32_t corner : level.triangles[t]) {
             const double x = level.positions[corner].x;
@@ -169,4 +169,4 @@ TEST(PeerChoice, AWrongNameIsOneLineThatSaysTheRightOnes) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,12 +7,12 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 class Peers : public DrawnNear {
 protected:
-    std::shared_ptr<SourceMesh> mesh_ = ring();
+    std::shared_ptr<bake::SourceMesh> mesh_ = ring();
     Truth truth_ = Truth::build(mesh_, glm::dmat4(1.0)).value();
     std::shared_ptr<const PeerMesh> peer_ = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
 };
@@ -87,9 +87,11 @@ TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
             const std::array fresh = {full(), two()};
             for (std::size_t k = 0; k < used.size(); ++k) {
                 used[k]->draw(pose);
-                const Image8 after_others = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                const image::Image8 after_others =
+                    render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
                 fresh[k]->draw(pose);
-                const Image8 alone = read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                const image::Image8 alone =
+                    render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
                 EXPECT_TRUE(after_others.texels == alone.texels) << used[k]->name();
             }
         }
@@ -116,4 +118,4 @@ TEST_F(Peers, TheRayCastsSamplesComeNearerToSixteenRays) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

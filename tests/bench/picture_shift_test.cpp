@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 constexpr int size = 48;
 
 /// A picture from 256 points per pixel tested with `inside`.
-template <typename Inside> Image8 picture_of(const Inside& inside, double brightness = 1.0) {
-    Image8 picture(size, size, glm::u8vec4(0, 0, 0, 255));
+template <typename Inside> image::Image8 picture_of(const Inside& inside, double brightness = 1.0) {
+    image::Image8 picture(size, size, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             int covered = 0;
@@ -22,14 +22,14 @@ template <typename Inside> Image8 picture_of(const Inside& inside, double bright
                                ? 1
                                : 0; // NOLINT(bugprone-integer-division)
             }
-            const std::uint8_t code = srgb8_from_linear(brightness * covered / 256.0);
+            const std::uint8_t code = image::srgb8_from_linear(brightness * covered / 256.0);
             picture.at(x, y) = {code, code, code, 255};
         }
     }
     return picture;
 }
 
-Image8 disc(const glm::dvec2& centre, double brightness = 1.0) {
+image::Image8 disc(const glm::dvec2& centre, double brightness = 1.0) {
     return picture_of([&](double x, double y) { return glm::distance(glm::dvec2(x, y), centre) < 15.0; },
                       brightness);
 }
@@ -59,7 +59,7 @@ TEST(PictureShift, IsNotMadeByAPictureThatIsDarkerOrLarger) {
     std::optional<glm::dvec2> shift = picture_shift(disc(middle), disc(middle, 0.8));
     ASSERT_TRUE(shift);
     EXPECT_LT(glm::length(*shift), 0.01);
-    const Image8 larger =
+    const image::Image8 larger =
         picture_of([](double x, double y) { return glm::distance(glm::dvec2(x, y), middle) < 15.4; });
     shift = picture_shift(disc(middle), larger);
     ASSERT_TRUE(shift);
@@ -67,11 +67,11 @@ TEST(PictureShift, IsNotMadeByAPictureThatIsDarkerOrLarger) {
 }
 
 TEST(PictureShift, IsOpenWhereNoEdgeTellsIt) {
-    const Image8 black(size, size, glm::u8vec4(0, 0, 0, 255));
+    const image::Image8 black(size, size, glm::u8vec4(0, 0, 0, 255));
     EXPECT_FALSE(picture_shift(black, black));
-    const Image8 stripe = picture_of([](double x, double) { return x > 10.0 && x < 20.5; });
+    const image::Image8 stripe = picture_of([](double x, double) { return x > 10.0 && x < 20.5; });
     EXPECT_FALSE(picture_shift(stripe, stripe)); // it may have moved along its direction
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// A projector 0.95 m above the table, looking straight down; its picture's top is away from the visitor.
-Settings overhead() {
-    Settings settings = steep_table();
+settings::Settings overhead() {
+    settings::Settings settings = settings::steep_table();
     settings.projector.table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.95}};
     return settings;
 }
 
 TEST(Poses, AreTheSameForTheSameSeedAndOthersForAnother) {
-    const Settings settings = overhead();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = overhead();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const auto a = draw_poses(settings, prop, 20, 7);
     const auto b = draw_poses(settings, prop, 20, 7);
     const auto c = draw_poses(settings, prop, 20, 8);
@@ -32,8 +32,8 @@ TEST(Poses, AreTheSameForTheSameSeedAndOthersForAnother) {
 }
 
 TEST(Poses, ALargerCountBeginsWithTheSmaller) {
-    const Settings settings = overhead();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = overhead();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const auto few = draw_poses(settings, prop, 5, 3);
     const auto many = draw_poses(settings, prop, 15, 3);
     ASSERT_TRUE(few && many);
@@ -43,8 +43,8 @@ TEST(Poses, ALargerCountBeginsWithTheSmaller) {
 }
 
 TEST(Poses, StayInsideTheZone) {
-    const Settings settings = overhead();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = overhead();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const auto poses = draw_poses(settings, prop, 200, 1);
     ASSERT_TRUE(poses);
     bool left = false;
@@ -73,8 +73,8 @@ TEST(Poses, StayInsideTheZone) {
 }
 
 TEST(Poses, EveryFaceThatTheEyeSeesIsLit) {
-    const Settings settings = overhead();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = overhead();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     BenchPose pose{{glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0}}, {0.6, 0.0, 0.3}};
     EXPECT_TRUE(in_zone(settings, prop, pose));
     // The face +X leans inwards by 35 mm over 120 mm: its plane reaches height 0.95 m at x = 0.08 - 0.277 m
@@ -86,13 +86,13 @@ TEST(Poses, EveryFaceThatTheEyeSeesIsLit) {
 }
 
 TEST(Poses, AProjectorThatLightsNothingIsRefusedInOneLine) {
-    Settings settings = overhead();
+    settings::Settings settings = overhead();
     settings.projector.pinhole = {64, 40, 1872.0, 1872.0, 32.0, 20.0};
-    const auto poses = draw_poses(settings, make_prop(settings.prop), 1, 1);
+    const auto poses = draw_poses(settings, settings::make_prop(settings.prop), 1, 1);
     ASSERT_FALSE(poses);
     EXPECT_EQ(poses.error().kind, ErrorKind::BadConfiguration);
     EXPECT_EQ(poses.error().message.find('\n'), std::string::npos);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

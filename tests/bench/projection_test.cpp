@@ -11,10 +11,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
-VisitorScene scene_of(const Settings& settings, const PropShape& prop, const BenchPose& pose) {
+simulation::VisitorScene scene_of(const settings::Settings& settings, const geometry::PropShape& prop,
+                                  const BenchPose& pose) {
     return {settings.projector.pinhole,
             settings.projector.table_from_projector,
             prop,
@@ -27,10 +28,10 @@ constexpr glm::dvec3 ball_centre(0.0, 0.0, 0.05);
 constexpr double ball_radius_m = 0.02;
 
 /// A fine grid of latitudes and longitudes.
-std::shared_ptr<SourceMesh> ball() {
+std::shared_ptr<bake::SourceMesh> ball() {
     constexpr std::uint32_t around = 256;
     constexpr std::uint32_t up = 128;
-    auto mesh = std::make_shared<SourceMesh>();
+    auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->materials = {{glm::vec4(1.0F), -1, false, 0.5F}};
     for (std::uint32_t j = 0; j <= up; ++j) {
         for (std::uint32_t i = 0; i <= around; ++i) {
@@ -54,11 +55,12 @@ std::shared_ptr<SourceMesh> ball() {
 
 TEST(Projection, TheVisitorsRayCastMeetsABallWhereAlgebraSaysSo) {
     const BenchPose pose = pose_at(0.03, 0.02, 0.8);
-    const PropShape prop = make_frustum({});
-    const VisitorScene scene = scene_of(near_settings(), prop, pose);
+    const geometry::PropShape prop = geometry::make_frustum({});
+    const simulation::VisitorScene scene = scene_of(near_settings(), prop, pose);
     const auto truth = Truth::build(ball(), glm::dmat4(1.0));
     ASSERT_TRUE(truth) << truth.error().message;
-    const VisitorCamera camera = visitor_camera(prop, pose.table_from_prop, pose.eye_m, 320, 240);
+    const simulation::VisitorCamera camera =
+        simulation::visitor_camera(prop, pose.table_from_prop, pose.eye_m, 320, 240);
     const VisitorTruth picture = cast_visitor(*truth, scene, camera, 1);
     const glm::dvec3 centre = pose.table_from_prop.point(ball_centre);
     int judged = 0;
@@ -84,7 +86,7 @@ TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
     truth.prop.at(3, 0) = 0;
     truth.hit.at(0, 0) = truth.hit.at(1, 0) = 1;
     truth.colour.at(0, 0) = truth.colour.at(1, 0) = {100, 100, 100, 255};
-    Image8 view(4, 1, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 view(4, 1, glm::u8vec4(0, 0, 0, 255));
     view.at(0, 0) = {116, 100, 84, 255};  // 16 codes off: right
     view.at(1, 0) = {100, 117, 100, 255}; // 17: wrong
     view.at(3, 0) = {255, 255, 255, 255}; // outside the prop
@@ -97,14 +99,15 @@ TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
 }
 
 TEST(Projection, NoPixelOfTheVisitorsPictureIsFinerThanTheProjectors) {
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     for (const double yaw : {0.0, 0.4, 0.785}) {
-        const VisitorScene scene = scene_of(near_settings(), prop, pose_at(0.05, -0.04, yaw));
-        const VisitorCamera camera = no_finer_camera(scene);
+        const simulation::VisitorScene scene = scene_of(near_settings(), prop, pose_at(0.05, -0.04, yaw));
+        const simulation::VisitorCamera camera = no_finer_camera(scene);
         int seen = 0;
         for (int y = 0; y < camera.pinhole.height; ++y) {
             for (int x = 0; x < camera.pinhole.width; ++x) {
-                const double covered = projector_pixels_covered(scene, camera, {x + 0.5, y + 0.5});
+                const double covered =
+                    simulation::projector_pixels_covered(scene, camera, {x + 0.5, y + 0.5});
                 seen += covered > 0.0 ? 1 : 0;
                 EXPECT_TRUE(covered == 0.0 || covered >= 1.0) << covered << " at " << x << " " << y;
             }
@@ -118,19 +121,19 @@ TEST(Projection, NoPixelOfTheVisitorsPictureIsFinerThanTheProjectors) {
 class ProjectedRing : public ::testing::Test {
 protected:
     [[nodiscard]] static double right_percent(const BenchPose& drawn, const BenchPose& stands) {
-        auto display = SurfacelessDisplay::create(640, 400);
-        const Stage stage{near_settings(), make_frustum({}), (*display)->framebuffer()};
-        auto mesh = std::make_shared<SourceMesh>(*ring());
+        auto display = display::SurfacelessDisplay::create(640, 400);
+        const Stage stage{near_settings(), geometry::make_frustum({}), (*display)->framebuffer()};
+        auto mesh = std::make_shared<bake::SourceMesh>(*ring());
         auto peer = PeerMesh::upload(*mesh, glm::dmat4(1.0));
         auto full = make_full_mesh(stage, *peer);
         (*full)->draw(drawn);
-        const Image8 picture = read_colour(stage.framebuffer, 640, 400);
-        const VisitorScene scene = scene_of(stage.settings, stage.prop, stands);
-        const VisitorCamera camera = no_finer_camera(scene);
-        VisitorViewOptions sixteen = exact_check();
+        const image::Image8 picture = render::read_colour(stage.framebuffer, 640, 400);
+        const simulation::VisitorScene scene = scene_of(stage.settings, stage.prop, stands);
+        const simulation::VisitorCamera camera = no_finer_camera(scene);
+        simulation::VisitorViewOptions sixteen = simulation::exact_check();
         sixteen.rays_per_side = 4;
         const auto truth = Truth::build(mesh, glm::dmat4(1.0));
-        return pixel_accuracy(visitor_view(scene, picture, camera, sixteen),
+        return pixel_accuracy(simulation::visitor_view(scene, picture, camera, sixteen),
                               cast_visitor(*truth, scene, camera, 4))
             .prop_percent();
     }
@@ -152,4 +155,4 @@ TEST_F(ProjectedRing, BesideItsPlaceIsCaught) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

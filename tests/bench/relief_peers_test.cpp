@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// Distance of (x, z) from the middle circle of the ring's tube.
@@ -28,8 +28,8 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));
     ASSERT_TRUE(truth);
     constexpr int texels = 64;
-    const ReliefImages images =
-        rasterize_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)), make_frustum({}), texels);
+    const ReliefImages images = rasterize_relief_images(*truth, placed_box(*mesh, glm::dmat4(1.0)),
+                                                        geometry::make_frustum({}), texels);
     ASSERT_EQ(images.images.size(), 5U);
     const glm::dvec3 size = images.box.high - images.box.low;
     int hits = 0;
@@ -57,7 +57,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
     }
     EXPECT_GT(hits, 1000);
     // The ring is equally thick on both sides of its middle plane; each of its texels was hit in both images.
-    const Image<glm::u16vec2> material = material_along(images, 1);
+    const image::Image<glm::u16vec2> material = material_along(images, 1);
     int solid = 0;
     for (const glm::u16vec2& texel : material.texels) {
         const bool nowhere = texel == glm::u16vec2(65535, 0);
@@ -68,14 +68,14 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
 }
 
 TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
-    const PropShape prop = make_frustum({});
-    const Box box{{-0.02, -0.03, 0.01}, {0.03, 0.01, 0.09}};
+    const geometry::PropShape prop = geometry::make_frustum({});
+    const geometry::Box box{{-0.02, -0.03, 0.01}, {0.03, 0.01, 0.09}};
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> random(0.0, 1.0);
     int met = 0;
     for (int trial = 0; trial < 20; ++trial) {
         const glm::dvec3 eye(random(engine) - 0.5, random(engine) - 0.5, 0.15 + 0.5 * random(engine));
-        for (const PropFace& face : prop.faces) {
+        for (const geometry::PropFace& face : prop.faces) {
             if (face.plane.distance(eye) <= 0.01) {
                 continue;
             }
@@ -137,4 +137,4 @@ TEST_F(ReliefPeers, EachComesNearToTheRayCastOfARing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

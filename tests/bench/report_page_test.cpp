@@ -14,7 +14,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -277,4 +277,4 @@ TEST(ReportTables, NamesAreThoseOfOneTableEach) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

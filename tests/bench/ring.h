@@ -7,24 +7,24 @@
 #include <memory>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The ring's radii and the height of its middle above the table, metres.
 inline constexpr double ring_major_m = 0.030, ring_minor_m = 0.010, ring_middle_m = 0.045;
 
 /// A closed, concave object: a ring (torus) standing in the prop, with a smooth texture.
-inline std::shared_ptr<SourceMesh> ring() {
+inline std::shared_ptr<bake::SourceMesh> ring() {
     constexpr std::uint32_t around = 96;
     constexpr std::uint32_t across = 32;
-    auto mesh = std::make_shared<SourceMesh>();
-    auto image = std::make_shared<Image8>(256, 256);
+    auto mesh = std::make_shared<bake::SourceMesh>();
+    auto image = std::make_shared<image::Image8>(256, 256);
     for (int y = 0; y < 256; ++y) {
         for (int x = 0; x < 256; ++x) {
             const double wave = 127.5 + 100.0 * std::sin(2.0 * std::numbers::pi * x / 256.0);
             image->at(x, y) = {static_cast<std::uint8_t>(wave), 128, 200, 255};
         }
     }
-    mesh->textures = {{image, Wrap::Repeat, Wrap::Repeat}};
+    mesh->textures = {{image, bake::Wrap::Repeat, bake::Wrap::Repeat}};
     mesh->materials = {{glm::vec4(1.0F), 0, false, 0.5F}};
     for (std::uint32_t j = 0; j <= around; ++j) {
         for (std::uint32_t i = 0; i <= across; ++i) {
@@ -47,4 +47,4 @@ inline std::shared_ptr<SourceMesh> ring() {
     return mesh;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// A pixel that takes the codes of `sequence` one after another, in all three channels.
-Image<float> flicker_of(const std::vector<int>& sequence) {
+image::Image<float> flicker_of(const std::vector<int>& sequence) {
     Flicker flicker;
     for (const int code : sequence) {
         const auto value = static_cast<std::uint8_t>(code);
-        flicker.add(Image8(2, 1, glm::u8vec4(value, value, value, 255)));
+        flicker.add(image::Image8(2, 1, glm::u8vec4(value, value, value, 255)));
     }
     return flicker.per_pixel();
 }
@@ -33,14 +33,14 @@ TEST(Flicker, IsTheRootMeanSquareOfSecondDifferences) {
     EXPECT_FLOAT_EQ(flicker_of({0, 0, 0, 255, 255, 255}).at(0, 0), 255.0F / std::sqrt(2.0F));
     Flicker red_only;
     for (const int red : {30, 40, 30, 40}) {
-        red_only.add(Image8(1, 1, glm::u8vec4(static_cast<std::uint8_t>(red), 7, 9, 255)));
+        red_only.add(image::Image8(1, 1, glm::u8vec4(static_cast<std::uint8_t>(red), 7, 9, 255)));
     }
     EXPECT_FLOAT_EQ(red_only.per_pixel().at(0, 0), 20.0F / std::sqrt(3.0F));
 }
 
 TEST(Shimmer, IsSummedUpOverTheJudgedPixelsAlone) {
-    Image<float> values(1000, 2);
-    Image<std::uint8_t> judged(1000, 2);
+    image::Image<float> values(1000, 2);
+    image::Image<std::uint8_t> judged(1000, 2);
     for (int x = 0; x < 1000; ++x) {
         judged.at(x, 0) = 1;
         values.at(x, 0) = x < 2 ? 50.0F : 4.0F;
@@ -53,26 +53,26 @@ TEST(Shimmer, IsSummedUpOverTheJudgedPixelsAlone) {
 }
 
 TEST(Shimmer, ASpeckleIsAnExcessAndAnEdgeBesideTheTruthsIsNot) {
-    Image<std::uint8_t> judged(20, 20, 1);
-    Image<float> truth(20, 20, 3.0F);
-    Image<float> drawn(20, 20, 3.0F);
+    image::Image<std::uint8_t> judged(20, 20, 1);
+    image::Image<float> truth(20, 20, 3.0F);
+    image::Image<float> drawn(20, 20, 3.0F);
     for (int y = 0; y < 20; ++y) {
         truth.at(5, y) = 100.0F;
         drawn.at(7, y) = 90.0F; // the same edge two pixels off
     }
     drawn.at(14, 9) = 40.0F;
     drawn.at(17, 9) = 10.0F; // within 8 codes
-    const Image<std::uint8_t> found = excess(drawn, truth, judged);
+    const image::Image<std::uint8_t> found = excess(drawn, truth, judged);
     EXPECT_EQ(std::count(found.texels.begin(), found.texels.end(), 1), 1);
     EXPECT_EQ(found.at(14, 9), 1);
     judged.at(14, 9) = 0;
-    const Image<std::uint8_t> none = excess(drawn, truth, judged);
+    const image::Image<std::uint8_t> none = excess(drawn, truth, judged);
     EXPECT_EQ(std::count(none.texels.begin(), none.texels.end(), 1), 0);
 }
 
 TEST(Shimmer, EachStepMovesThePropsMiddleByATenthOfAPixel) {
-    const Settings settings = near_settings();
-    const PropShape prop = make_frustum({});
+    const settings::Settings settings = near_settings();
+    const geometry::PropShape prop = geometry::make_frustum({});
     for (const PushDirection direction : {PushDirection::Row, PushDirection::Column}) {
         const ShimmerSequence sequence(settings, prop, pose_at(0.04, -0.02, 0.7), direction, 20);
         ASSERT_EQ(sequence.poses().size(), 21U);
@@ -99,12 +99,12 @@ protected:
         sequence_.emplace(settings_, prop_, pose_at(0.01, 0.02, 0.4), PushDirection::Row, 8);
         sequence_->cast(*truth_, false);
     }
-    [[nodiscard]] Image8 cast(const BenchPose& pose) const {
+    [[nodiscard]] image::Image8 cast(const BenchPose& pose) const {
         return truth_->cast(prop_, view_of(settings_, pose), false).colour;
     }
 
-    Settings settings_ = near_settings();
-    PropShape prop_ = make_frustum({});
+    settings::Settings settings_ = near_settings();
+    geometry::PropShape prop_ = geometry::make_frustum({});
     std::optional<Truth> truth_;
     std::optional<ShimmerSequence> sequence_;
 };
@@ -157,7 +157,7 @@ TEST_F(ShimmerOfTheTruth, PixelsThatBlinkWhereTheArtifactIsSmoothAreFoundOneByOn
     ShimmerMaps maps;
     const SequenceShimmer found = sequence_->judge(
         [&](const BenchPose& pose) {
-            Image8 picture = cast(pose);
+            image::Image8 picture = cast(pose);
             for (const glm::ivec2& at : speckles) {
                 picture.at(at.x, at.y) = glm::u8vec4(glm::u8vec3(frame % 2 == 0 ? 0 : 255), 255);
             }
@@ -169,4 +169,4 @@ TEST_F(ShimmerOfTheTruth, PixelsThatBlinkWhereTheArtifactIsSmoothAreFoundOneByOn
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

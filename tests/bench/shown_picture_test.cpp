@@ -11,7 +11,7 @@
 
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 class ShownPictureTest : public DrawnNear {
@@ -20,11 +20,11 @@ protected:
     /// Bakes the ring with `share` of its colour. Dim artifacts get a higher exposure.
     void bake_in(float share) {
         mesh_->materials[0].base_colour = glm::vec4(glm::vec3(share), 1.0F);
-        BakeOptions options;
+        bake::BakeOptions options;
         options.size = 96;
         options.unlit = true;
         options.measuring = 0.05;
-        Result<Pack> pack = bake(*mesh_, options);
+        Result<pack::Pack> pack = bake::bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
         pack_ = std::move(*pack);
     }
@@ -57,8 +57,8 @@ protected:
     }
     [[nodiscard]] std::uint32_t finest() const { return static_cast<std::uint32_t>(pack_.levels.size() - 1); }
 
-    std::shared_ptr<SourceMesh> mesh_ = ring();
-    Pack pack_;
+    std::shared_ptr<bake::SourceMesh> mesh_ = ring();
+    pack::Pack pack_;
 };
 
 TEST_F(ShownPictureTest, LightSoftEdgesAndCoverAreTheTruths) {
@@ -98,11 +98,11 @@ TEST_F(ShownPictureTest, AnotherLightIsAnError) {
     const auto level = make_pack_level(stage, pack_, finest(), options, "finest").value();
     ShownPicture& shown = *level->as_shown();
     shown.draw_shown(pose);
-    const auto read = [&] { return read_colour(stage.framebuffer, stage.width(), stage.height()); };
+    const auto read = [&] { return render::read_colour(stage.framebuffer, stage.width(), stage.height()); };
     ShownImages images{read(), {}, shown.draw_white(pose)};
     ASSERT_EQ(images.samples, 16);
     images.white = read();
-    const ImageFloat points = level->hit_points(pose).value();
+    const image::ImageFloat points = level->hit_points(pose).value();
     const TruthView view = view_of(stage.settings, pose);
     const auto error_in = [&](const LightAim& aim) {
         const TruthPicture truth = opened->truth.cast(stage.prop, view, true, &aim);
@@ -120,4 +120,4 @@ TEST_F(ShownPictureTest, AnotherLightIsAnError) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,22 +4,22 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
-double area_of(const SourceMesh& mesh, std::size_t triangle) {
+double area_of(const bake::SourceMesh& mesh, std::size_t triangle) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     return 0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
                                         mesh.positions[c] - mesh.positions[a]));
 }
 
 TEST(Subdivide, CutsEachTriangleIntoFourOfAQuarterOfItsArea) {
-    SourceMesh mesh = test::empty_mesh();
+    bake::SourceMesh mesh = test::empty_mesh();
     test::add_box(mesh, {0, 0, 0}, {1, 2, 3});
     for (const glm::dvec3& p : mesh.positions) {
         mesh.uvs.emplace_back(p.x, 2.0 * p.y);
     }
-    const SourceMesh fine = subdivide(mesh);
+    const bake::SourceMesh fine = subdivide(mesh);
     ASSERT_EQ(fine.triangles.size(), 4 * mesh.triangles.size());
     EXPECT_EQ(fine.triangle_materials.size(), fine.triangles.size());
     for (std::size_t k = 0; k < fine.triangles.size(); ++k) {
@@ -33,4 +33,4 @@ TEST(Subdivide, CutsEachTriangleIntoFourOfAQuarterOfItsArea) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

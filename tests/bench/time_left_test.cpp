@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 TEST(TimeLeft, CountsTheStepsToCome) {
@@ -48,4 +48,4 @@ TEST(TimeLeft, WithoutAPlanItIsThatOfTheStepAlone) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,17 +6,17 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// A picture that keeps the driver busy; records whether the previous one was finished when the next began.
 class Heavy final : public Technique {
 public:
     explicit Heavy(std::vector<const Technique*>& log) : log_(log) {
-        Result<GlProgram> program = make_program("", R"(
+        Result<gl::GlProgram> program = gl::make_program("", R"(
 void main() { gl_Position = vec4(float(gl_VertexID % 2) * 4.0 - 1.0, float(gl_VertexID / 2) * 4.0 - 1.0, 0.0, 1.0); }
 )",
-                                                 R"(
+                                                         R"(
 out vec4 result;
 void main() {
     float sum = gl_FragCoord.x;
@@ -45,15 +45,17 @@ void main() {
         glDrawArrays(GL_TRIANGLES, 0, 3);
         fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose&) override { return ImageFloat(); }
+    [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose&) override {
+        return image::ImageFloat();
+    }
 
     [[nodiscard]] int unfinished() const { return unfinished_; }
     [[nodiscard]] const std::vector<double>& eyes() const { return eyes_; }
 
 private:
     std::vector<const Technique*>& log_;
-    GlProgram program_;
-    GlVertexArray no_attributes_ = GlVertexArray::generate();
+    gl::GlProgram program_;
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
     GLsync fence_ = nullptr;
     int unfinished_ = 0;
     std::vector<double> eyes_;
@@ -62,13 +64,14 @@ private:
 class Timing : public ::testing::Test {
 protected:
     void SetUp() override {
-        Result<std::unique_ptr<SurfacelessDisplay>> display = SurfacelessDisplay::create(320, 200);
+        Result<std::unique_ptr<display::SurfacelessDisplay>> display =
+            display::SurfacelessDisplay::create(320, 200);
         ASSERT_TRUE(display) << display.error().message;
         display_ = std::move(*display);
         glBindFramebuffer(GL_FRAMEBUFFER, display_->framebuffer());
         glViewport(0, 0, 320, 200);
     }
-    std::unique_ptr<SurfacelessDisplay> display_;
+    std::unique_ptr<display::SurfacelessDisplay> display_;
     std::vector<const Technique*> log_;
 };
 
@@ -142,4 +145,4 @@ TEST(SpreadOfTimes, IsTheMedianAndTheOuterTenths) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,19 +6,20 @@
 #include <optional>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 /// A fan of a few dozen random triangles inside a unit box, in three materials: textured, masked, plain.
-std::shared_ptr<SourceMesh> random_mesh(std::uint64_t seed) {
+std::shared_ptr<bake::SourceMesh> random_mesh(std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     const auto random = [&engine] { return static_cast<double>(engine() % 100000) / 100000.0; };
-    auto mesh = std::make_shared<SourceMesh>();
-    auto image = std::make_shared<Image8>(5, 3);
+    auto mesh = std::make_shared<bake::SourceMesh>();
+    auto image = std::make_shared<image::Image8>(5, 3);
     for (glm::u8vec4& texel : image->texels) {
         texel = {engine() % 256, engine() % 256, engine() % 256, engine() % 256};
     }
-    mesh->textures = {{image, Wrap::Repeat, Wrap::Clamp}, {image, Wrap::Mirror, Wrap::Repeat}};
+    mesh->textures = {{image, bake::Wrap::Repeat, bake::Wrap::Clamp},
+                      {image, bake::Wrap::Mirror, bake::Wrap::Repeat}};
     mesh->materials = {{{0.9F, 0.7F, 1.0F, 1.0F}, 0, false, 0.5F},
                        {{1.0F, 1.0F, 1.0F, 0.9F}, 1, true, 0.4F},
                        {{0.2F, 0.5F, 0.8F, 0.1F}, -1, false, 0.5F}};
@@ -45,17 +46,17 @@ int code_of(double linear) {
 }
 
 /// Straightforward bilinear filter: a tent of one texel over the wrapped plane of texels.
-glm::dvec4 texture_at(const SourceTexture& texture, double u, double v) {
-    const Image8& image = *texture.image;
-    const auto wrap = [](int k, int n, Wrap mode) {
-        if (mode == Wrap::Clamp) {
+glm::dvec4 texture_at(const bake::SourceTexture& texture, double u, double v) {
+    const image::Image8& image = *texture.image;
+    const auto wrap = [](int k, int n, bake::Wrap mode) {
+        if (mode == bake::Wrap::Clamp) {
             return k < 0 ? 0 : k >= n ? n - 1 : k;
         }
         while (k < 0) {
             k += 2 * n;
         }
         k %= 2 * n;
-        return mode == Wrap::Repeat ? k % n : k < n ? k : 2 * n - 1 - k;
+        return mode == bake::Wrap::Repeat ? k % n : k < n ? k : 2 * n - 1 - k;
     };
     glm::dvec4 sum(0.0);
     for (int j = -20; j < 20; ++j) {
@@ -80,7 +81,7 @@ struct BruteHit {
 };
 
 /// Moeller & Trumbore 1997 over every triangle, in double.
-std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& placed, glm::dvec3 o,
+std::optional<BruteHit> brute_cast(const bake::SourceMesh& mesh, const glm::dmat4& placed, glm::dvec3 o,
                                    glm::dvec3 d, double& min_margin) {
     std::optional<BruteHit> best;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
@@ -106,7 +107,7 @@ std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& pla
             continue;
         }
         const auto [a, b, c] = mesh.triangles[k];
-        const SourceMaterial& material = mesh.materials[mesh.triangle_materials[k]];
+        const bake::SourceMaterial& material = mesh.materials[mesh.triangle_materials[k]];
         glm::dvec4 colour(material.base_colour);
         const double w = 1.0 - u - v;
         colour *= w * glm::dvec4(mesh.colours[a]) + u * glm::dvec4(mesh.colours[b]) +
@@ -130,7 +131,7 @@ std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& pla
 }
 
 /// First face of the prop that a ray crosses from outside, from the corners' winding alone.
-std::optional<std::pair<glm::dvec3, std::size_t>> brute_prop(const PropShape& prop, glm::dvec3 o,
+std::optional<std::pair<glm::dvec3, std::size_t>> brute_prop(const geometry::PropShape& prop, glm::dvec3 o,
                                                              glm::dvec3 d) {
     for (std::size_t f = 0; f < prop.faces.size(); ++f) {
         const auto& c = prop.faces[f].corners;
@@ -170,7 +171,7 @@ const std::array<glm::dvec3, 4> eyes = {glm::dvec3(0.5, -0.4, 0.4), glm::dvec3(-
                                         glm::dvec3(0.02, 0.01, 0.5), glm::dvec3(-0.9, 0.2, 0.25)};
 
 TEST(Truth, EqualsABruteForceCastInDouble) {
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     int hits = 0;
     int judged = 0;
     for (std::size_t k = 0; k < eyes.size(); ++k) {
@@ -213,7 +214,7 @@ TEST(Truth, EqualsABruteForceCastInDouble) {
 }
 
 TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const auto mesh = random_mesh(11);
     const auto truth = Truth::build(mesh, into_prop());
     ASSERT_TRUE(truth);
@@ -243,7 +244,7 @@ TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
 }
 
 TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const auto truth = Truth::build(random_mesh(11), into_prop());
     ASSERT_TRUE(truth);
     const TruthView view = view_from(eyes[0]);
@@ -253,9 +254,9 @@ TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
         fine.projector = view.projector.scaled_to(64 * split, 48 * split);
         return truth->cast(prop, fine, false).hit;
     };
-    const Image<std::uint8_t> quarters = met_of_split(4);
-    const Image<std::uint8_t> halves = met_of_split(2);
-    const Image<float> by_four = truth->cover(prop, view, picture, {2, 2});
+    const image::Image<std::uint8_t> quarters = met_of_split(4);
+    const image::Image<std::uint8_t> halves = met_of_split(2);
+    const image::Image<float> by_four = truth->cover(prop, view, picture, {2, 2});
     int in_part = 0;
     for (int y = 0; y < 48; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -280,15 +281,15 @@ TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
 
 TEST(Truth, TheRayGoesOnBehindTheProp) {
     // A wall far behind the prop, seen through it as through a window.
-    auto mesh = std::make_shared<SourceMesh>();
+    auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->positions = {{-50.0, 5.0, -50.0}, {50.0, 5.0, -50.0}, {0.0, 5.0, 50.0}};
     mesh->triangles = {{0, 1, 2}};
     mesh->triangle_materials = {0};
-    mesh->materials = {SourceMaterial{}};
+    mesh->materials = {bake::SourceMaterial{}};
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));
     ASSERT_TRUE(truth);
     const TruthView view = view_from({0.0, -0.6, 0.2});
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const TruthPicture picture = truth->cast(prop, view, false);
     int seen = 0;
     for (int y = 0; y < 48; ++y) {
@@ -305,9 +306,9 @@ TEST(Truth, TheRayGoesOnBehindTheProp) {
 
 TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
     // The mesh in a file's frame a thousand times larger and far off: 64-bit set-up gives an equal picture.
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const auto mesh = random_mesh(5);
-    auto moved = std::make_shared<SourceMesh>(*mesh);
+    auto moved = std::make_shared<bake::SourceMesh>(*mesh);
     for (glm::dvec3& position : moved->positions) {
         position = position * 1000.0 + glm::dvec3(3e6, -1e6, 2e6);
     }
@@ -328,14 +329,14 @@ TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
 }
 
 TEST(Truth, FrontSidesAloneAreMetWhereTheyAreAskedFor) {
-    auto mesh = std::make_shared<SourceMesh>();
+    auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->positions = {{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.0, 1.0, 1.0},
                        {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
     mesh->triangles = {{0, 1, 2}, {3, 4, 5}}; // the upper one faces up, the lower one down
     mesh->triangle_materials = {0, 0};
-    mesh->materials = {SourceMaterial{}};
+    mesh->materials = {bake::SourceMaterial{}};
     const Truth both = Truth::build(mesh, glm::dmat4(1.0)).value();
-    const Truth front = Truth::build(mesh, glm::dmat4(1.0), Sides::Front).value();
+    const Truth front = Truth::build(mesh, glm::dmat4(1.0), bake::Sides::Front).value();
     const glm::dvec3 between(0.2, 0.2, 0.5);
     const glm::dvec3 above(0.2, 0.2, 2.0);
     const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -349,9 +350,9 @@ TEST(Truth, FrontSidesAloneAreMetWhereTheyAreAskedFor) {
 }
 
 TEST(Truth, AMeshWithoutTrianglesIsRefused) {
-    EXPECT_FALSE(Truth::build(std::make_shared<SourceMesh>(), glm::dmat4(1.0)));
+    EXPECT_FALSE(Truth::build(std::make_shared<bake::SourceMesh>(), glm::dmat4(1.0)));
     EXPECT_FALSE(Truth::build(random_mesh(1), glm::dmat4(std::nan(""))));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

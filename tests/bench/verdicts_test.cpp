@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 namespace {
 
 PictureError picture_error(double silhouette_percent, double outline_px, double mm, double rmse) {
@@ -279,4 +279,4 @@ TEST(Report, WhatTheKioskDoesNotShowIsEmpty) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

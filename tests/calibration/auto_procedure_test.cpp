@@ -16,10 +16,10 @@
 #include <functional>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
-constexpr FrustumSize prop{0.30, 0.08, 0.155};
+constexpr geometry::FrustumSize prop{0.30, 0.08, 0.155};
 
 struct LiveSetup {
     std::uint64_t seed = 1;
@@ -30,9 +30,9 @@ struct LiveSetup {
     Nanoseconds tick = std::chrono::milliseconds(100); ///< of the camera
 };
 
-SimulatedTable table_of(const LiveSetup& setup) {
-    SimulatedTable table = some_table(setup.seed);
-    Pinhole& pinhole = table.truth.pinhole;
+simulators::SimulatedTable table_of(const LiveSetup& setup) {
+    simulators::SimulatedTable table = simulators::some_table(setup.seed);
+    geometry::Pinhole& pinhole = table.truth.pinhole;
     if (setup.projector_width > 0) {
         pinhole =
             pinhole.scaled_to(setup.projector_width, pinhole.height * setup.projector_width / pinhole.width);
@@ -40,15 +40,15 @@ SimulatedTable table_of(const LiveSetup& setup) {
     return table;
 }
 
-SimulatedCamera camera_of(const SimulatedTable& table, int width) {
-    SimulatedCamera camera = some_camera(table);
+simulators::SimulatedCamera camera_of(const simulators::SimulatedTable& table, int width) {
+    simulators::SimulatedCamera camera = simulators::some_camera(table);
     camera.focal_px *= static_cast<double>(width) / camera.width;
     camera.height = camera.height * width / camera.width;
     camera.width = width;
     return camera;
 }
 
-AutoPlan plan_of(const SimulatedTable& table, const LiveSetup& setup) {
+AutoPlan plan_of(const simulators::SimulatedTable& table, const LiveSetup& setup) {
     AutoPlan plan;
     plan.rests = setup.rests;
     plan.frames = setup.frames;
@@ -65,7 +65,7 @@ public:
         : table(table_of(setup)), board(*board_for(prop)), procedure(board, plan_of(table, setup)),
           camera_(camera_of(table, setup.camera_width)),
           scene(table, camera_, board, procedure.plan().stripes, {}, setup.seed), numbers(1000 + setup.seed),
-          tick_(setup.tick), typesetter_(*Typesetter::open()) {}
+          tick_(setup.tick), typesetter_(*typography::Typesetter::open()) {}
 
     /// Advances by one camera frame. `hand`: changes the input before the procedure sees it.
     void step(const std::function<void(AutoProcedure::Input&)>& hand = {}) {
@@ -109,12 +109,13 @@ public:
         const glm::dvec2 pixel =
             wish.pixel + hand * glm::dvec2(numbers.between(-1.0, 1.0), numbers.between(-1.0, 1.0));
         yaw_ += 1.57 + numbers.between(-0.5, 0.5);
-        put(placed_prop(true_light(table.truth, pixel, height), yaw_, lean, numbers.between(0.0, 6.28)),
+        put(simulators::placed_prop(simulators::true_light(table.truth, pixel, height), yaw_, lean,
+                                    numbers.between(0.0, 6.28)),
             std::move(covered));
     }
     void put(const glm::dmat4& table_from_prop, std::set<int> covered = {}) {
         scene.put(table_from_prop, std::move(covered));
-        report_ = simulated_report(table, table_from_prop, {}, numbers);
+        report_ = simulators::simulated_report(table, table_from_prop, {}, numbers);
         moved_ = now;
     }
     /// Advances until the stage changes, or for `seconds`.
@@ -141,7 +142,7 @@ public:
             go_on();    // until they end
             if (procedure.word() != AutoPrompt::Taken) {
                 std::printf("rest %d: %s\n", static_cast<int>(procedure.taken()) + 1,
-                            table_words(procedure).lines.back().c_str());
+                            programs::table_words(procedure).lines.back().c_str());
             }
         }
     }
@@ -153,16 +154,16 @@ public:
         return setup;
     }
 
-    SimulatedTable table;
+    simulators::SimulatedTable table;
     Board board;
     AutoProcedure procedure;
 
 private:
-    SimulatedCamera camera_;
+    simulators::SimulatedCamera camera_;
 
 public:
-    SimulatedBoard scene;
-    SeededNumbers numbers;
+    simulators::SimulatedBoard scene;
+    simulators::SeededNumbers numbers;
     MonotonicTime now{std::chrono::seconds(1)};
 
 private:
@@ -171,12 +172,13 @@ private:
     [[nodiscard]] bool is_too_early(MonotonicTime begin) const {
         return procedure.stage() == CalibrationStage::Capture && begin < lit_->since + *procedure.delay();
     }
-    [[nodiscard]] static CameraFrame dark_frame(MonotonicTime time, int width, int height) {
+    [[nodiscard]] static camera::CameraFrame dark_frame(MonotonicTime time, int width, int height) {
         return {time, 0, width, height,
                 std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 0)};
     }
     void show() {
-        const auto words = procedure.shown() ? std::vector<std::string>() : table_words(procedure).lines;
+        const auto words =
+            procedure.shown() ? std::vector<std::string>() : programs::table_words(procedure).lines;
         if (lit_ && lit_->number == procedure.number() && words == words_) {
             return;
         }
@@ -188,26 +190,26 @@ private:
         if (procedure.shown()) {
             scene.show(now, *procedure.shown());
         } else {
-            scene.show(now, table_picture(procedure, {.width = size.width,
-                                                      .height = size.height,
-                                                      .board_px = 0.5 * size.width,
-                                                      .typesetter = typesetter_}));
+            scene.show(now, programs::table_picture(procedure, {.width = size.width,
+                                                                .height = size.height,
+                                                                .board_px = 0.5 * size.width,
+                                                                .typesetter = typesetter_}));
         }
     }
 
     Nanoseconds tick_;
-    Typesetter typesetter_;
+    typography::Typesetter typesetter_;
     std::optional<CalibrationInput::Lit> lit_;
     std::vector<std::string> words_;
-    std::deque<CameraFrame> frames_;
-    CameraFrame frame_;
-    RigidTransform report_;
+    std::deque<camera::CameraFrame> frames_;
+    camera::CameraFrame frame_;
+    geometry::RigidTransform report_;
     MonotonicTime moved_{};
     double yaw_ = 0.0;
 };
 
 /// The picture's error after the whole procedure.
-RegistrationError whole_way(const LiveSetup& setup) {
+simulators::RegistrationError whole_way(const LiveSetup& setup) {
     Live live(setup);
     live.begin();
     live.take_all();
@@ -222,7 +224,8 @@ RegistrationError whole_way(const LiveSetup& setup) {
         ADD_FAILURE() << got.found.reason.sentence;
         return {1.0, 1.0};
     }
-    const RegistrationError error = registration_error(live.table, *got.found.table, prop.height_m);
+    const simulators::RegistrationError error =
+        simulators::registration_error(live.table, *got.found.table, prop.height_m);
     std::printf("table %d, %d rests, projector %d px, camera %d px, delay %.0f ms, %.0f s: mean %.3f mm, "
                 "worst place %.3f mm; "
                 "%s; pixels within %.2f, print %.4f\n",
@@ -237,7 +240,7 @@ RegistrationError whole_way(const LiveSetup& setup) {
 }
 
 TEST(AutoProcedure, CalibratesTheTable) {
-    const RegistrationError error = whole_way({});
+    const simulators::RegistrationError error = whole_way({});
     EXPECT_LT(error.mean_m, 1.0e-3);
     EXPECT_LT(error.worst_m, 3.0e-3);
 }
@@ -246,7 +249,8 @@ TEST(AutoProcedure, DISABLED_CalibratesTheTableAsItPromises) {
     double mean_m = 0.0;
     constexpr int tables = 3;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const RegistrationError error = whole_way({seed, 16, 1280, 0, 2, std::chrono::milliseconds(50)});
+        const simulators::RegistrationError error =
+            whole_way({seed, 16, 1280, 0, 2, std::chrono::milliseconds(50)});
         mean_m += error.mean_m / tables;
         EXPECT_LT(error.worst_m, 1.5e-3);
     }
@@ -271,11 +275,11 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
 
     live.go_on(2.0);
     live.go_on(1.0, [](AutoProcedure::Input& input) { // the camera's cable is pulled
-        input.camera = CameraState::NotConnected;
+        input.camera = camera::CameraState::NotConnected;
         input.frame = nullptr;
     });
     EXPECT_EQ(live.procedure.word(), AutoPrompt::CameraFault);
-    EXPECT_EQ(table_words(live.procedure).lines.back(),
+    EXPECT_EQ(programs::table_words(live.procedure).lines.back(),
               "No camera is connected; check its USB cable, and its name in the settings.");
     live.go_on(6.0);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture);
@@ -297,7 +301,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     Live live({1, 1});
     live.begin();
     std::set<int> all;
-    for (const PropTag& tag : live.board.tags) {
+    for (const tags::PropTag& tag : live.board.tags) {
         all.insert(tag.id);
     }
     std::set<int> most = all;
@@ -328,13 +332,13 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
         live.procedure.judge(std::move(judged));
     };
     judge(Verdict::Usable, {});
-    EXPECT_EQ(table_words(live.procedure).key, "calibration.may_be_kept");
+    EXPECT_EQ(programs::table_words(live.procedure).key, "calibration.may_be_kept");
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
     EXPECT_EQ(live.procedure.word(), AutoPrompt::TooFew);
-    EXPECT_EQ(table_words(live.procedure).lines.back(), "5 rests are needed at least.")
+    EXPECT_EQ(programs::table_words(live.procedure).lines.back(), "5 rests are needed at least.")
         << "no more than are wanted";
     live.press_back();
     EXPECT_EQ(live.procedure.word(), AutoPrompt::Dropped);
@@ -352,7 +356,7 @@ struct Beginning {
         plan.crosses_follow = crosses_follow;
         return plan;
     }
-    void wait(double seconds, CameraState state) {
+    void wait(double seconds, camera::CameraState state) {
         for (const MonotonicTime end = input.now + std::chrono::milliseconds(std::llround(1e3 * seconds));
              input.now < end;) {
             input.now += std::chrono::milliseconds(100);
@@ -361,7 +365,7 @@ struct Beginning {
         }
     }
     /// The camera keeps sending one picture, whatever is shown.
-    void see(CameraFrame frame, double seconds) {
+    void see(camera::CameraFrame frame, double seconds) {
         for (const MonotonicTime end = input.now + std::chrono::milliseconds(std::llround(1e3 * seconds));
              input.now < end;) {
             input.now += std::chrono::milliseconds(20);
@@ -389,13 +393,14 @@ constexpr auto back = &AutoProcedure::Input::back;
 TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
     for (const bool follow : {false, true}) {
         Beginning table(follow);
-        table.wait(0.1, CameraState::Running);
-        EXPECT_EQ(table_words(table.procedure).key, follow ? "calibration.by_camera" : "calibration.begin");
+        table.wait(0.1, camera::CameraState::Running);
+        EXPECT_EQ(programs::table_words(table.procedure).key,
+                  follow ? "calibration.by_camera" : "calibration.begin");
         table.press(back);
         EXPECT_EQ(table.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Left);
     }
     AutoProcedure refused(*board_for(prop), Beginning::plan(true), "the folder is full");
-    EXPECT_EQ(table_words(refused).key, "") << "there is none for every reason";
+    EXPECT_EQ(programs::table_words(refused).key, "") << "there is none for every reason";
     AutoProcedure::Input pressed;
     pressed.back = true;
     refused.step(pressed);
@@ -403,20 +408,21 @@ TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
 }
 
 TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
-    for (const CameraState fault : {CameraState::NotConnected, CameraState::Dark, CameraState::InUse}) {
+    for (const camera::CameraState fault :
+         {camera::CameraState::NotConnected, camera::CameraState::Dark, camera::CameraState::InUse}) {
         Beginning table(true);
         table.wait(1.5, fault); // cameras take as long to start
         EXPECT_EQ(table.procedure.word(), AutoPrompt::None);
         table.wait(1.0, fault);
         EXPECT_EQ(table.procedure.word(), AutoPrompt::CameraFault);
-        EXPECT_EQ(table_words(table.procedure).key, "calibration.no_camera");
-        std::string sentence(sentence_of(fault));
+        EXPECT_EQ(programs::table_words(table.procedure).key, "calibration.no_camera");
+        std::string sentence(camera::sentence_of(fault));
         sentence.erase(0, 1); // begins with a capital letter
-        EXPECT_NE(table_words(table.procedure).lines[1].find(sentence), std::string::npos);
+        EXPECT_NE(programs::table_words(table.procedure).lines[1].find(sentence), std::string::npos);
         table.press(next);
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::Begin);
-        table.wait(0.1, CameraState::Running); // the fault is repaired
-        EXPECT_EQ(table_words(table.procedure).key, "calibration.by_camera");
+        table.wait(0.1, camera::CameraState::Running); // the fault is repaired
+        EXPECT_EQ(programs::table_words(table.procedure).key, "calibration.by_camera");
         table.wait(2.5, fault);
         table.press(back);
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::GoesOn);
@@ -424,7 +430,7 @@ TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::GoesOn);
     }
     Beginning forgotten(true);
-    forgotten.wait(62.0, CameraState::NotConnected);
+    forgotten.wait(62.0, camera::CameraState::NotConnected);
     EXPECT_EQ(forgotten.procedure.stage(), CalibrationStage::Left);
 }
 
@@ -432,24 +438,24 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
     for (const bool follow : {false, true}) {
         const CalibrationStage after = follow ? CalibrationStage::GoesOn : CalibrationStage::Begin;
         Beginning lost(follow);
-        lost.wait(0.1, CameraState::Running);
+        lost.wait(0.1, camera::CameraState::Running);
         lost.press(next);
         ASSERT_EQ(lost.procedure.stage(), CalibrationStage::Delay);
-        EXPECT_EQ(table_words(lost.procedure).key, "calibration.look_at_light");
-        lost.wait(0.5, CameraState::NotConnected);
-        EXPECT_EQ(table_words(lost.procedure).key,
+        EXPECT_EQ(programs::table_words(lost.procedure).key, "calibration.look_at_light");
+        lost.wait(0.5, camera::CameraState::NotConnected);
+        EXPECT_EQ(programs::table_words(lost.procedure).key,
                   follow ? "calibration.no_camera" : "calibration.camera_fault");
         lost.press(back);
         EXPECT_EQ(lost.procedure.stage(), after);
 
         Beginning well(follow);
-        well.wait(0.1, CameraState::Running);
+        well.wait(0.1, camera::CameraState::Running);
         well.press(next);
-        well.wait(0.5, CameraState::Dark); // while dark is shown
+        well.wait(0.5, camera::CameraState::Dark); // while dark is shown
         EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
         well.press(back);
         EXPECT_EQ(well.procedure.stage(), CalibrationStage::Begin);
-        well.wait(1.0, CameraState::Dark); // it cannot see the words' light yet
+        well.wait(1.0, camera::CameraState::Dark); // it cannot see the words' light yet
         EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
     }
 }
@@ -457,13 +463,13 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
 TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
     for (const bool follow : {false, true}) {
         Beginning elsewhere(follow);
-        elsewhere.wait(0.1, CameraState::Running);
+        elsewhere.wait(0.1, camera::CameraState::Running);
         elsewhere.press(next);
-        const CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
+        const camera::CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
         elsewhere.see(same, 30.0);
         ASSERT_EQ(elsewhere.procedure.stage(), CalibrationStage::Delay);
         EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::NoLight);
-        EXPECT_EQ(table_words(elsewhere.procedure).key, "calibration.no_light");
+        EXPECT_EQ(programs::table_words(elsewhere.procedure).key, "calibration.no_light");
         elsewhere.press(next); // it measures again
         EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::None);
         elsewhere.see(same, 30.0);
@@ -478,7 +484,7 @@ TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
     for (int word = 0; word <= static_cast<int>(AutoPrompt::TooFew); ++word) {
         for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
             for (const bool may_go_on : {false, true}) {
-                said.insert(std::string(key_of(static_cast<AutoPrompt>(word), wished, may_go_on)));
+                said.insert(std::string(programs::key_of(static_cast<AutoPrompt>(word), wished, may_go_on)));
             }
         }
     }
@@ -489,12 +495,12 @@ TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
 }
 
 TEST(CalibrationWays, BackLeadsFromTheQuickestToTheCrosses) {
-    using enum CalibrationWay;
-    using Ways = std::vector<CalibrationWay>;
-    EXPECT_EQ(ways_through(true, true), (Ways{TouchUp, Camera, Crosses}));
-    EXPECT_EQ(ways_through(true, false), (Ways{TouchUp, Crosses}));
-    EXPECT_EQ(ways_through(false, true), (Ways{Camera, Crosses}));
-    EXPECT_EQ(ways_through(false, false), (Ways{Crosses}));
+    using enum programs::CalibrationWay;
+    using Ways = std::vector<programs::CalibrationWay>;
+    EXPECT_EQ(programs::ways_through(true, true), (Ways{TouchUp, Camera, Crosses}));
+    EXPECT_EQ(programs::ways_through(true, false), (Ways{TouchUp, Crosses}));
+    EXPECT_EQ(programs::ways_through(false, true), (Ways{Camera, Crosses}));
+    EXPECT_EQ(programs::ways_through(false, false), (Ways{Crosses}));
 }
 
 TEST(AutoProcedure, LeavesWhenNobodyIsThere) {
@@ -509,4 +515,4 @@ TEST(AutoProcedure, LeavesWhenNobodyIsThere) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

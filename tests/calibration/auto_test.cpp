@@ -10,13 +10,13 @@
 #include <cstdio>
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr RestNoise no_noise{0.0, 0.0, 0.0, 0.0};
 constexpr RestNoise usual_noise{3e-4, 2.6e-3, 0.15, 1e-4};
 
-AutoSetup setup_for(const SimulatedTable& table) {
+AutoSetup setup_for(const simulators::SimulatedTable& table) {
     AutoSetup setup;
     setup.width = table.truth.pinhole.width;
     setup.height = table.truth.pinhole.height;
@@ -25,15 +25,16 @@ AutoSetup setup_for(const SimulatedTable& table) {
 
 TEST(Auto, WithoutNoiseTheTruthIsFound) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(seed);
         AutoSetup setup = setup_for(table);
         setup.priors = wide_priors(); // the priors' means are not the truth
-        const AutoCalibration got =
-            calibrate_auto(simulated_rests(table, sheet_with_prop(), {}, no_noise, numbers), setup);
+        const AutoCalibration got = calibrate_auto(
+            simulators::simulated_rests(table, simulators::sheet_with_prop(), {}, no_noise, numbers), setup);
         ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason.sentence;
-        EXPECT_LT(registration_error(table, *got.found.table, 0.12).worst_m, 2e-5) << seed;
-        EXPECT_LT(prop_error(table, *got.found.table, got.sensor_from_prop, 0.12).worst_m, 2e-5) << seed;
+        EXPECT_LT(simulators::registration_error(table, *got.found.table, 0.12).worst_m, 2e-5) << seed;
+        EXPECT_LT(simulators::prop_error(table, *got.found.table, got.sensor_from_prop, 0.12).worst_m, 2e-5)
+            << seed;
         EXPECT_LT(got.found.worst_residual_m, 1e-5) << seed;
         EXPECT_NEAR(got.found.table->pinhole.fx / table.truth.pinhole.fx, 1.0, 1e-4) << seed;
         EXPECT_GT(std::abs(glm::dot(got.sensor_from_prop.rotation, table.sensor_from_prop)), 1.0 - 1e-8)
@@ -56,16 +57,16 @@ double ninth_tenth(std::vector<double> values) {
 }
 
 /// `print`: the printed sheet's size over its nominal size.
-Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNoise& noise,
-                   std::uint64_t seeds, double print = 1.0) {
+Figures figures_of(const simulators::RestPlan& plan, const simulators::TagCorners& corners,
+                   const RestNoise& noise, std::uint64_t seeds, double print = 1.0) {
     std::vector<double> worst;
     std::vector<double> prop_worst;
     Figures figures;
     const double share = 1.0 / static_cast<double>(seeds);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(1000 + seed);
-        Rests rests = simulated_rests(table, corners, plan, noise, numbers);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(1000 + seed);
+        Rests rests = simulators::simulated_rests(table, corners, plan, noise, numbers);
         for (Rest& rest : rests) {
             for (PropPoint& point : rest.points) {
                 point.prop_m /= glm::dvec3(print, print, 1.0); // its nominal size
@@ -78,8 +79,10 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
             prop_worst.push_back(1e3);
             continue;
         }
-        const RegistrationError error = registration_error(table, *got.found.table, 0.12);
-        const RegistrationError prop = prop_error(table, *got.found.table, got.sensor_from_prop, 0.12);
+        const simulators::RegistrationError error =
+            simulators::registration_error(table, *got.found.table, 0.12);
+        const simulators::RegistrationError prop =
+            simulators::prop_error(table, *got.found.table, got.sensor_from_prop, 0.12);
         figures.mean_mm += 1e3 * share * error.mean_m;
         figures.prop_mean_mm += 1e3 * share * prop.mean_m;
         worst.push_back(1e3 * error.worst_m);
@@ -105,7 +108,7 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
 
 // Noise of 0.3 mm and 0.15 degrees a rest; docs/calibration.md has the required limits.
 TEST(Auto, SixteenRestsLeaveAFifthOfAMillimetre) {
-    const Figures figures = figures_of({16, 4}, sheet_with_prop(), usual_noise, 20);
+    const Figures figures = figures_of({16, 4}, simulators::sheet_with_prop(), usual_noise, 20);
     EXPECT_LE(figures.mean_mm, 0.3);
     EXPECT_LE(figures.worst_p90_mm,
               0.95); // the second worst of twenty; the long test requires 0.8 of a hundred
@@ -118,24 +121,25 @@ TEST(Auto, SixteenRestsLeaveAFifthOfAMillimetre) {
 
 TEST(Auto, DISABLED_OverAHundredTables) {
     for (const int count : {6, 8, 12, 16, 20}) {
-        figures_of({count, count / 4}, sheet_with_prop(), usual_noise, 100);
+        figures_of({count, count / 4}, simulators::sheet_with_prop(), usual_noise, 100);
     }
-    const Figures figures = figures_of({16, 4}, sheet_with_prop(), {3e-4, 2.6e-3, 0.2, 1e-4}, 100);
+    const Figures figures =
+        figures_of({16, 4}, simulators::sheet_with_prop(), {3e-4, 2.6e-3, 0.2, 1e-4}, 100);
     EXPECT_LE(figures.mean_mm, 0.3);
     EXPECT_LE(figures.worst_p90_mm, 0.8);
     EXPECT_GE(figures.judged, 0.95);
-    figures_of({12, 3}, sheet_with_prop(), {3e-4, 2.6e-3, 0.5, 1e-4}, 100);
-    figures_of({12, 3}, sheet_with_prop(), usual_noise, 100, 1.002); // printed too large
-    figures_of({12, 3, 0.15, {0.0}}, sheet_with_prop(), usual_noise, 100);
+    figures_of({12, 3}, simulators::sheet_with_prop(), {3e-4, 2.6e-3, 0.5, 1e-4}, 100);
+    figures_of({12, 3}, simulators::sheet_with_prop(), usual_noise, 100, 1.002); // printed too large
+    figures_of({12, 3, 0.15, {0.0}}, simulators::sheet_with_prop(), usual_noise, 100);
     for (const int count : {12, 20, 30}) {
-        figures_of({count, count / 4, 0.0}, tag_on_top(), usual_noise, 100);
+        figures_of({count, count / 4, 0.0}, simulators::tag_on_top(), usual_noise, 100);
     }
 }
 
 /// A fault and the expected result: a reason for refusal, or a verdict that holds.
 struct Fault {
     const char* name;
-    std::function<void(Rests&, const SimulatedTable&, SeededNumbers&)> make;
+    std::function<void(Rests&, const simulators::SimulatedTable&, simulators::SeededNumbers&)> make;
     const char* refused_for; ///< words of the reason; null: any verdict that holds
 };
 
@@ -148,8 +152,8 @@ template <typename Change> void each_point(Rests& rests, Change change) {
 }
 
 std::vector<Fault> all_faults() {
-    using Table = SimulatedTable;
-    using Numbers = SeededNumbers;
+    using Table = simulators::SimulatedTable;
+    using Numbers = simulators::SeededNumbers;
     return {
         {"none", [](Rests&, const Table&, Numbers&) {}, nullptr},
         {"three of ten points wrong",
@@ -274,9 +278,10 @@ void run_faults(std::uint64_t seeds) {
         int refused = 0;
         int repeat = 0;
         for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-            const SimulatedTable table = some_table(seed);
-            SeededNumbers numbers(4000 + seed);
-            Rests rests = simulated_rests(table, sheet_with_prop(), {12, 3}, usual_noise, numbers);
+            const simulators::SimulatedTable table = simulators::some_table(seed);
+            simulators::SeededNumbers numbers(4000 + seed);
+            Rests rests = simulators::simulated_rests(table, simulators::sheet_with_prop(), {12, 3},
+                                                      usual_noise, numbers);
             fault.make(rests, table, numbers);
             const AutoCalibration got = calibrate_auto(rests, setup_for(table));
             const Verdict verdict = got.found.verdict;
@@ -284,7 +289,7 @@ void run_faults(std::uint64_t seeds) {
             repeat += verdict == Verdict::Repeat ? 1 : 0;
             if (verdict == Verdict::Good || verdict == Verdict::Usable) {
                 ++promised;
-                const double worst_m = registration_error(table, *got.found.table, 0.12).worst_m;
+                const double worst_m = simulators::registration_error(table, *got.found.table, 0.12).worst_m;
                 wrong += worst_m < 2e-3 ? 0 : 1;
             }
             if (fault.refused_for != nullptr) {
@@ -308,9 +313,10 @@ TEST(AutoFaults, DISABLED_NoneOfManySets) {
 }
 
 TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
-    const SimulatedTable table = some_table(3);
-    SeededNumbers numbers(3);
-    const Rests upright = simulated_rests(table, sheet_with_prop(), {12, 0}, usual_noise, numbers);
+    const simulators::SimulatedTable table = simulators::some_table(3);
+    simulators::SeededNumbers numbers(3);
+    const Rests upright =
+        simulators::simulated_rests(table, simulators::sheet_with_prop(), {12, 0}, usual_noise, numbers);
     AutoSetup setup = setup_for(table);
     const AutoCalibration refused = calibrate_auto(upright, setup);
     EXPECT_EQ(refused.found.verdict, Verdict::Refused);
@@ -319,13 +325,14 @@ TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
     setup.sensor_height_m = table.sensor_height_m;
     const AutoCalibration found = calibrate_auto(upright, setup);
     ASSERT_TRUE(found.found.table) << found.found.reason.sentence;
-    EXPECT_LT(registration_error(table, *found.found.table, 0.12).mean_m, 5e-4);
+    EXPECT_LT(simulators::registration_error(table, *found.found.table, 0.12).mean_m, 5e-4);
 }
 
 TEST(AutoFaults, TheRestThatMovedIsNamed) {
-    const SimulatedTable table = some_table(5);
-    SeededNumbers numbers(5);
-    Rests rests = simulated_rests(table, sheet_with_prop(), {12, 3}, usual_noise, numbers);
+    const simulators::SimulatedTable table = simulators::some_table(5);
+    simulators::SeededNumbers numbers(5);
+    Rests rests =
+        simulators::simulated_rests(table, simulators::sheet_with_prop(), {12, 3}, usual_noise, numbers);
     rests[7].tracker_from_sensor.translation += glm::dvec3(0.01, -0.01, 0.005);
     const AutoCalibration found = calibrate_auto(rests, setup_for(table));
     EXPECT_EQ(found.found.verdict, Verdict::Repeat);
@@ -335,4 +342,4 @@ TEST(AutoFaults, TheRestThatMovedIsNamed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -9,10 +9,10 @@
 #include <regex>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
-constexpr FrustumSize sizes[] = {
+constexpr geometry::FrustumSize sizes[] = {
     {0.30, 0.08, 0.155}, {0.16, 0.09, 0.12}, {0.20, 0.20, 0.20}, {0.10, 0.05, 0.10}, {0.33, 0.06, 0.2}};
 
 /// The sheet as printed: its black rectangles, at some pixels per millimetre.
@@ -40,18 +40,18 @@ struct Print {
 };
 
 TEST(Board, IsFoundOnItsSheetWhereItsListHasIt) {
-    for (const FrustumSize& size : sizes) {
+    for (const geometry::FrustumSize& size : sizes) {
         const Result<Board> board = board_for(size);
         ASSERT_TRUE(board) << board.error().message;
-        const Print print(board_sheet(*board, "some.toml"));
-        TagDetector detector;
-        std::vector<FoundTag> found;
+        const Print print(drawing::board_sheet(*board, "some.toml"));
+        tags::TagDetector detector;
+        std::vector<tags::FoundTag> found;
         detector.find(print.luma, print.width, print.height, found);
-        const std::vector<FoundTag> tags = tags_of(*board, found);
+        const std::vector<tags::FoundTag> tags = tags_of(*board, found);
         EXPECT_EQ(tags.size(), board->tags.size()) << size.base_m;
-        for (const FoundTag& tag : tags) {
+        for (const tags::FoundTag& tag : tags) {
             const auto known = std::find_if(board->tags.begin(), board->tags.end(),
-                                            [&](const PropTag& each) { return each.id == tag.id; });
+                                            [&](const tags::PropTag& each) { return each.id == tag.id; });
             for (std::size_t k = 0; k < 4; ++k) {
                 const glm::dvec2 at =
                     (tag.corners_px[k] / double{Print::per_mm} - glm::dvec2(210.0, 148.5)) * 1e-3;
@@ -68,7 +68,7 @@ TEST(Board, IsFoundOnItsSheetWhereItsListHasIt) {
 }
 
 TEST(Board, HasNoTagUnderThePropOrOverThePaper) {
-    for (const FrustumSize& size : sizes) {
+    for (const geometry::FrustumSize& size : sizes) {
         const Board board = *board_for(size);
         for (std::size_t k = 0; k + 1 < board.tags.size(); ++k) {
             for (const glm::dvec3& corner : board.tags[k].corners()) {
@@ -97,4 +97,4 @@ TEST(Board, SaysWhichPropsHaveNone) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr double said_m = 0.12;
 
 /// Touches on boards of height `true_m` that the file gives as `said_m`.
-Touches on_boards(const SimulatedTable& table, std::vector<Cross> crosses, double true_m,
-                  SeededNumbers& numbers) {
+Touches on_boards(const simulators::SimulatedTable& table, std::vector<Cross> crosses, double true_m,
+                  simulators::SeededNumbers& numbers) {
     for (Cross& cross : crosses) {
         cross.block_m *= true_m / said_m;
     }
@@ -31,9 +31,9 @@ TEST(Boards, OfAnotherHeightAreMeasured) {
         double right_mm = 0.0;
         double wrong_mm = 0.0;
         for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-            const SimulatedTable table = some_table(seed);
-            SeededNumbers numbers(300 + seed);
-            SeededNumbers same_numbers(300 + seed);
+            const simulators::SimulatedTable table = simulators::some_table(seed);
+            simulators::SeededNumbers numbers(300 + seed);
+            simulators::SeededNumbers same_numbers(300 + seed);
             const TouchCalibration found =
                 calibrate_touch(on_boards(table, crosses.of(table, 9), true_m, numbers), setup_for(table));
             const TouchCalibration right = calibrate_touch(
@@ -43,8 +43,8 @@ TEST(Boards, OfAnotherHeightAreMeasured) {
             ASSERT_TRUE(found.boards);
             EXPECT_NEAR(found.boards->found_m, true_m, 4.0 * found.boards->sd_m) << seed;
             EXPECT_LT(found.boards->sd_m, 1e-3) << seed;
-            wrong_mm += 1e3 * registration_error(table, *found.table, said_m).mean_m;
-            right_mm += 1e3 * registration_error(table, *right.table, said_m).mean_m;
+            wrong_mm += 1e3 * simulators::registration_error(table, *found.table, said_m).mean_m;
+            right_mm += 1e3 * simulators::registration_error(table, *right.table, said_m).mean_m;
         }
         EXPECT_LT(wrong_mm, 1.1 * right_mm) << off_mm;
     }
@@ -55,8 +55,8 @@ TEST(Boards, AreToldOnlyWhereTheyDiffer) {
     int told_of_right = 0;
     int told_of_wrong = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(500 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(500 + seed);
         const std::vector<Cross>& chosen = crosses.of(table, 9);
         const TouchCalibration right =
             calibrate_touch(on_boards(table, chosen, said_m, numbers), setup_for(table));
@@ -71,8 +71,8 @@ TEST(Boards, AreToldOnlyWhereTheyDiffer) {
 
 TEST(Boards, WithoutAnyNothingIsSaidOfThem) {
     ChosenCrosses crosses;
-    const SimulatedTable table = some_table(3);
-    SeededNumbers numbers(3);
+    const simulators::SimulatedTable table = simulators::some_table(3);
+    simulators::SeededNumbers numbers(3);
     std::vector<Cross> flat = crosses.of(table, 15);
     for (Cross& cross : flat) {
         cross.block_m = 0.0;
@@ -81,4 +81,4 @@ TEST(Boards, WithoutAnyNothingIsSaidOfThem) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

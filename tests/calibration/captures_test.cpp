@@ -11,12 +11,12 @@
 #include <cmath>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 /// The number of projector pixels under one camera pixel grows with the projector's resolution, and so does
 /// the period.
-StripeSetup stripes_for(const SimulatedTable& table) {
+StripeSetup stripes_for(const simulators::SimulatedTable& table) {
     StripeSetup stripes;
     stripes.width = table.truth.pinhole.width;
     stripes.height = table.truth.pinhole.height;
@@ -46,12 +46,13 @@ struct DecodeErrors {
 };
 
 /// A rest as decoded from the camera's captures; adds its errors to `errors`.
-Rest captured(const SimulatedTable& table, const PlacedRest& placed, const CaptureFaults& faults,
-              SeededNumbers& numbers, DecodeErrors& errors) {
+Rest captured(const simulators::SimulatedTable& table, const simulators::PlacedRest& placed,
+              const simulators::CaptureFaults& faults, simulators::SeededNumbers& numbers,
+              DecodeErrors& errors) {
     const StripeSetup stripes = stripes_for(table);
-    const TagCorners tags = sheet_with_prop();
-    const SimulatedCaptures captures =
-        simulated_captures(table, some_camera(table), tags, placed.table_from_prop, stripes, faults, numbers);
+    const simulators::TagCorners tags = simulators::sheet_with_prop();
+    const simulators::SimulatedCaptures captures = simulators::simulated_captures(
+        table, simulators::some_camera(table), tags, placed.table_from_prop, stripes, faults, numbers);
     const PixelMap map = decode(
         stripes, {captures.width, captures.height, {captures.pictures.begin(), captures.pictures.end()}});
     for (std::size_t k = 0; k < map.known.size(); ++k) {
@@ -71,8 +72,8 @@ Rest captured(const SimulatedTable& table, const PlacedRest& placed, const Captu
             const glm::dvec2 pixel = (*pixels)[j];
             const bool inside =
                 pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= stripes.width && pixel.y <= stripes.height;
-            const auto truth =
-                true_pixel(table.truth, glm::dvec3(placed.table_from_prop * glm::dvec4(tags[k + j], 1.0)));
+            const auto truth = simulators::true_pixel(
+                table.truth, glm::dvec3(placed.table_from_prop * glm::dvec4(tags[k + j], 1.0)));
             if (truth && inside) {
                 errors.corner_square += std::pow(glm::distance(pixel, *truth), 2.0);
                 errors.corners += 1.0;
@@ -84,10 +85,10 @@ Rest captured(const SimulatedTable& table, const PlacedRest& placed, const Captu
 }
 
 TEST(Captures, TellTheProjectorsPixel) {
-    const SimulatedTable table = some_table(1);
-    SeededNumbers numbers(1);
+    const simulators::SimulatedTable table = simulators::some_table(1);
+    simulators::SeededNumbers numbers(1);
     DecodeErrors errors;
-    captured(table, placed_rests(table, {1, 0}, {}, numbers)[0], {}, numbers, errors);
+    captured(table, simulators::placed_rests(table, {1, 0}, {}, numbers)[0], {}, numbers, errors);
     errors.print("as usual");
     EXPECT_LT(errors.share(0.5), 0.1);
     EXPECT_GT(static_cast<double>(errors.places.size()), 0.9 * errors.lit);
@@ -95,8 +96,8 @@ TEST(Captures, TellTheProjectorsPixel) {
 }
 
 TEST(Captures, DISABLED_UnderEachFault) {
-    const SimulatedTable table = some_table(1);
-    const std::vector<std::pair<const char*, CaptureFaults>> all{
+    const simulators::SimulatedTable table = simulators::some_table(1);
+    const std::vector<std::pair<const char*, simulators::CaptureFaults>> all{
         {"as usual", {}},
         {"corners known", {.corner_px = 0.0}},
         {"much ambient light", {.ambient = 0.6, .exposure = 0.55, .corner_px = 0.0}},
@@ -107,19 +108,20 @@ TEST(Captures, DISABLED_UnderEachFault) {
         {"too dark by four", {.exposure = 0.2, .corner_px = 0.0}},
     };
     for (const auto& [name, faults] : all) {
-        SeededNumbers numbers(1);
+        simulators::SeededNumbers numbers(1);
         DecodeErrors errors;
-        captured(table, placed_rests(table, {1, 0}, {}, numbers)[0], faults, numbers, errors);
+        captured(table, simulators::placed_rests(table, {1, 0}, {}, numbers)[0], faults, numbers, errors);
         errors.print(name);
     }
 }
 
 /// The picture's error after this number of captured rests: the mean over its zone and the worst place.
-RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& errors) {
-    const SimulatedTable table = some_table(seed);
-    SeededNumbers numbers(5000 + seed);
+simulators::RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& errors) {
+    const simulators::SimulatedTable table = simulators::some_table(seed);
+    simulators::SeededNumbers numbers(5000 + seed);
     Rests given;
-    for (const PlacedRest& placed : placed_rests(table, {rests, rests / 4}, {}, numbers)) {
+    for (const simulators::PlacedRest& placed :
+         simulators::placed_rests(table, {rests, rests / 4}, {}, numbers)) {
         given.push_back(captured(table, placed, {}, numbers, errors));
     }
     AutoSetup setup;
@@ -130,7 +132,7 @@ RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& 
         ADD_FAILURE() << seed << ": " << got.found.reason.sentence;
         return {1.0, 1.0};
     }
-    const RegistrationError error = registration_error(table, *got.found.table, 0.12);
+    const simulators::RegistrationError error = simulators::registration_error(table, *got.found.table, 0.12);
     std::printf("seed %d, %d rests captured: mean %.3f mm, worst place %.3f mm; %s; pixels within %.2f\n",
                 static_cast<int>(seed), rests, 1e3 * error.mean_m, 1e3 * error.worst_m,
                 got.found.reason.sentence.c_str(), got.pixel_noise);
@@ -150,4 +152,4 @@ TEST(Captures, DISABLED_CalibrateTheTable) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -9,15 +9,15 @@
 #include <cmath>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 TEST(Corners, WithoutErrorTheProjectorIsFound) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        SimulatedTable table = some_table(seed);
+        simulators::SimulatedTable table = simulators::some_table(seed);
         table.truth.pinhole.lens = {};
-        SeededNumbers numbers(seed);
-        const Pinhole& p = table.truth.pinhole;
+        simulators::SeededNumbers numbers(seed);
+        const geometry::Pinhole& p = table.truth.pinhole;
         const CornerCalibration found =
             calibrate_corners(measured_corners(table, 0.4, 0.0, numbers), p.width, p.height);
         ASSERT_TRUE(found.pinhole) << found.reason.sentence;
@@ -31,9 +31,9 @@ TEST(Corners, WithoutErrorTheProjectorIsFound) {
 }
 
 TEST(Corners, WhatSaysNothingIsRefused) {
-    const SimulatedTable table = some_table(3);
-    SeededNumbers numbers(3);
-    const Pinhole& p = table.truth.pinhole;
+    const simulators::SimulatedTable table = simulators::some_table(3);
+    simulators::SeededNumbers numbers(3);
+    const geometry::Pinhole& p = table.truth.pinhole;
     std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const std::vector<MeasuredCorner> once(corners.begin(), corners.begin() + 4);
     EXPECT_EQ(calibrate_corners(once, p.width, p.height).verdict, Verdict::Refused);
@@ -53,9 +53,9 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
     int refused = 0;
     constexpr int seeds = 40;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(4000 + seed);
-        const Pinhole& p = table.truth.pinhole;
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(4000 + seed);
+        const geometry::Pinhole& p = table.truth.pinhole;
         const CornerCalibration hand =
             calibrate_corners(measured_corners(table, 0.4, 0.005, numbers), p.width, p.height);
         const TouchCalibration touch =
@@ -69,8 +69,8 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
         calibrated.pinhole = *hand.pinhole;
         calibrated.pinhole.lens = {};
         calibrated.table_from_projector = hand.measured_from_projector;
-        by_hand += registration_error(table, calibrated, 0.12).mean_m;
-        by_touch += registration_error(table, *touch.table, 0.12).mean_m;
+        by_hand += simulators::registration_error(table, calibrated, 0.12).mean_m;
+        by_touch += simulators::registration_error(table, *touch.table, 0.12).mean_m;
     }
     std::printf("by hand %.2f mm, by touch %.2f mm on average; %d of %d refused\n",
                 1e3 * by_hand / (seeds - refused), 1e3 * by_touch / (seeds - refused), refused, seeds);
@@ -91,10 +91,10 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
     constexpr int seeds = 200;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const bool distorts : {false, true}) {
-            SimulatedTable table = some_table(seed);
-            table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : Lens{};
-            SeededNumbers numbers(4000 + seed);
-            const Pinhole& p = table.truth.pinhole;
+            simulators::SimulatedTable table = simulators::some_table(seed);
+            table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : geometry::Lens{};
+            simulators::SeededNumbers numbers(4000 + seed);
+            const geometry::Pinhole& p = table.truth.pinhole;
             const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.005, numbers);
             const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
             if (!found.pinhole) { // a corner looks wrong by chance
@@ -109,8 +109,8 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
             calibrated.pinhole = *found.pinhole;
             calibrated.table_from_projector = found.measured_from_projector;
             for (const PlaceUncertainty& place : uncertainty.zone) {
-                const glm::dvec3 meant = true_light(calibrated, place.pixel, place.height_m);
-                const glm::dvec3 lit = true_light(table.truth, place.pixel, place.height_m);
+                const glm::dvec3 meant = simulators::true_light(calibrated, place.pixel, place.height_m);
+                const glm::dvec3 lit = simulators::true_light(table.truth, place.pixel, place.height_m);
                 const double square = std::pow(glm::distance(meant, lit), 2.0);
                 (distorts ? distorted : made) += square;
                 said += distorts ? 0.0 : place.rms_m * place.rms_m;
@@ -131,10 +131,10 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
 }
 
 TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
-    SimulatedTable table = some_table(2);
+    simulators::SimulatedTable table = simulators::some_table(2);
     table.truth.pinhole.lens = {};
-    SeededNumbers numbers(2);
-    const Pinhole& p = table.truth.pinhole;
+    simulators::SeededNumbers numbers(2);
+    const geometry::Pinhole& p = table.truth.pinhole;
     const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const CornerUncertainty exact =
         uncertainty_of(calibrate_corners(corners, p.width, p.height), corners, 0.12);
@@ -144,4 +144,4 @@ TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

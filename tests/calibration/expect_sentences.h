@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline void expect_sentences(const std::set<std::string>& keys) {
     std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
@@ -24,4 +24,4 @@ inline void expect_sentences(const std::set<std::string>& keys) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -9,7 +9,7 @@
 #include <functional>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr Nanoseconds tick = std::chrono::milliseconds(20);
@@ -17,7 +17,7 @@ constexpr Nanoseconds tick = std::chrono::milliseconds(20);
 SightScene shipped_scene(int width, int height) {
     return {{width, height, 1.875 * width, 1.875 * width, 0.5 * width, 0.5 * height},
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.5}},
-            make_frustum({0.30, 0.08, 0.155}),
+            geometry::make_frustum({0.30, 0.08, 0.155}),
             {0.0, -0.55, 0.5}};
 }
 
@@ -25,7 +25,7 @@ SightScene shipped_scene(int width, int height) {
 class Person {
 public:
     using Look = std::function<void(const EyeProcedure&)>;
-    Person(const SightScene& scene, const RigidTransform& prop, Look look)
+    Person(const SightScene& scene, const geometry::RigidTransform& prop, Look look)
         : procedure(scene, {}), prop(prop), look_(std::move(look)) {
         head.translation = scene.usual_eye_m;
         look_(procedure);
@@ -59,7 +59,7 @@ public:
     }
 
     EyeProcedure procedure;
-    RigidTransform prop, head;
+    geometry::RigidTransform prop, head;
     MonotonicTime now = from_microseconds(1'000'000);
 
 private:
@@ -75,7 +75,7 @@ glm::dvec3 line_of(const ReportedSight& sight) {
 TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     std::set<std::string> said;
     const auto listen = [&](const EyeProcedure& procedure) {
-        said.insert(std::string(table_words(procedure).key));
+        said.insert(std::string(programs::table_words(procedure).key));
     };
     const SightScene scene = shipped_scene(640, 400);
     for (const Verdict verdict : {Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
@@ -122,7 +122,7 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     listen(person.procedure);
     EXPECT_EQ(said.size(), 24U) << ::testing::PrintToString(said);
     expect_sentences(said);
-    EXPECT_EQ(table_words(EyeProcedure(scene, {}, "it cannot be done")).key, "")
+    EXPECT_EQ(programs::table_words(EyeProcedure(scene, {}, "it cannot be done")).key, "")
         << "there is none for every reason";
 }
 
@@ -138,21 +138,22 @@ bool is_of_cross(const EyeProcedure& procedure, const glm::dvec2& pixel, double 
 }
 
 TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr int width = 960, height = 600;
     constexpr double px_per_m = 1.875 * width / 1.5;
     const SightScene scene = shipped_scene(width, height);
     for (const glm::dvec3 place : {glm::dvec3(0.104, -0.05, 0.0), glm::dvec3(0.0),
                                    glm::dvec3(-0.12, -0.05, 0.4), glm::dvec3(0.2, 0.0, 0.8)}) {
-        const RigidTransform prop{glm::angleAxis(place.z, glm::dvec3(0, 0, 1)), {place.x, place.y, 0.0}};
+        const geometry::RigidTransform prop{glm::angleAxis(place.z, glm::dvec3(0, 0, 1)),
+                                            {place.x, place.y, 0.0}};
         std::optional<std::size_t> last;
         const auto look = [&](const EyeProcedure& procedure) {
             if (procedure.stage() != CalibrationStage::Place || last == procedure.at()) {
                 return;
             }
             last = procedure.at();
-            const Image8 picture = table_picture(procedure, {.typesetter = *typesetter});
+            const image::Image8 picture = programs::table_picture(procedure, {.typesetter = *typesetter});
             const WordsBox& box = procedure.words();
             std::size_t of_words = 0, of_cross = 0, of_tip = 0, elsewhere = 0;
             for (int v = 0; v < height; ++v) {
@@ -189,4 +190,4 @@ TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 bool may_be_kept(Verdict verdict) {
@@ -84,7 +84,7 @@ TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
             const double apart = glm::distance(glm::dvec2(shown.tip_m), glm::dvec2(shown.cross_m));
             EXPECT_GT(apart, 0.10);
             EXPECT_LT(apart, 0.25);
-            const glm::dvec3 cross = true_light(live.world.truth, shown.pixel, 0.0);
+            const glm::dvec3 cross = simulators::true_light(live.world.truth, shown.pixel, 0.0);
             const glm::dvec3 tip = live.world.corner_near(shown.tip_m);
             for (double share = 0.0; share < 0.99; share += 0.01) {
                 EXPECT_FALSE(live.world.is_in_prop(glm::mix(cross, tip, share)));
@@ -108,7 +108,7 @@ TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
     live.begin();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     EXPECT_EQ(live.procedure.asked().eye, OpenEye::Left);
-    EXPECT_EQ(table_words(live.procedure).lines[0], "Shut your right eye");
+    EXPECT_EQ(programs::table_words(live.procedure).lines[0], "Shut your right eye");
     for (std::size_t k = 0; k < 12; ++k) {
         EXPECT_EQ(live.procedure.at(), k);
         EXPECT_EQ(live.procedure.asked().eye, k < 6 ? OpenEye::Left : OpenEye::Right);
@@ -137,7 +137,7 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.wait(0.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved);
-    EXPECT_NE(table_words(live.procedure).lines.back().find("pushed"), std::string::npos);
+    EXPECT_NE(programs::table_words(live.procedure).lines.back().find("pushed"), std::string::npos);
     live.wait(1.2);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved) << "it is still to be read";
@@ -197,9 +197,10 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     live.sight_all();
     live.judge();
     ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Refused);
-    EXPECT_NE(table_words(live.procedure).lines[1].find("turn the head, and move the chin up and down"),
-              std::string::npos)
-        << table_words(live.procedure).lines[1];
+    EXPECT_NE(
+        programs::table_words(live.procedure).lines[1].find("turn the head, and move the chin up and down"),
+        std::string::npos)
+        << programs::table_words(live.procedure).lines[1];
     live.next();
     live.wait(0.1);
     EXPECT_EQ(live.procedure.at(), 0U);
@@ -310,10 +311,11 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     live.wait(1.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");
-    EXPECT_EQ(table_words(cannot).lines[1], "No calibration is kept.");
+    EXPECT_EQ(programs::table_words(cannot).lines[1], "No calibration is kept.");
     SightScene small = live.world.scene();
     small.table_from_projector.translation.z = 0.7; // a picture of 37 x 23 cm
-    EXPECT_NE(table_words(EyeProcedure(small, {})).lines[1].find("too small for crosses"), std::string::npos);
+    EXPECT_NE(programs::table_words(EyeProcedure(small, {})).lines[1].find("too small for crosses"),
+              std::string::npos);
 }
 
 TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {
@@ -337,4 +339,4 @@ TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

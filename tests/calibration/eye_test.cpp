@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr double deep_m = 0.08;
@@ -40,7 +40,7 @@ double off_on_picture_m(const EyeFit& fit, const SimulatedPerson& person, const 
 TEST(Eyes, WithoutNoiseTheTruthIsFound) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const SimulatedPerson person = some_person(seed);
-        SeededNumbers numbers(seed);
+        simulators::SeededNumbers numbers(seed);
         const EyeFit fit = fit_eyes(some_sights(person, count, {}, none, numbers), deep_m);
         ASSERT_TRUE(fit.eyes) << seed << ": " << fit.reason.sentence;
         EXPECT_LT(glm::distance(fit.eyes->left_m, person.left_m), 1e-9) << seed;
@@ -61,7 +61,7 @@ Coverage coverage_at(double noise) {
     constexpr int seeds = 300;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const SimulatedPerson person = some_person(seed);
-        SeededNumbers numbers(7000 + seed);
+        simulators::SeededNumbers numbers(7000 + seed);
         const EyeFit fit = fit_eyes(some_sights(person, count, {}, times(noise), numbers), deep_m);
         if (!fit.eyes) {
             continue;
@@ -104,7 +104,7 @@ TEST(Eyes, AWrongSightingIsNamed) {
     int named = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const SimulatedPerson person = some_person(seed);
-        SeededNumbers numbers(300 + seed);
+        simulators::SeededNumbers numbers(300 + seed);
         EyeSights sights = some_sights(person, count, {}, {}, numbers);
         const std::size_t wrong = numbers.below(sights.size());
         sights[wrong].cross_m.x += 0.04;
@@ -118,7 +118,7 @@ TEST(Eyes, AWrongSightingIsNamed) {
 
 TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
     const SimulatedPerson person = some_person(3);
-    SeededNumbers numbers(3);
+    simulators::SeededNumbers numbers(3);
     const EyeSights well = some_sights(person, count, {}, {}, numbers);
     const auto refused = [](const EyeSights& sights, const char* because) {
         const EyeFit fit = fit_eyes(sights, deep_m);
@@ -146,7 +146,7 @@ TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
 }
 
 /// Spoils sightings by one kind of error.
-void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, SeededNumbers& numbers) {
+void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, simulators::SeededNumbers& numbers) {
     const std::size_t from = sights.size() / 3 + numbers.below(sights.size() / 3);
     const glm::dvec3 way = numbers.between(0.005, 0.05) * glm::normalize(numbers.normals());
     for (std::size_t k = 0; k < sights.size(); ++k) {
@@ -191,7 +191,7 @@ TEST(Eyes, NoneOfTwoHundredSetsWithFaultsIsBelievedWrongly) {
     int wrong = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         const SimulatedPerson person = some_person(seed);
-        SeededNumbers numbers(900 + seed);
+        simulators::SeededNumbers numbers(900 + seed);
         EyeSights sights = some_sights(person, count, {}, {}, numbers);
         const int kind = static_cast<int>(seed % 8);
         spoil(sights, person, kind, numbers);
@@ -213,4 +213,4 @@ TEST(Eyes, NoneOfTwoHundredSetsWithFaultsIsBelievedWrongly) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

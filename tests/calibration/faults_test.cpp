@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 /// Limits of the error at the worst place: three to four times the standard deviations that a verdict
@@ -17,9 +17,9 @@ constexpr double good_within_m = 5e-3;
 constexpr double usable_within_m = 8e-3;
 
 struct FaultySet {
-    const SimulatedTable& table;
+    const simulators::SimulatedTable& table;
     Touches touches;
-    SeededNumbers& numbers;
+    simulators::SeededNumbers& numbers;
     std::vector<std::size_t> wrong; ///< indices of single wrong touches
 
     std::size_t pick() {
@@ -133,15 +133,15 @@ struct Count {
 Count count_of(const Fault& fault, std::uint64_t seeds, ChosenCrosses& crosses) {
     Count count;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(3000 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(3000 + seed);
         FaultySet set{
             table, touches_of(table, crosses.of(table, seed % 2 == 0 ? 9 : 12), {}, numbers), numbers, {}};
         fault.make(set);
         const TouchCalibration found = calibrate_touch(set.touches, setup_for(table));
         ++count.sets;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
-            const double worst_m = registration_error(table, *found.table, 0.12).worst_m;
+            const double worst_m = simulators::registration_error(table, *found.table, 0.12).worst_m;
             if (!(worst_m <= (found.verdict == Verdict::Good ? good_within_m : usable_within_m))) {
                 ++count.wrong;
                 std::printf("  %s, seed %d: %s, and off by %.1f mm\n", fault.name.c_str(),
@@ -187,4 +187,4 @@ TEST(Faults, DISABLED_NoneOfAThousandSets) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

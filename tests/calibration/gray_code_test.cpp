@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 /// Captures by a camera whose pixels coincide with the projector's.
@@ -124,11 +124,11 @@ TEST(GrayCode, UnlitAndClippedPlacesAreNotKnown) {
 
 TEST(GrayCode, OfNoiseNothingIsKnown) {
     const StripeSetup setup{64, 48};
-    SeededNumbers numbers(1);
+    simulators::SeededNumbers numbers(1);
     const auto noise =
         changed(shown(setup), [&](double) { return std::clamp(128.0 + 3.0 * numbers.normal(), 0.0, 255.0); });
     EXPECT_LT(error_and_share(setup, decode(setup, as_captures(setup, noise))).second, 0.005);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -6,12 +6,12 @@
 
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 /// A described projector: its picture's top at the visitor's side, its middle beside the table's.
-Settings described() {
-    Settings settings;
+settings::Settings described() {
+    settings::Settings settings;
     settings.projector.table_from_projector.rotation = glm::angleAxis(std::numbers::pi, glm::dvec3(0, 0, 1)) *
                                                        settings.projector.table_from_projector.rotation;
     settings.projector.table_from_projector.translation = {0.05, -0.1, 1.5};
@@ -22,9 +22,9 @@ Settings described() {
 /// The middle's light and u agree with the settings, and light and tracker turn together.
 TEST(KeptTable, LiesInTheFrameOfTheSettings) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const CalibratedTable table = some_table(seed).truth;
-        const Settings settings = described();
-        const Calibration kept = kept_table(table, Touches{{}}, settings);
+        const CalibratedTable table = simulators::some_table(seed).truth;
+        const settings::Settings settings = described();
+        const settings::Calibration kept = programs::kept_table(table, Touches{{}}, settings);
         const auto lit = [&](const glm::dvec2& pixel) {
             const glm::dvec3 ray = kept.table_from_projector.direction(kept.pinhole.ray(pixel));
             return kept.table_from_projector.translation -
@@ -35,8 +35,9 @@ TEST(KeptTable, LiesInTheFrameOfTheSettings) {
         const glm::dvec3 u = lit(middle + glm::dvec2(1, 0)) - lit(middle);
         EXPECT_LT(u.x, 0.0) << seed; // the settings' projector is turned by half a turn
         EXPECT_LT(std::abs(u.y), 1e-5 * std::abs(u.x)) << seed;
-        const RigidTransform before = table.table_from_projector.inverse() * table.table_from_tracker;
-        const RigidTransform after =
+        const geometry::RigidTransform before =
+            table.table_from_projector.inverse() * table.table_from_tracker;
+        const geometry::RigidTransform after =
             kept.table_from_projector.inverse() * kept.registration.table_from_tracker;
         EXPECT_LT(glm::distance(before.point({0.1, 0.2, 0.3}), after.point({0.1, 0.2, 0.3})), 1e-12) << seed;
         EXPECT_EQ(kept.registration.eye_in_sensor_m.y, 0.1);
@@ -45,17 +46,17 @@ TEST(KeptTable, LiesInTheFrameOfTheSettings) {
 
 /// Sensors that are tilted, and one that hangs upside down; two props of eight lie on a side.
 TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
-    SeededNumbers numbers(9);
+    simulators::SeededNumbers numbers(9);
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        SimulatedTable table = some_table(seed);
+        simulators::SimulatedTable table = simulators::some_table(seed);
         table.sensor_from_prop = seed == 1 ? glm::dquat(0.0, 1.0, 0.0, 0.0) : numbers.rotation();
         Touches touches;
         for (int k = 0; k < 8; ++k) {
             const glm::dvec2 middle = 0.5 * glm::dvec2(table.truth.pinhole.width, table.truth.pinhole.height);
-            touches.push_back(
-                simulated_touch(table, {{middle, 0.0, 0.7 * k}, k >= 6 ? 1.2 : 0.0}, no_noise, numbers));
+            touches.push_back(simulators::simulated_touch(table, {{middle, 0.0, 0.7 * k}, k >= 6 ? 1.2 : 0.0},
+                                                          no_noise, numbers));
         }
-        const RigidTransform found = sensor_from_prop(table.truth, touches, {});
+        const geometry::RigidTransform found = programs::sensor_from_prop(table.truth, touches, {});
         EXPECT_EQ(found.translation, table.truth.sensor_offset_m);
         EXPECT_LT(
             glm::distance(found.rotation * glm::dvec3(0, 0, 1), table.sensor_from_prop * glm::dvec3(0, 0, 1)),
@@ -63,8 +64,9 @@ TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
             << seed;
         // So the prop stands upright on the table wherever it was touched.
         for (int k = 0; k < 6; ++k) {
-            const RigidTransform prop = table.truth.table_from_tracker *
-                                        touches[static_cast<std::size_t>(k)].tracker_from_sensor * found;
+            const geometry::RigidTransform prop = table.truth.table_from_tracker *
+                                                  touches[static_cast<std::size_t>(k)].tracker_from_sensor *
+                                                  found;
             EXPECT_LT(glm::distance(prop.rotation * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1)), 1e-9);
             EXPECT_NEAR(prop.translation.z, 0.0, 1e-9);
         }
@@ -72,4 +74,4 @@ TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

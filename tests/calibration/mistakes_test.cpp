@@ -5,17 +5,17 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 struct Spoilt {
     const char* what;
-    void (*spoil)(Touches&, const SimulatedTable&);
+    void (*spoil)(Touches&, const simulators::SimulatedTable&);
     const char* named;
 };
 
 void rotate_poses(Touches& touches, std::size_t by) {
-    std::vector<RigidTransform> poses;
+    std::vector<geometry::RigidTransform> poses;
     for (const Touch& touch : touches) {
         poses.push_back(touch.tracker_from_sensor);
     }
@@ -28,19 +28,21 @@ void rotate_poses(Touches& touches, std::size_t by) {
 TEST(Mistakes, AreNamedByWhatTheyAre) {
     const std::vector<Spoilt> all{
         {"a mirrored picture",
-         [](Touches& touches, const SimulatedTable& table) {
+         [](Touches& touches, const simulators::SimulatedTable& table) {
              for (Touch& touch : touches) {
                  touch.pixel.x = table.truth.pinhole.width - touch.pixel.x;
              }
          },
          "mirrored"},
-        {"one cross on", [](Touches& touches, const SimulatedTable&) { rotate_poses(touches, 1); },
-         "next cross"},
+        {"one cross on",
+         [](Touches& touches, const simulators::SimulatedTable&) { rotate_poses(touches, 1); }, "next cross"},
         {"one cross back",
-         [](Touches& touches, const SimulatedTable&) { rotate_poses(touches, touches.size() - 1); },
+         [](Touches& touches, const simulators::SimulatedTable&) {
+             rotate_poses(touches, touches.size() - 1);
+         },
          "cross before"},
         {"the opposite order",
-         [](Touches& touches, const SimulatedTable&) {
+         [](Touches& touches, const simulators::SimulatedTable&) {
              const Touches as_made = touches;
              for (std::size_t k = 0; k < touches.size(); ++k) {
                  touches[k].tracker_from_sensor = as_made[touches.size() - 1 - k].tracker_from_sensor;
@@ -52,8 +54,8 @@ TEST(Mistakes, AreNamedByWhatTheyAre) {
     for (const Spoilt& each : all) {
         int named = 0;
         for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-            const SimulatedTable table = some_table(seed);
-            SeededNumbers numbers(700 + seed);
+            const simulators::SimulatedTable table = simulators::some_table(seed);
+            simulators::SeededNumbers numbers(700 + seed);
             Touches touches = touches_of(table, crosses.of(table, 9), {}, numbers);
             each.spoil(touches, table);
             const TouchCalibration found = calibrate_touch(touches, setup_for(table));
@@ -66,4 +68,4 @@ TEST(Mistakes, AreNamedByWhatTheyAre) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr Nanoseconds tick = std::chrono::milliseconds(20);     // 50 reports a second
 inline constexpr double base_m = 0.30, top_m = 0.08, height_m = 0.155; ///< the prop
@@ -37,20 +37,20 @@ struct World {
     [[nodiscard]] SightScene scene() {
         SightScene scene{truth.pinhole,
                          truth.table_from_projector,
-                         make_frustum({base_m, top_m, height_m}),
+                         geometry::make_frustum({base_m, top_m, height_m}),
                          {0.0, -0.55, 0.5}};
         scene.pinhole.lens.k1 += 0.004;
         scene.table_from_projector.translation += 3e-4 * numbers.normals();
         return scene;
     }
-    [[nodiscard]] Registration registration() {
-        const RigidTransform turned{about(kept_turn_rad, {0, 0, 1}), {}};
-        Registration kept{truth.table_from_tracker, sensor_from_prop * turned, {}};
+    [[nodiscard]] geometry::Registration registration() {
+        const geometry::RigidTransform turned{about(kept_turn_rad, {0, 0, 1}), {}};
+        geometry::Registration kept{truth.table_from_tracker, sensor_from_prop * turned, {}};
         kept.table_from_tracker.translation += 3e-4 * numbers.normals();
         return kept;
     }
-    [[nodiscard]] RigidTransform prop_report() {
-        RigidTransform report =
+    [[nodiscard]] geometry::RigidTransform prop_report() {
+        geometry::RigidTransform report =
             truth.table_from_tracker.inverse() * table_from_prop * sensor_from_prop.inverse();
         report.translation += 2e-4 * numbers.normals();
         return report;
@@ -72,11 +72,11 @@ struct World {
         return p.z > 0.0 && p.z < height_m && std::fmax(std::abs(p.x), std::abs(p.y)) < half;
     }
 
-    SeededNumbers numbers;
+    simulators::SeededNumbers numbers;
     SimulatedPerson person;
     double kept_turn_rad;
     CalibratedTable truth;
-    RigidTransform sensor_from_prop, table_from_prop;
+    geometry::RigidTransform sensor_from_prop, table_from_prop;
 };
 
 /// How well the person follows the instructions.
@@ -94,7 +94,7 @@ public:
 
     void step(bool next = false, bool back = false) {
         now += tick;
-        std::optional<RigidTransform> prop, head;
+        std::optional<geometry::RigidTransform> prop, head;
         if (sees_prop) {
             prop = world.prop_report();
         }
@@ -120,7 +120,7 @@ public:
     void aim() {
         const AskedSight& asked = procedure.asked();
         const SightCross& shown = procedure.cross();
-        const glm::dvec3 cross = true_light(world.truth, shown.pixel, 0.0) + cross_aside_m;
+        const glm::dvec3 cross = simulators::true_light(world.truth, shown.pixel, 0.0) + cross_aside_m;
         const glm::dvec3 tip = world.corner_near(shown.tip_m);
         ASSERT_LT(glm::distance(tip, shown.tip_m), 3e-3 + 0.06 * std::abs(world.kept_turn_rad))
             << "what is lit is a corner";
@@ -175,7 +175,9 @@ public:
         ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
         procedure.judge(fit());
     }
-    [[nodiscard]] RigidTransform kept_table_from_tracker() const { return world.truth.table_from_tracker; }
+    [[nodiscard]] geometry::RigidTransform kept_table_from_tracker() const {
+        return world.truth.table_from_tracker;
+    }
 
     World world;
     Manner manner;
@@ -185,13 +187,13 @@ public:
     OpenEye open = OpenEye::Left; ///< the eye that is really open
     glm::dvec3 cross_aside_m{0.0};
     glm::dvec3 eye_m{0.0};
-    RigidTransform table_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.55}};
+    geometry::RigidTransform table_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.55}};
 
 private:
     /// The head sways by 1 or 2 mm, and the tracker adds its noise.
-    [[nodiscard]] RigidTransform trembling() {
+    [[nodiscard]] geometry::RigidTransform trembling() {
         const double t = to_seconds(now.time_since_epoch());
-        RigidTransform head = table_from_sensor;
+        geometry::RigidTransform head = table_from_sensor;
         head.translation +=
             glm::dvec3(1.5e-3 * std::sin(5.0 * t), 1.5e-3 * std::cos(3.7 * t), 5e-4 * std::sin(11.0 * t));
         head.translation += 3e-4 * world.numbers.normals();
@@ -200,4 +202,4 @@ private:
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr const char* touch_header = "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n";
@@ -141,4 +141,4 @@ TEST(PointFiles, WhatIsWrongWithARestIsSaidWithItsLine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr double top_m = 0.12;
@@ -99,8 +99,8 @@ struct MadeTouches {
     TouchSetup setup;
 };
 
-MadeTouches made_touches(const SimulatedTable& table, const std::vector<Cross>& crosses,
-                         SeededNumbers& numbers) {
+MadeTouches made_touches(const simulators::SimulatedTable& table, const std::vector<Cross>& crosses,
+                         simulators::SeededNumbers& numbers) {
     constexpr double boards_error = 0.01;
     constexpr double ruler_error_m = 5e-4;
     const double boards = 1.0 + boards_error * numbers.normal();
@@ -120,13 +120,13 @@ MadeTouches made_touches(const SimulatedTable& table, const std::vector<Cross>& 
 Kept touched(std::uint64_t tables, const std::vector<Cross>& crosses) {
     Kept kept;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const SimulatedTable table = shipped_table(seed);
-        SeededNumbers numbers(10000 + seed);
+        const simulators::SimulatedTable table = simulators::shipped_table(seed);
+        simulators::SeededNumbers numbers(10000 + seed);
         const MadeTouches made = made_touches(table, crosses, numbers);
         const TouchCalibration found = calibrate_touch(made.touches, made.setup);
         kept.count(found.verdict);
         if (found.table) {
-            kept.add(lengths(registration_offsets(table, *found.table, shipped_top_m)),
+            kept.add(lengths(simulators::registration_offsets(table, *found.table, shipped_top_m)),
                      found.uncertainty.shares);
         }
     }
@@ -136,18 +136,20 @@ Kept touched(std::uint64_t tables, const std::vector<Cross>& crosses) {
 Kept rested(std::uint64_t tables) {
     Kept kept;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(20000 + seed);
-        RestPlan plan;
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(20000 + seed);
+        simulators::RestPlan plan;
         plan.count = 16;
         AutoSetup setup;
         setup.width = table.truth.pinhole.width;
         setup.height = table.truth.pinhole.height;
-        const AutoCalibration found = calibrate_auto(
-            simulated_rests(table, sheet_with_prop(), plan, {3e-4, 2.6e-3, 0.15, 1e-4}, numbers), setup);
+        const AutoCalibration found =
+            calibrate_auto(simulators::simulated_rests(table, simulators::sheet_with_prop(), plan,
+                                                       {3e-4, 2.6e-3, 0.15, 1e-4}, numbers),
+                           setup);
         kept.count(found.found.verdict);
         if (found.found.table && found.found.repeat.empty()) {
-            kept.add(lengths(registration_offsets(table, *found.found.table, top_m)),
+            kept.add(lengths(simulators::registration_offsets(table, *found.found.table, top_m)),
                      found.found.uncertainty.shares);
         }
     }
@@ -157,10 +159,10 @@ Kept rested(std::uint64_t tables) {
 Kept ruled(std::uint64_t tables, bool distorts) {
     Kept kept;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        SimulatedTable table = some_table(seed);
-        table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : Lens{};
-        SeededNumbers numbers(30000 + seed);
-        const Pinhole& p = table.truth.pinhole;
+        simulators::SimulatedTable table = simulators::some_table(seed);
+        table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : geometry::Lens{};
+        simulators::SeededNumbers numbers(30000 + seed);
+        const geometry::Pinhole& p = table.truth.pinhole;
         const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.005, numbers);
         const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
         kept.count(found.verdict);
@@ -173,8 +175,8 @@ Kept ruled(std::uint64_t tables, bool distorts) {
         calibrated.table_from_projector = found.measured_from_projector;
         std::vector<double> off_m;
         for (const PlaceUncertainty& place : uncertainty.zone) {
-            off_m.push_back(glm::distance(true_light(calibrated, place.pixel, place.height_m),
-                                          true_light(table.truth, place.pixel, place.height_m)));
+            off_m.push_back(glm::distance(simulators::true_light(calibrated, place.pixel, place.height_m),
+                                          simulators::true_light(table.truth, place.pixel, place.height_m)));
         }
         kept.add(off_m, uncertainty.picture.shares);
     }
@@ -250,8 +252,8 @@ Slips slips_of(int sets) {
     slips.sets = sets;
     for (int set = 1; set <= sets; ++set) {
         const auto seed = static_cast<std::uint64_t>(set);
-        const SimulatedTable table = shipped_table(seed);
-        SeededNumbers numbers(40000 + seed);
+        const simulators::SimulatedTable table = simulators::shipped_table(seed);
+        simulators::SeededNumbers numbers(40000 + seed);
         MadeTouches made = made_touches(table, crosses, numbers);
         const TouchCalibration without = calibrate_touch(made.touches, made.setup);
         const std::size_t slipped = numbers.below(made.touches.size());
@@ -290,9 +292,9 @@ TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
     double sum_mm = 0.0;
     constexpr int tables = 8;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const SimulatedTable before = shipped_table(seed);
-        SeededNumbers numbers(60000 + seed);
-        SimulatedTable after = before;
+        const simulators::SimulatedTable before = simulators::shipped_table(seed);
+        simulators::SeededNumbers numbers(60000 + seed);
+        simulators::SimulatedTable after = before;
         after.truth.table_from_projector.translation += 8e-3 * numbers.normals();
         TouchModel known = shipped_model();
         known.pinhole = before.truth.pinhole;
@@ -310,7 +312,7 @@ TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
         kept += may_be_kept(seven) ? 1 : 0;
         kept_with_more += may_be_kept(nine) ? 1 : 0;
         ASSERT_TRUE(nine.table) << nine.reason.sentence;
-        sum_mm += 1e3 * registration_error(after, *nine.table, shipped_top_m).mean_m;
+        sum_mm += 1e3 * simulators::registration_error(after, *nine.table, shipped_top_m).mean_m;
     }
     std::printf("of %d touch-ups by seven crosses %d may be kept, with two more %d, off by %.2f mm\n", tables,
                 kept, kept_with_more, sum_mm / tables);
@@ -357,11 +359,11 @@ TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
         ASSERT_EQ(crosses.size(), static_cast<std::size_t>(max_touches));
         int kept = 0, too_few_first = 0, touches_in_all = 0;
         for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-            const SimulatedTable table = shipped_table(seed);
+            const simulators::SimulatedTable table = simulators::shipped_table(seed);
             TouchSetup setup = setup_for(table);
             setup.noise.pixel = pixel;
             setup.top_m = shipped_top_m;
-            SeededNumbers numbers(70000 + seed);
+            simulators::SeededNumbers numbers(70000 + seed);
             const Touches all = touches_of(table, crosses, setup.noise, numbers);
             std::size_t count = shipped_touches;
             TouchCalibration found = calibrate_touch(std::span(all).first(count), setup);
@@ -391,9 +393,9 @@ TEST(Promises, AWrongCornerIsRefusedAndNamed) {
     constexpr int sets = 200;
     constexpr std::array<const char*, 4> names{"top left", "top right", "bottom right", "bottom left"};
     for (std::uint64_t seed = 1; seed <= sets; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(50000 + seed);
-        const Pinhole& p = table.truth.pinhole;
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(50000 + seed);
+        const geometry::Pinhole& p = table.truth.pinhole;
         std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.003, numbers);
         MeasuredCorner& wrong = corners[numbers.below(corners.size())];
         const double towards = numbers.between(0.0, 2.0 * std::numbers::pi);
@@ -412,4 +414,4 @@ TEST(Promises, AWrongCornerIsRefusedAndNamed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

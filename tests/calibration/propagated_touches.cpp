@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -22,7 +22,7 @@ glm::dquat turn(double x, double y, double z) {
 /// The truth, changed by shares of the focal lengths and of the picture's width, radians and metres.
 CalibratedTable changed_truth(const CalibratedTable& truth, const Unknowns& by) {
     CalibratedTable table = truth;
-    Pinhole& p = table.pinhole;
+    geometry::Pinhole& p = table.pinhole;
     p.fx *= 1.0 + by[0];
     p.fy *= 1.0 + by[1];
     p.cx += by[2] * p.width;
@@ -38,9 +38,9 @@ CalibratedTable changed_truth(const CalibratedTable& truth, const Unknowns& by) 
 }
 
 /// The pixel and height of a touch that a table predicts from the tracker's report.
-Eigen::Vector3d predicted(const CalibratedTable& table, const RigidTransform& tracker_from_sensor) {
+Eigen::Vector3d predicted(const CalibratedTable& table, const geometry::RigidTransform& tracker_from_sensor) {
     const glm::dvec3 place = table.table_from_tracker.point(tracker_from_sensor.point(table.sensor_offset_m));
-    const glm::dvec2 pixel = calibrated_pixel(table, place);
+    const glm::dvec2 pixel = simulators::calibrated_pixel(table, place);
     return {pixel.x, pixel.y, place.z};
 }
 
@@ -51,9 +51,9 @@ Eigen::Matrix3d covariance_of(const CalibratedTable& truth, const Touch& touch, 
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 step(0.0);
         step[axis] = difference;
-        RigidTransform moved = touch.tracker_from_sensor;
+        geometry::RigidTransform moved = touch.tracker_from_sensor;
         moved.translation += step;
-        RigidTransform turned = touch.tracker_from_sensor;
+        geometry::RigidTransform turned = touch.tracker_from_sensor;
         turned.rotation = turn(step.x, step.y, step.z) * turned.rotation;
         const Eigen::Vector3d by_move = (predicted(truth, moved) - here) * (noise.position_m / difference);
         const Eigen::Vector3d by_turn = (predicted(truth, turned) - here) * (noise.rotation_rad / difference);
@@ -65,7 +65,7 @@ Eigen::Matrix3d covariance_of(const CalibratedTable& truth, const Touch& touch, 
 double height_of_sensor(const CalibratedTable& table, const std::vector<Touch>& touches) {
     double sum = 0.0;
     for (const Touch& touch : touches) {
-        const RigidTransform& pose = touch.tracker_from_sensor;
+        const geometry::RigidTransform& pose = touch.tracker_from_sensor;
         sum -= (table.table_from_tracker.rotation * (pose.rotation * table.sensor_offset_m)).z;
     }
     return sum / static_cast<double>(touches.size());
@@ -77,8 +77,8 @@ struct PriorRows {
     Eigen::Matrix<double, 7, unknowns> rows = Eigen::Matrix<double, 7, unknowns>::Zero();
     Eigen::Matrix<double, 7, 1> off = Eigen::Matrix<double, 7, 1>::Zero();
 };
-PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
-    const Pinhole& p = table.truth.pinhole;
+PriorRows prior_rows(const simulators::SimulatedTable& table, const Priors& priors) {
+    const geometry::Pinhole& p = table.truth.pinhole;
     PriorRows known;
     known.rows(0, 0) = 1.0 / priors.aspect;
     known.rows(0, 1) = -1.0 / priors.aspect;
@@ -96,12 +96,13 @@ PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
 }
 
 /// Derivatives of the picture's offsets by differences, a column for each unknown.
-Eigen::MatrixXd picture_by_unknown(const SimulatedTable& table, double top_m) {
-    const auto places = static_cast<Eigen::Index>(registration_offsets(table, table.truth, top_m).size());
+Eigen::MatrixXd picture_by_unknown(const simulators::SimulatedTable& table, double top_m) {
+    const auto places =
+        static_cast<Eigen::Index>(simulators::registration_offsets(table, table.truth, top_m).size());
     Eigen::MatrixXd rows(3 * places, unknowns);
     for (int k = 0; k < unknowns; ++k) {
-        const std::vector<glm::dvec3> offsets =
-            registration_offsets(table, changed_truth(table.truth, difference * Unknowns::Unit(k)), top_m);
+        const std::vector<glm::dvec3> offsets = simulators::registration_offsets(
+            table, changed_truth(table.truth, difference * Unknowns::Unit(k)), top_m);
         for (Eigen::Index place = 0; place < places; ++place) {
             const glm::dvec3& offset = offsets[static_cast<std::size_t>(place)];
             rows.block<3, 1>(3 * place, k) = Eigen::Vector3d(offset.x, offset.y, offset.z) / difference;
@@ -112,8 +113,9 @@ Eigen::MatrixXd picture_by_unknown(const SimulatedTable& table, double top_m) {
 
 } // namespace
 
-PropagatedTouches propagated_touches(const SimulatedTable& table, const std::vector<Touch>& touches,
-                                     const TouchNoise& noise, const Priors& priors, double top_m) {
+PropagatedTouches propagated_touches(const simulators::SimulatedTable& table,
+                                     const std::vector<Touch>& touches, const TouchNoise& noise,
+                                     const Priors& priors, double top_m) {
     Eigen::MatrixXd by_unknown(3 * static_cast<Eigen::Index>(touches.size()), unknowns); // whitened
     PriorRows known = prior_rows(table, priors);
     std::vector<Eigen::Matrix3d> whitening;
@@ -124,7 +126,7 @@ PropagatedTouches propagated_touches(const SimulatedTable& table, const std::vec
     for (int k = 0; k < unknowns; ++k) {
         const CalibratedTable changed = changed_truth(table.truth, difference * Unknowns::Unit(k));
         for (std::size_t touch = 0; touch < touches.size(); ++touch) {
-            const RigidTransform& pose = touches[touch].tracker_from_sensor;
+            const geometry::RigidTransform& pose = touches[touch].tracker_from_sensor;
             const double raised = k == boards ? touches[touch].block_m : 0.0;
             by_unknown.block<3, 1>(3 * static_cast<Eigen::Index>(touch), k) =
                 whitening[touch] * ((predicted(changed, pose) - predicted(table.truth, pose)) / difference -
@@ -143,7 +145,7 @@ PropagatedTouches propagated_touches(const SimulatedTable& table, const std::vec
             picture * solver.solve(known.rows.transpose() * known.off), std::move(whitening)};
 }
 
-Eigen::VectorXd offsets_by(const PropagatedTouches& propagated, const SimulatedTable& table,
+Eigen::VectorXd offsets_by(const PropagatedTouches& propagated, const simulators::SimulatedTable& table,
                            const std::vector<Touch>& touches) {
     Eigen::VectorXd noise(propagated.by_noise.cols());
     for (std::size_t k = 0; k < touches.size(); ++k) {
@@ -163,7 +165,8 @@ SquareError square_error(const PropagatedTouches& propagated) {
             2.0 * squares.squaredNorm() + 4.0 * pull.squaredNorm()};
 }
 
-std::vector<double> worst_places(const PropagatedTouches& propagated, int draws, SeededNumbers& numbers) {
+std::vector<double> worst_places(const PropagatedTouches& propagated, int draws,
+                                 simulators::SeededNumbers& numbers) {
     Eigen::MatrixXd noise(propagated.by_noise.cols(), draws);
     for (Eigen::Index column = 0; column < noise.cols(); ++column) {
         for (Eigen::Index row = 0; row < noise.rows(); ++row) {
@@ -183,4 +186,4 @@ std::vector<double> worst_places(const PropagatedTouches& propagated, int draws,
     return worst;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct PropagatedTouches {
     Eigen::MatrixXd
@@ -23,12 +23,13 @@ struct PropagatedTouches {
 };
 
 /// `touches`: without noise. `top_m`: the zone's height, as for registration_offsets.
-[[nodiscard]] PropagatedTouches propagated_touches(const SimulatedTable& table,
+[[nodiscard]] PropagatedTouches propagated_touches(const simulators::SimulatedTable& table,
                                                    const std::vector<Touch>& touches, const TouchNoise& noise,
                                                    const Priors& priors, double top_m);
 
 /// The picture's offsets for these touches, with their noise: rows as in by_noise.
-[[nodiscard]] Eigen::VectorXd offsets_by(const PropagatedTouches& propagated, const SimulatedTable& table,
+[[nodiscard]] Eigen::VectorXd offsets_by(const PropagatedTouches& propagated,
+                                         const simulators::SimulatedTable& table,
                                          const std::vector<Touch>& touches);
 
 /// The expected mean of the squared error over the places, and the variance of that mean.
@@ -40,6 +41,6 @@ struct SquareError {
 
 /// The error at the worst place in each of `draws` calibrations, in ascending order.
 [[nodiscard]] std::vector<double> worst_places(const PropagatedTouches& propagated, int draws,
-                                               SeededNumbers& numbers);
+                                               simulators::SeededNumbers& numbers);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -21,7 +21,7 @@
 #include <map>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 using Grey = std::vector<std::uint8_t>;
@@ -52,7 +52,7 @@ Captured read_captures(const StripeSetup& stripes, const std::filesystem::path& 
         }
         const std::filesystem::path file = picture_name(folder, captured.pictures.size());
         const Result<Bytes> bytes = read_file(file);
-        const auto image = bytes ? decode_png8(*bytes) : tl::unexpected<Error>(bytes.error());
+        const auto image = bytes ? image::decode_png8(*bytes) : tl::unexpected<Error>(bytes.error());
         if (!image) {
             ADD_FAILURE() << image.error().message;
             return {};
@@ -217,7 +217,7 @@ void render_captures(const StripeSetup& stripes, const std::filesystem::path& fo
         if (pattern.stripes == Stripes::Cosine) {
             continue;
         }
-        Image8 image(width, height);
+        image::Image8 image(width, height);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 const glm::dvec2 pixel = rendered_pixel({x + 0.5, y + 0.5});
@@ -226,7 +226,7 @@ void render_captures(const StripeSetup& stripes, const std::filesystem::path& fo
                 image.at(x, y) = glm::u8vec4(grey, grey, grey, 255);
             }
         }
-        ASSERT_TRUE(write_file(picture_name(folder, number++), encode_png(image)));
+        ASSERT_TRUE(write_file(picture_name(folder, number++), image::encode_png(image)));
     }
 }
 
@@ -269,4 +269,4 @@ TEST(RealCaptures, DISABLED_TheFiguresOfProcamCalibration) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

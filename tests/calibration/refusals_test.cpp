@@ -6,12 +6,12 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 /// A grid of crosses that tests can make degenerate.
-std::vector<Cross> grid(const SimulatedTable& table, double share_u, double share_v) {
-    const Pinhole& p = table.truth.pinhole;
+std::vector<Cross> grid(const simulators::SimulatedTable& table, double share_u, double share_v) {
+    const geometry::Pinhole& p = table.truth.pinhole;
     std::vector<Cross> crosses;
     for (int k = 0; k < 12; ++k) {
         const glm::dvec2 at(k % 4 / 3.0 - 0.5, k / 4 / 2.0 - 0.5);
@@ -23,8 +23,8 @@ std::vector<Cross> grid(const SimulatedTable& table, double share_u, double shar
 }
 
 TouchCalibration calibrated(std::uint64_t seed, const std::vector<Cross>& crosses, bool height_known = true) {
-    const SimulatedTable table = some_table(seed);
-    SeededNumbers numbers(seed);
+    const simulators::SimulatedTable table = simulators::some_table(seed);
+    simulators::SeededNumbers numbers(seed);
     TouchSetup setup = setup_for(table);
     if (!height_known) {
         setup.sensor_height_m.reset();
@@ -44,7 +44,7 @@ void expect_refused(const TouchCalibration& found, const std::string& word) {
 TEST(Refusals, AGridIsNone) {
     int kept = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const TouchCalibration found = calibrated(seed, grid(some_table(seed), 0.9, 0.9));
+        const TouchCalibration found = calibrated(seed, grid(simulators::some_table(seed), 0.9, 0.9));
         EXPECT_NE(found.verdict, Verdict::Refused) << found.reason.sentence;
         kept += found.verdict == Verdict::Good || found.verdict == Verdict::Usable ? 1 : 0;
     }
@@ -53,7 +53,7 @@ TEST(Refusals, AGridIsNone) {
 
 TEST(Refusals, EachDegenerateSetHasItsReason) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const SimulatedTable table = some_table(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
         const std::vector<Cross> usual = grid(table, 0.9, 0.9);
 
         std::vector<Cross> few(usual.begin(), usual.begin() + 5);
@@ -84,7 +84,7 @@ TEST(Refusals, EachDegenerateSetHasItsReason) {
 TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
     struct WrongSet {
         std::string word;
-        std::function<void(Touches&, const SimulatedTable&)> make;
+        std::function<void(Touches&, const simulators::SimulatedTable&)> make;
     };
     const auto each = [](Touches& touches, const auto& change) {
         for (Touch& touch : touches) {
@@ -93,29 +93,29 @@ TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
     };
     const std::vector<WrongSet> sets = {
         {"mirrored",
-         [&](Touches& touches, const SimulatedTable& table) {
+         [&](Touches& touches, const simulators::SimulatedTable& table) {
              each(touches, [&](Touch& touch) { touch.pixel.x = table.truth.pinhole.width - touch.pixel.x; });
          }},
         {"in millimetres or inches",
-         [&](Touches& touches, const SimulatedTable&) {
+         [&](Touches& touches, const simulators::SimulatedTable&) {
              each(touches, [](Touch& touch) { touch.tracker_from_sensor.translation *= 1000.0; });
          }},
         {"in millimetres or inches",
-         [&](Touches& touches, const SimulatedTable&) {
+         [&](Touches& touches, const simulators::SimulatedTable&) {
              each(touches, [](Touch& touch) { touch.tracker_from_sensor.translation /= 0.0254; });
          }},
         {"a block is",
-         [&](Touches& touches, const SimulatedTable&) {
+         [&](Touches& touches, const simulators::SimulatedTable&) {
              each(touches, [](Touch& touch) { touch.block_m *= 1000.0; });
          }},
         {"shares of the picture",
-         [&](Touches& touches, const SimulatedTable& table) {
+         [&](Touches& touches, const simulators::SimulatedTable& table) {
              each(touches, [&](Touch& touch) {
                  touch.pixel /= glm::dvec2(table.truth.pinhole.width, table.truth.pinhole.height);
              });
          }},
         {"contradict each other",
-         [](Touches& touches, const SimulatedTable&) { // four of twelve, each by 5 cm
+         [](Touches& touches, const simulators::SimulatedTable&) { // four of twelve, each by 5 cm
              for (std::size_t k = 0; k < 4; ++k) {
                  const double angle = 1.7 * static_cast<double>(k);
                  touches[3 * k].tracker_from_sensor.translation +=
@@ -124,8 +124,8 @@ TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
          }},
     };
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(seed);
         const Touches right = touches_of(table, grid(table, 0.9, 0.9), {}, numbers);
         for (const WrongSet& wrong : sets) {
             Touches touches = right;
@@ -137,4 +137,4 @@ TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

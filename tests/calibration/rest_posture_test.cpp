@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenTop) {
@@ -35,10 +35,10 @@ TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHidd
 
 TEST(StillReports, LeaveAStrayReportOut) {
     StillReports still(3);
-    const RigidTransform here;
-    const RigidTransform elsewhere{{1.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0}};
+    const geometry::RigidTransform here;
+    const geometry::RigidTransform elsewhere{{1.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0}};
     MonotonicTime now{};
-    const auto add = [&](const RigidTransform& report) {
+    const auto add = [&](const geometry::RigidTransform& report) {
         return still.add(now += std::chrono::milliseconds(10), report);
     };
     EXPECT_TRUE(add(here));
@@ -54,18 +54,19 @@ TEST(StillReports, LeaveAStrayReportOut) {
 }
 
 /// The report of a prop turned by `yaw_rad`, raised or leaning, from a tilted tracker.
-RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
-    const SimulatedTable table = some_table(3);
-    SeededNumbers numbers(static_cast<std::uint64_t>(1e3 * (yaw_rad + raised_m + lean_rad)));
-    return simulated_report(table, placed_prop({0.1, 0.2 - 0.1 * yaw_rad, raised_m}, yaw_rad, lean_rad, 1.0),
-                            {}, numbers);
+geometry::RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
+    const simulators::SimulatedTable table = simulators::some_table(3);
+    simulators::SeededNumbers numbers(static_cast<std::uint64_t>(1e3 * (yaw_rad + raised_m + lean_rad)));
+    return simulators::simulated_report(
+        table, simulators::placed_prop({0.1, 0.2 - 0.1 * yaw_rad, raised_m}, yaw_rad, lean_rad, 1.0), {},
+        numbers);
 }
 
 TEST(RestPosture, IsReadFromTheTrackerAlone) {
-    const RigidTransform alike[] = {standing(1.0, 0.0, 0.0), standing(1.1, 0.0, 0.0)};
+    const geometry::RigidTransform alike[] = {standing(1.0, 0.0, 0.0), standing(1.1, 0.0, 0.0)};
     EXPECT_FALSE(flat_posture(alike));
-    const RigidTransform rests[] = {standing(0.0, 0.0, 0.0), standing(1.5, 0.0, 0.0),
-                                    standing(3.0, 0.0, 0.0)};
+    const geometry::RigidTransform rests[] = {standing(0.0, 0.0, 0.0), standing(1.5, 0.0, 0.0),
+                                              standing(3.0, 0.0, 0.0)};
     const auto flat = flat_posture(rests);
     ASSERT_TRUE(flat);
     EXPECT_LT(flat->tilt_rad, 0.01);
@@ -76,9 +77,9 @@ TEST(RestPosture, IsReadFromTheTrackerAlone) {
     EXPECT_LT(raised.tilt_rad, 0.012);
     EXPECT_NEAR(std::abs(raised.raised_m), 0.12, 1.5e-3);
     EXPECT_NEAR(stance_of(*flat, standing(2.0, 0.05, 0.4)).tilt_rad, 0.4, 0.012);
-    const RigidTransform one_leans[] = {rests[0], rests[1], standing(3.0, 0.03, 0.2)};
+    const geometry::RigidTransform one_leans[] = {rests[0], rests[1], standing(3.0, 0.03, 0.2)};
     EXPECT_GT(flat_posture(one_leans)->tilt_rad, 0.035);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

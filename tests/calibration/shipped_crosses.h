@@ -5,7 +5,7 @@
 #include "app/calibration/choose_crosses.h"
 #include "tests/calibration/simulated_touches.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 inline constexpr double shipped_top_m = 0.155;
 inline constexpr double shipped_base_m = 0.30;
@@ -33,4 +33,4 @@ inline constexpr int shipped_touches = 15;
     return choose_crosses(shipped_model(), setup);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

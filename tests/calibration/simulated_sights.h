@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct SimulatedPerson {
     glm::dvec3 left_m{0.0}, right_m{0.0}; ///< the eyes, in the sensor
@@ -19,7 +19,7 @@ struct SimulatedPerson {
 
 /// A person whose sensor is anywhere on the forehead, at any rotation.
 inline SimulatedPerson some_person(std::uint64_t seed) {
-    SeededNumbers numbers(seed);
+    simulators::SeededNumbers numbers(seed);
     SimulatedPerson person;
     person.head_from_sensor = numbers.rotation();
     const glm::dquat back = glm::conjugate(person.head_from_sensor);
@@ -39,7 +39,7 @@ struct HeadTurns {
 /// One sighting: a random pose of the head, over a prop's corner, to a cross behind it. `noise`: of the
 /// sighting itself.
 inline EyeSight some_sight(const SimulatedPerson& person, OpenEye open, const HeadTurns& turns,
-                           const SightNoise& noise, SeededNumbers& numbers) {
+                           const SightNoise& noise, simulators::SeededNumbers& numbers) {
     EyeSight sight;
     sight.eye = open;
     sight.tip_m = {0.045, 0.045, 0.12};
@@ -63,7 +63,7 @@ inline EyeSight some_sight(const SimulatedPerson& person, OpenEye open, const He
 
 /// `count` sightings with each eye, including the shared errors.
 inline EyeSights some_sights(const SimulatedPerson& person, int count, const HeadTurns& turns,
-                             const SightNoise& noise, SeededNumbers& numbers) {
+                             const SightNoise& noise, simulators::SeededNumbers& numbers) {
     EyeSights sights;
     for (const OpenEye open : {OpenEye::Left, OpenEye::Right}) {
         for (int k = 0; k < count; ++k) {
@@ -79,4 +79,4 @@ inline EyeSights some_sights(const SimulatedPerson& person, int count, const Hea
     return sights;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

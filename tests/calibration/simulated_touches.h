@@ -8,14 +8,14 @@
 #include <map>
 #include <tuple>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Crosses for pictures of one shape and approximate throw, the only data of a projector that a data sheet
 /// gives.
 class ChosenCrosses {
 public:
-    const std::vector<Cross>& of(const SimulatedTable& table, int count) {
-        Pinhole pinhole = table.truth.pinhole;
+    const std::vector<Cross>& of(const simulators::SimulatedTable& table, int count) {
+        geometry::Pinhole pinhole = table.truth.pinhole;
         const double throw_ratio = pinhole.fx / pinhole.width < 1.5 ? 1.1 : 1.9;
         const auto key = std::tuple(pinhole.width * 10 / pinhole.height, throw_ratio, count);
         std::vector<Cross>& crosses = chosen_[key];
@@ -39,16 +39,16 @@ private:
     std::vector<Cross> scaled_;
 };
 
-inline Touches touches_of(const SimulatedTable& table, const std::vector<Cross>& crosses,
-                          const TouchNoise& noise, SeededNumbers& numbers) {
+inline Touches touches_of(const simulators::SimulatedTable& table, const std::vector<Cross>& crosses,
+                          const TouchNoise& noise, simulators::SeededNumbers& numbers) {
     Touches touches;
     for (const Cross& cross : crosses) {
-        touches.push_back(simulated_touch(table, {cross, 0.0}, noise, numbers));
+        touches.push_back(simulators::simulated_touch(table, {cross, 0.0}, noise, numbers));
     }
     return touches;
 }
 
-inline TouchSetup setup_for(const SimulatedTable& table) {
+inline TouchSetup setup_for(const simulators::SimulatedTable& table) {
     TouchSetup setup;
     setup.width = table.truth.pinhole.width;
     setup.height = table.truth.pinhole.height;
@@ -58,4 +58,4 @@ inline TouchSetup setup_for(const SimulatedTable& table) {
 
 inline constexpr TouchNoise no_noise{0.0, 0.0, 0.0, 0.0};
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr int width = 640;
 constexpr int height = 400;
 constexpr Nanoseconds tick = std::chrono::milliseconds(20);
 
-Pinhole projector() {
+geometry::Pinhole projector() {
     return {width, height, 1.875 * width, 1.875 * width, 0.5 * width, 0.5 * height};
 }
 
@@ -30,7 +30,8 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
         look(procedure);
         while (procedure.stage() == CalibrationStage::HoldStill) {
             now += tick;
-            procedure.step({now, RigidTransform{{1.0, 0.0, 0.0, 0.0}, {place_m, 0.0, 0.1}}, false, false});
+            procedure.step(
+                {now, geometry::RigidTransform{{1.0, 0.0, 0.0, 0.0}, {place_m, 0.0, 0.1}}, false, false});
         }
     }
     look(procedure);
@@ -43,7 +44,7 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
 TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     std::set<std::string> said;
     const auto listen = [&](const TouchProcedure& procedure) {
-        said.insert(std::string(table_words(procedure).key));
+        said.insert(std::string(programs::table_words(procedure).key));
     };
     const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
     for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
@@ -53,12 +54,12 @@ TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     walk(TouchProcedure(TouchTask::TouchUp, crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
     EXPECT_EQ(said.size(), 16U);
     expect_sentences(said);
-    EXPECT_EQ(table_words(TouchProcedure(crosses, "it cannot be done")).key, "")
+    EXPECT_EQ(programs::table_words(TouchProcedure(crosses, "it cannot be done")).key, "")
         << "there is none for every reason";
 }
 
 /// Number of orange pixels outside the prop, which covers its own square and more as seen from above.
-std::size_t arrow_pixels(const Image8& picture, const Cross& cross, double prop_px) {
+std::size_t arrow_pixels(const image::Image8& picture, const Cross& cross, double prop_px) {
     std::size_t count = 0;
     for (int v = 0; v < picture.height; ++v) {
         for (int u = 0; u < picture.width; ++u) {
@@ -72,7 +73,7 @@ std::size_t arrow_pixels(const Image8& picture, const Cross& cross, double prop_
 }
 
 TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
     for (const int count : {6, 9, 15, -15}) {
@@ -81,7 +82,7 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
         setup.reach_m = count < 0 ? std::optional(reach_of({0.8, 0.5}, 0.3)) : std::nullopt;
         const auto look = [&](const TouchProcedure& procedure) {
             if (procedure.stage() == CalibrationStage::Place) {
-                const Image8 picture = table_picture(
+                const image::Image8 picture = programs::table_picture(
                     procedure,
                     {.width = width, .height = height, .prop_px = prop_px, .typesetter = *typesetter});
                 EXPECT_GT(arrow_pixels(picture, procedure.cross(), prop_px), 30U)
@@ -94,7 +95,7 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
 }
 
 /// White pixels that no arm explains, inside the prop's square or outside it.
-std::size_t word_pixels(const Image8& picture, const Cross& cross, double prop_px, bool inside) {
+std::size_t word_pixels(const image::Image8& picture, const Cross& cross, double prop_px, bool inside) {
     constexpr double line_px = 4.0;
     std::size_t count = 0;
     for (int v = 0; v < picture.height; ++v) {
@@ -112,7 +113,7 @@ std::size_t word_pixels(const Image8& picture, const Cross& cross, double prop_p
 
 /// The prop hides none of them, wherever it stands on the shipped table.
 TEST(TouchPicture, NoWordStandsWhereThePropDoes) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
     CrossSetup setup;
@@ -121,7 +122,7 @@ TEST(TouchPicture, NoWordStandsWhereThePropDoes) {
     int looked_at = 0;
     const auto look = [&](const TouchProcedure& procedure) {
         if (procedure.stage() == CalibrationStage::Place) {
-            const Image8 picture = table_picture(
+            const image::Image8 picture = programs::table_picture(
                 procedure, {.width = width, .height = height, .prop_px = prop_px, .typesetter = *typesetter});
             EXPECT_EQ(word_pixels(picture, procedure.cross(), prop_px, true), 0U) << procedure.at();
             EXPECT_GT(word_pixels(picture, procedure.cross(), prop_px, false), 500U) << procedure.at();
@@ -140,25 +141,25 @@ TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
     found.table.emplace();
     found.off_m = 0.0124;
     found.uncertainty.mean_m = 5e-4;
-    EXPECT_EQ(judgement_of(found).told,
+    EXPECT_EQ(programs::judgement_of(found).told,
               (std::vector<std::string>{"The projector moved.",
                                         "The picture was 12 mm beside its place. Once this is kept it is "
                                         "right again, to about 0.5 mm."}));
     found.verdict = Verdict::Repeat;
     found.moved = Moved::Either;
-    EXPECT_EQ(judgement_of(found).told,
+    EXPECT_EQ(programs::judgement_of(found).told,
               (std::vector<std::string>{"The projector moved, or the tracker's source.",
                                         "The picture was 12 mm beside its place. These touches are too few "
                                         "to check each other."}));
     found.moved = Moved::Nothing;
     found.reason.sentence = "the kept calibration holds";
-    EXPECT_TRUE(judgement_of(found).nothing_moved);
-    EXPECT_EQ(judgement_of(found).told,
+    EXPECT_TRUE(programs::judgement_of(found).nothing_moved);
+    EXPECT_EQ(programs::judgement_of(found).told,
               (std::vector<std::string>{"Nothing has moved.", "The kept calibration holds."}));
-    const TouchJudgement refused = judgement_of(TouchUp{});
+    const TouchJudgement refused = programs::judgement_of(TouchUp{});
     EXPECT_EQ(refused.verdict, Verdict::Refused);
     EXPECT_FALSE(refused.nothing_moved);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

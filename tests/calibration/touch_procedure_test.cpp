@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 using Input = TouchProcedure::Input;
@@ -20,7 +20,7 @@ protected:
         return {{{100, 100}, 0.0, 0.0}, {{900, 100}, 0.0, 1.5}, {{500, 600}, 0.05, 0.0}};
     }
     /// The prop's pose on the cross `k`.
-    static RigidTransform on(std::size_t k) {
+    static geometry::RigidTransform on(std::size_t k) {
         return {glm::angleAxis(0.5 * static_cast<double>(k), glm::dvec3(0, 0, 1)),
                 {0.1 * static_cast<double>(k), 0.05, 0.1}};
     }
@@ -29,10 +29,10 @@ protected:
         procedure.step({now, std::nullopt, next, !next});
     }
     /// Reports a pose for `time`, each with noise.
-    void rest(const RigidTransform& pose, Nanoseconds time, double noise_m = 2e-4) {
+    void rest(const geometry::RigidTransform& pose, Nanoseconds time, double noise_m = 2e-4) {
         for (const MonotonicTime end = now + time; now < end;) {
             now += tick;
-            RigidTransform report = pose;
+            geometry::RigidTransform report = pose;
             report.translation += noise_m * numbers.normals();
             procedure.step({now, report, false, false});
         }
@@ -43,7 +43,7 @@ protected:
     }
 
     TouchProcedure procedure;
-    SeededNumbers numbers{5};
+    simulators::SeededNumbers numbers{5};
     MonotonicTime now = from_microseconds(1'000'000);
 };
 
@@ -72,7 +72,7 @@ TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
 TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     press(true);
     rest(on(0), TouchProcedure::rest / 2);
-    RigidTransform pushed = on(0);
+    geometry::RigidTransform pushed = on(0);
     pushed.translation.x += 0.01;
     rest(pushed, TouchProcedure::rest / 2);
     EXPECT_EQ(procedure.stage(), CalibrationStage::HoldStill);
@@ -81,7 +81,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     EXPECT_EQ(procedure.at(), 1U);
     press(true); // a rotation alone counts too
     rest(on(1), TouchProcedure::rest / 2);
-    RigidTransform turned = on(1);
+    geometry::RigidTransform turned = on(1);
     turned.rotation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1)) * turned.rotation;
     rest(turned, tick * 2);
     EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
@@ -287,16 +287,16 @@ TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
 /// The whole procedure on a simulated table: crosses chosen for the described projector, touches on another
 /// one.
 TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
-    const SimulatedTable table = some_table(3);
+    const simulators::SimulatedTable table = simulators::some_table(3);
     ChosenCrosses chosen;
     const std::vector<Cross> crosses = chosen.of(table, 9);
     TouchProcedure procedure(crosses);
-    SeededNumbers numbers(4);
+    simulators::SeededNumbers numbers(4);
     MonotonicTime now = from_microseconds(0);
     procedure.step({now, std::nullopt, true, false});
     while (procedure.stage() != CalibrationStage::Solve) {
         procedure.step({now, std::nullopt, true, false});
-        const Touch lies = simulated_touch(table, {procedure.cross(), 0.0}, {}, numbers);
+        const Touch lies = simulators::simulated_touch(table, {procedure.cross(), 0.0}, {}, numbers);
         for (int k = 0; k < 60 && procedure.stage() == CalibrationStage::HoldStill; ++k) {
             now += tick;
             procedure.step({now, lies.tracker_from_sensor, false, false});
@@ -308,8 +308,8 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     procedure.judge({judged.verdict, {}, judged.repeat, judged.residuals, false});
     procedure.step({now, std::nullopt, true, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::Done) << judged.reason.sentence;
-    EXPECT_LT(registration_error(table, *judged.table, 0.12).mean_m, 1e-3);
+    EXPECT_LT(simulators::registration_error(table, *judged.table, 0.12).mean_m, 1e-3);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -8,20 +8,21 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 TEST(Touch, WithoutNoiseTheTruthIsFound) {
     ChosenCrosses crosses;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(seed);
         TouchSetup setup = setup_for(table);
         setup.priors = wide_priors(); // the priors' means are not the truth
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup);
         ASSERT_TRUE(found.table) << seed << ": " << found.reason.sentence;
-        const RegistrationError error = registration_error(table, *found.table, setup.top_m);
+        const simulators::RegistrationError error =
+            simulators::registration_error(table, *found.table, setup.top_m);
         EXPECT_LT(error.worst_m, 2e-5) << seed;
         EXPECT_LT(found.worst_residual_m, 1e-5) << seed;
         EXPECT_NEAR(found.table->pinhole.fx / table.truth.pinhole.fx, 1.0, 1e-4) << seed;
@@ -30,8 +31,8 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
 
 TEST(Touch, ItIsInTheTablesFrameOfTheConventions) {
     ChosenCrosses crosses;
-    const SimulatedTable table = some_table(5);
-    SeededNumbers numbers(5);
+    const simulators::SimulatedTable table = simulators::some_table(5);
+    simulators::SeededNumbers numbers(5);
     const TouchCalibration found =
         calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup_for(table));
     ASSERT_TRUE(found.table);
@@ -51,9 +52,9 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
     constexpr std::uint64_t tables = 12;
     std::vector<double> beside; // of each table, over the expected error
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const SimulatedTable table = some_table(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
         const std::vector<Cross>& chosen = crosses.of(table, seed % 2 == 0 ? 9 : 15);
-        SeededNumbers numbers(4000 + seed);
+        simulators::SeededNumbers numbers(4000 + seed);
         const PropagatedTouches best =
             propagated_touches(table, touches_of(table, chosen, no_noise, numbers), little, {}, 0.12);
         TouchSetup setup = setup_for(table);
@@ -64,7 +65,7 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
         if (!found.repeat.empty()) {
             continue; // one looks wrong by chance, and is left out of the fit
         }
-        const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
+        const std::vector<glm::dvec3> offsets = simulators::registration_offsets(table, *found.table, 0.12);
         const Eigen::VectorXd expected = offsets_by(best, table, touches);
         ASSERT_EQ(static_cast<std::size_t>(expected.size()), 3 * offsets.size());
         double sum = 0.0;
@@ -94,15 +95,15 @@ Figures figures_of(int count) {
     ChosenCrosses crosses;
     Figures figures;
     for (std::uint64_t seed = 1; seed <= table_count; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(1000 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(1000 + seed);
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, count), {}, numbers), setup_for(table));
         if (!found.table) {
             ADD_FAILURE() << seed << ": " << found.reason.sentence;
             continue;
         }
-        const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
+        const std::vector<glm::dvec3> offsets = simulators::registration_offsets(table, *found.table, 0.12);
         double sum = 0.0;
         double worst = 0.0;
         for (const glm::dvec3& offset : offsets) {
@@ -127,8 +128,8 @@ Propagated propagated_of(int count) {
     ChosenCrosses crosses;
     Propagated propagated;
     for (std::uint64_t seed = 1; seed <= table_count; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(3000 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(3000 + seed);
         const Touches touches = touches_of(table, crosses.of(table, count), no_noise, numbers);
         const PropagatedTouches each = propagated_touches(table, touches, {}, {}, 0.12);
         const SquareError square = square_error(each);
@@ -196,14 +197,15 @@ TEST(Touch, TheUncertaintyIsThatOfTheErrors) {
     double square = 0.0;
     constexpr int seeds = 60;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(2000 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(2000 + seed);
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), {}, numbers), setup_for(table));
         ASSERT_TRUE(found.table);
-        square +=
-            std::pow(registration_error(table, *found.table, 0.12).mean_m / found.uncertainty.mean_m, 2.0) /
-            seeds;
+        square += std::pow(simulators::registration_error(table, *found.table, 0.12).mean_m /
+                               found.uncertainty.mean_m,
+                           2.0) /
+                  seeds;
     }
     // A mean distance over a root mean square is somewhat below 1.
     EXPECT_GT(std::sqrt(square), 0.6);
@@ -212,8 +214,8 @@ TEST(Touch, TheUncertaintyIsThatOfTheErrors) {
 
 TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
     ChosenCrosses crosses;
-    const SimulatedTable table = some_table(7);
-    SeededNumbers numbers(7);
+    const simulators::SimulatedTable table = simulators::some_table(7);
+    simulators::SeededNumbers numbers(7);
     Touches touches = touches_of(table, crosses.of(table, 9), {}, numbers);
     TouchSetup setup = setup_for(table);
     setup.sensor_height_m.reset();
@@ -221,13 +223,14 @@ TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
     EXPECT_EQ(upright.verdict, Verdict::Refused);
     EXPECT_NE(upright.reason.sentence.find("--sensor-height"), std::string::npos) << upright.reason.sentence;
     for (std::size_t k = 0; k < 3; ++k) {
-        touches.push_back(simulated_touch(table, {crosses.of(table, 9)[3 * k], 1.5}, {}, numbers));
+        touches.push_back(
+            simulators::simulated_touch(table, {crosses.of(table, 9)[3 * k], 1.5}, {}, numbers));
     }
     const TouchCalibration found = calibrate_touch(touches, setup);
     ASSERT_TRUE(found.table) << found.reason.sentence;
     EXPECT_LT(glm::distance(found.table->sensor_offset_m, table.truth.sensor_offset_m), 2e-3);
-    EXPECT_LT(registration_error(table, *found.table, 0.12).mean_m, 1e-3);
+    EXPECT_LT(simulators::registration_error(table, *found.table, 0.12).mean_m, 1e-3);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

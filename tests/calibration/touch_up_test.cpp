@@ -9,13 +9,13 @@
 #include <cstdio>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr double top_m = 0.12;
 
 /// Crosses spread over the picture and the blocks, the prop turned by a quarter turn from one to the next.
-std::vector<Cross> few_crosses(const SimulatedTable& table, std::size_t count) {
+std::vector<Cross> few_crosses(const simulators::SimulatedTable& table, std::size_t count) {
     const std::vector<Cross> shares{{{0.07, 0.08}, 0.0, 0.0},  {{0.93, 0.2}, 0.12, 0.0},
                                     {{0.5, 0.93}, 0.0, 0.0},   {{0.93, 0.93}, 0.0, 0.0},
                                     {{0.07, 0.93}, 0.12, 0.0}, {{0.93, 0.07}, 0.0, 0.0},
@@ -30,14 +30,15 @@ std::vector<Cross> few_crosses(const SimulatedTable& table, std::size_t count) {
 
 /// A table, its kept calibration, and the table after a bump.
 struct Bumped {
-    SimulatedTable before, table;
+    simulators::SimulatedTable before, table;
     CalibratedTable kept;
 };
 
-SimulatedTable moved_by(SimulatedTable table, Moved what, const glm::dvec3& turn, const glm::dvec3& shift) {
+simulators::SimulatedTable moved_by(simulators::SimulatedTable table, Moved what, const glm::dvec3& turn,
+                                    const glm::dvec3& shift) {
     const double angle = glm::length(turn);
-    const RigidTransform change{glm::angleAxis(angle, turn / angle), shift};
-    RigidTransform& pose =
+    const geometry::RigidTransform change{glm::angleAxis(angle, turn / angle), shift};
+    geometry::RigidTransform& pose =
         what == Moved::Projector ? table.truth.table_from_projector : table.truth.table_from_tracker;
     pose = pose * change; // about the lens, or the tracker's own origin
     return table;
@@ -47,8 +48,8 @@ SimulatedTable moved_by(SimulatedTable table, Moved what, const glm::dvec3& turn
 /// 20 mm.
 Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& crosses) {
     Bumped out;
-    out.before = some_table(seed);
-    SeededNumbers numbers(8000 + seed);
+    out.before = simulators::some_table(seed);
+    simulators::SeededNumbers numbers(8000 + seed);
     out.kept = *calibrate_touch(touches_of(out.before, crosses.of(out.before, 9), {}, numbers),
                                 setup_for(out.before))
                     .table;
@@ -61,7 +62,7 @@ Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& cross
     double size = off_m;
     for (int k = 0; k < 8; ++k) {
         out.table = moved_by(out.before, what, size * turn, size * shift);
-        size *= off_m / registration_error(out.table, out.before.truth, top_m).mean_m;
+        size *= off_m / simulators::registration_error(out.table, out.before.truth, top_m).mean_m;
     }
     return out;
 }
@@ -87,7 +88,7 @@ Share share_of(Moved what, double off_m, std::size_t count, std::uint64_t seeds,
     Share share;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Bumped one = bumped(seed, what, off_m, crosses);
-        SeededNumbers numbers(9000 + seed);
+        simulators::SeededNumbers numbers(9000 + seed);
         const Touches touches = touches_of(one.table, few_crosses(one.table, count), {}, numbers);
         const TouchUp found = touch_up(one.kept, touches, setup_for(one.table));
         share.named += found.table && found.moved == what ? 1 : 0;
@@ -95,9 +96,10 @@ Share share_of(Moved what, double off_m, std::size_t count, std::uint64_t seeds,
         share.nothing += found.table && found.moved == Moved::Nothing ? 1 : 0;
         share.misnamed += found.table && found.moved != what && found.moved != Moved::Either ? 1 : 0;
         share.refused += found.table ? 0 : 1;
-        const RegistrationError before = registration_error(one.table, one.kept, top_m);
-        const RegistrationError after =
-            found.table ? registration_error(one.table, *found.table, top_m) : before;
+        const simulators::RegistrationError before =
+            simulators::registration_error(one.table, one.kept, top_m);
+        const simulators::RegistrationError after =
+            found.table ? simulators::registration_error(one.table, *found.table, top_m) : before;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
             ++share.usable;
             share.broken += after.worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
@@ -127,7 +129,7 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
     Faulty out;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Bumped one = bumped(seed, what, 10e-3, crosses);
-        SeededNumbers numbers(9500 + seed);
+        simulators::SeededNumbers numbers(9500 + seed);
         Touches touches = touches_of(one.table, few_crosses(one.table, count), {}, numbers);
         Touch& wrong = touches[numbers.below(count)];
         if (seed % 2 == 0) {
@@ -145,7 +147,7 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
         out.repeat += found.verdict == Verdict::Repeat ? 1 : 0;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
             ++out.judged;
-            const double worst_m = registration_error(one.table, *found.table, top_m).worst_m;
+            const double worst_m = simulators::registration_error(one.table, *found.table, top_m).worst_m;
             out.broken += worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
             if (worst_m > 5e-3) {
                 std::printf("  seed %d %s: %s, off by %.1f\n", static_cast<int>(seed),
@@ -167,7 +169,7 @@ TEST(TouchUp, EachResidualIsWhatTheOtherTouchesSayOfIt) {
     int compared = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const Bumped one = bumped(seed, Moved::Tracker, 0.02, crosses);
-        SeededNumbers numbers(9000 + seed);
+        simulators::SeededNumbers numbers(9000 + seed);
         const Touches touches = touches_of(one.table, few_crosses(one.table, 7), {}, numbers);
         const TouchSetup setup = setup_for(one.table);
         const TouchUp found = touch_up(one.kept, touches, setup);
@@ -218,7 +220,7 @@ TEST(TouchUp, WhereNothingMovedNothingIsChanged) {
 TEST(TouchUp, WhatSaysNothingIsRefused) {
     ChosenCrosses crosses;
     const Bumped one = bumped(3, Moved::Projector, 10e-3, crosses);
-    SeededNumbers numbers(1);
+    simulators::SeededNumbers numbers(1);
     const TouchSetup setup = setup_for(one.table);
     const auto reason = [&](const Touches& touches) {
         const TouchUp found = touch_up(one.kept, touches, setup);
@@ -265,7 +267,7 @@ ByButtons by_buttons(int few, int more, std::uint64_t seeds, ChosenCrosses& cros
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Bumped one = bumped(seed, Moved::Projector, 10e-3, crosses);
         const std::vector<Cross> chosen = chosen_crosses(one.kept, few, more);
-        SeededNumbers numbers(9700 + seed);
+        simulators::SeededNumbers numbers(9700 + seed);
         const Touches all = touches_of(one.table, chosen, {}, numbers);
         const auto first = std::span(all).first(static_cast<std::size_t>(few));
         TouchUp found = touch_up(one.kept, first, setup_for(one.table));
@@ -275,8 +277,10 @@ ByButtons by_buttons(int few, int more, std::uint64_t seeds, ChosenCrosses& cros
             found = touch_up(one.kept, all, setup_for(one.table));
         }
         const bool is_kept = found.verdict == Verdict::Good || found.verdict == Verdict::Usable;
-        const RegistrationError before = registration_error(one.table, one.kept, top_m);
-        const RegistrationError after = is_kept ? registration_error(one.table, *found.table, top_m) : before;
+        const simulators::RegistrationError before =
+            simulators::registration_error(one.table, one.kept, top_m);
+        const simulators::RegistrationError after =
+            is_kept ? simulators::registration_error(one.table, *found.table, top_m) : before;
         out.refused += found.verdict == Verdict::Refused ? 1 : 0;
         out.after_all += is_kept ? 1 : 0;
         out.broken += is_kept && after.worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
@@ -320,4 +324,4 @@ TEST(TouchUp, DISABLED_TheFigures) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 namespace {
 
 constexpr double top_m = 0.12;
@@ -30,7 +30,7 @@ TouchCalibration slope() {
 }
 
 /// Index of the legend's colour at a pixel; steps are 0.15 mm if the worst place has 1 mm.
-int legend_step(const Image8& picture, int x, int y) {
+int legend_step(const image::Image8& picture, int x, int y) {
     for (int k = 0; k < 8; ++k) {
         if (picture.at(70 + 90 * k + 45, 796 + 15) == picture.at(x, y)) {
             return k;
@@ -40,9 +40,10 @@ int legend_step(const Image8& picture, int x, int y) {
 }
 
 TEST(UncertaintyPicture, ItsColoursAreTheUncertaintysOfThatPlace) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
-    const Image8 picture = uncertainty_picture(*map_of(slope()), {}, top_m, *typesetter);
+    const image::Image8 picture =
+        programs::uncertainty_picture(*programs::map_of(slope()), {}, top_m, *typesetter);
     // The fields' middles are at x = 420 and 1180, y = 440; the picture on the table fills 96 % of a field's width of 700.
     constexpr double width_px = 0.96 * 700.0;
     for (const double share : {0.1, 0.5, 0.8}) {
@@ -57,7 +58,7 @@ TEST(UncertaintyPicture, ItsColoursAreTheUncertaintysOfThatPlace) {
 }
 
 /// True if anything but paper is along the picture's edge.
-bool is_cut_off(const Image8& picture) {
+bool is_cut_off(const image::Image8& picture) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const bool is_edge = x < 20 || y < 20 || x >= picture.width - 20 || y >= picture.height - 20;
@@ -70,24 +71,25 @@ bool is_cut_off(const Image8& picture) {
 }
 
 TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     ChosenCrosses crosses;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(seed);
         const Touches touches = touches_of(table, crosses.of(table, 9), {}, numbers);
         const TouchCalibration found = calibrate_touch(touches, setup_for(table));
         ASSERT_TRUE(found.table);
         ASSERT_EQ(found.zone.size(), 3 * zone_columns * zone_rows);
-        const Image8 picture = uncertainty_picture(*map_of(found), places_of(touches), top_m, *typesetter);
+        const image::Image8 picture = programs::uncertainty_picture(
+            *programs::map_of(found), programs::places_of(touches), top_m, *typesetter);
         EXPECT_FALSE(is_cut_off(picture)) << "table " << seed;
     }
 }
 
 /// By hand: the measured places are the picture's own corners, and those on the board are at the prop's top.
 TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     CornerCalibration found;
     found.pinhole = slope().table->pinhole;
@@ -97,8 +99,9 @@ TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
         corners.push_back({1 + k / 4, static_cast<PictureCorner>(k % 4), {0.0, 0.0, 0.4 * (k / 4)}});
     }
     const CornerUncertainty uncertainty{1e-3, slope().uncertainty, slope().zone};
-    const auto map = map_of(found, uncertainty);
-    const Image8 picture = uncertainty_picture(*map, places_of(corners, 1920, 1200), top_m, *typesetter);
+    const auto map = programs::map_of(found, uncertainty);
+    const image::Image8 picture =
+        programs::uncertainty_picture(*map, programs::places_of(corners, 1920, 1200), top_m, *typesetter);
     EXPECT_FALSE(is_cut_off(picture));
     // The picture is 1.28 x 0.8 m on the table, and fills 96 % of a field's width of 700; the fields' middles
     // are at x = 420 and 1180, y = 440.
@@ -118,4 +121,4 @@ TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

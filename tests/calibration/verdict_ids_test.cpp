@@ -16,7 +16,7 @@
 #include <sstream>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -101,4 +101,4 @@ TEST(VerdictIds, OfNoPoints) {
 
 } // namespace
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -3,7 +3,7 @@
 
 #include "app/calibration/priors.h"
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Priors a thousand times as wide; the sensor's height keeps a ruler's accuracy.
 [[nodiscard]] inline Priors wide_priors() {
@@ -18,4 +18,4 @@ namespace frustumscreen {
             .sensor_height_m = usual.sensor_height_m};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::milliseconds;
@@ -268,4 +268,4 @@ TEST(ListCameras, NamesAllAndWhatTheyOffer) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

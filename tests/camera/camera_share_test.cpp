@@ -24,7 +24,7 @@
 #include <functional>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::seconds;
@@ -49,9 +49,9 @@ Picture jpeg_of(const Picture& grey) {
 }
 
 /// The tags around a prop, all with equal orientation.
-std::vector<PropTag> prop_tags() {
-    std::vector<PropTag> tags = tags_of({});
-    for (PropTag& tag : tags) {
+std::vector<tags::PropTag> prop_tags() {
+    std::vector<tags::PropTag> tags = simulators::tags_of({});
+    for (tags::PropTag& tag : tags) {
         tag.prop_from_tag.rotation = tags.front().prop_from_tag.rotation;
     }
     return tags;
@@ -59,11 +59,11 @@ std::vector<PropTag> prop_tags() {
 
 /// The tags lie flat in the table's middle; only noise differs between the pictures.
 std::vector<Picture> table_pictures(std::size_t count) {
-    std::vector<SceneTag> tags;
-    for (const PropTag& tag : prop_tags()) {
+    std::vector<drift::SceneTag> tags;
+    for (const tags::PropTag& tag : prop_tags()) {
         tags.push_back({tag.id, glm::dvec2(tag.prop_from_tag.translation), tag.size_m});
     }
-    TableScene scene(width, height, {}, tags);
+    drift::TableScene scene(width, height, {}, tags);
     std::vector<Picture> pictures;
     for (std::size_t k = 0; k < count; ++k) {
         pictures.push_back(jpeg_of(scene.frame(0.0, std::nullopt)));
@@ -71,8 +71,8 @@ std::vector<Picture> table_pictures(std::size_t count) {
     return pictures;
 }
 
-WatchingCamera watching(int columns, int rows) {
-    WatchingCamera camera;
+simulators::WatchingCamera watching(int columns, int rows) {
+    simulators::WatchingCamera camera;
     camera.pinhole = camera.pinhole.scaled_to(columns, rows);
     return camera;
 }
@@ -85,38 +85,39 @@ struct Room {
 /// Two seconds without visitors; then a person stands there and sways for two more.
 Room room_of(int columns, int rows) {
     std::mt19937_64 random(1);
-    Person person = any_person(Build::Adult, random);
+    simulators::Person person = simulators::any_person(simulators::Build::Adult, random);
     person.holds = true;
     const glm::dvec2 table_size_m(0.8, 0.5);
-    const glm::dvec3 stands = any_eye(Build::Adult, 0.1, 0.12, table_size_m, random);
-    const RoomScene scene(watching(columns, rows), {}, table_size_m, make_frustum(shipped_frustum),
-                          glm::dvec3(0.0));
+    const glm::dvec3 stands = simulators::any_eye(simulators::Build::Adult, 0.1, 0.12, table_size_m, random);
+    const simulators::RoomScene scene(watching(columns, rows), {}, table_size_m,
+                                      geometry::make_frustum(geometry::shipped_frustum), glm::dvec3(0.0));
     const auto bodies = [&](double t_s) {
-        std::vector<std::vector<Ball>> all;
+        std::vector<std::vector<simulators::Ball>> all;
         if (t_s > 2.0) {
-            all.push_back(body_of(person, stands + sway(person, t_s), {0.0, 0.0, 0.08}));
+            all.push_back(
+                simulators::body_of(person, stands + simulators::sway(person, t_s), {0.0, 0.0, 0.08}));
         }
         return all;
     };
     Room room{columns, rows, {}};
     for (std::uint64_t k = 0; k < 120; ++k) {
         room.pictures.push_back(scene.picture(
-            bodies, [](double) { return LightNow{}; }, static_cast<double>(k) / rate_hz, k));
+            bodies, [](double) { return simulators::LightNow{}; }, static_cast<double>(k) / rate_hz, k));
     }
     return room;
 }
 
 /// The view of TableScene; the camera's place makes no difference here.
-TagSetUp tag_set_up() {
+tags::TagSetUp tag_set_up() {
     const double focal = 1.3 * width / 0.95;
     return {{width, height, focal, focal, 0.5 * width, 0.5 * height, {-0.08, 0.0}}, {}, prop_tags()};
 }
 
 std::vector<glm::dvec2> marks() {
-    Settings settings;
-    settings.projector.pinhole = SceneProjector().pinhole;
-    settings.projector.table_from_projector = SceneProjector().table_from_projector;
-    return mark_places(settings);
+    settings::Settings settings;
+    settings.projector.pinhole = drift::SceneProjector().pinhole;
+    settings.projector.table_from_projector = drift::SceneProjector().table_from_projector;
+    return drift::mark_places(settings);
 }
 
 struct On {
@@ -200,9 +201,9 @@ private:
     MonotonicTime begin_ = *camera_.now;
     double used_ = 0.0, poses_ = 0.0, heads_ = 0.0;
     CameraFrame seen_;
-    TagReader tags_;
-    VisitorReader visitor_;
-    DriftWatch drift_{{marks(), {}, std::filesystem::path(testing::TempDir()) / "share_drift.json"}};
+    tags::TagReader tags_;
+    visitor::VisitorReader visitor_;
+    drift::DriftWatch drift_{{marks(), {}, std::filesystem::path(testing::TempDir()) / "share_drift.json"}};
     CameraDriver driver_;
 };
 
@@ -217,10 +218,10 @@ TEST(CameraShare, WhatIsPassedOverTakesNeitherTheTagsNorTheVisitorAway) {
     const std::vector<Picture> table = table_pictures(10);
     const Room room = room_of(640, 360);
     Kiosk kiosk(
-        table, room, {true, true, true}, max_camera_share, [&busy_s] { return busy_s += 0.016; },
+        table, room, {true, true, true}, programs::max_camera_share, [&busy_s] { return busy_s += 0.016; },
         [] { return 0.0; });
     const Spent spent = kiosk.run();
-    EXPECT_NEAR(spent.used_hz, max_camera_share / 0.016, 1.5);
+    EXPECT_NEAR(spent.used_hz, programs::max_camera_share / 0.016, 1.5);
     EXPECT_EQ(spent.poses_hz, spent.used_hz);
     EXPECT_GT(spent.heads_hz, 0.9 * spent.used_hz);
 }
@@ -229,7 +230,7 @@ TEST(CameraShare, DISABLED_TheFigures) {
     const std::vector<Picture> table = table_pictures(30);
     const Room room = room_of(width, height);
     std::printf("a frame has %.0f kB\n", 1e-3 * static_cast<double>(table.front().size()));
-    for (const double max_share : {1.0, max_camera_share}) {
+    for (const double max_share : {1.0, programs::max_camera_share}) {
         std::printf("| on, of one core at most %.2f | ms a frame | frames used a second | of one core | "
                     "poses a second | heads a "
                     "second |\n|---|---|---|---|---|---|\n",
@@ -248,4 +249,4 @@ TEST(CameraShare, DISABLED_TheFigures) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

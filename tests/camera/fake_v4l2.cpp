@@ -9,7 +9,7 @@
 #include <deque>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 namespace {
 
@@ -308,4 +308,4 @@ Picture noisy_ramp(int width, int height, std::uint64_t number, int bytes_each) 
     return picture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -16,7 +16,7 @@
 #include <mutex>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 
 using Picture = std::vector<std::uint8_t>;
 
@@ -74,4 +74,4 @@ void make_usual(FakeCamera& camera);
 /// others.
 [[nodiscard]] Picture noisy_ramp(int width, int height, std::uint64_t number, int bytes_each = 1);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

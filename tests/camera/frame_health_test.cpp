@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::milliseconds;
@@ -187,4 +187,4 @@ TEST(FrameHealth, ACameraOfOneFrameASecondIsNeitherSlowNorSilent) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

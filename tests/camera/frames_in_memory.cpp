@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 Picture jpeg_of(const Picture& grey) {
@@ -51,10 +51,11 @@ std::uint64_t frames_of(std::uint32_t fourcc, CameraFrame& frame) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera
 
 int main(int argc, char** argv) {
     using namespace frustumscreen;
+    using namespace frustumscreen::camera;
     CameraFrame frame;
     unsigned long frames = 0;
     for (const std::uint32_t fourcc : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG}) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 constexpr int width = 64, height = 48;
@@ -131,4 +131,4 @@ TEST(LumaReader, AJpegOfAnotherSizeOrThatIsCutOffIsRefused) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

@@ -17,7 +17,7 @@
 #include <cstdio>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::milliseconds;
@@ -25,26 +25,27 @@ using std::chrono::milliseconds;
 constexpr int width = 320, height = 180;
 
 std::vector<glm::dvec2> marks() {
-    Settings settings;
-    settings.projector.pinhole = SceneProjector().pinhole;
-    settings.projector.table_from_projector = SceneProjector().table_from_projector;
-    return mark_places(settings);
+    settings::Settings settings;
+    settings.projector.pinhole = drift::SceneProjector().pinhole;
+    settings.projector.table_from_projector = drift::SceneProjector().table_from_projector;
+    return drift::mark_places(settings);
 }
 
 /// Returns whether a pose was found.
 bool find_tags() {
-    SceneCamera camera;
-    camera.table_from_camera = *looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
-    TagTracker tags({camera.pinhole, camera.table_from_camera, tags_of({})});
-    const TagScene scene(make_frustum(shipped_frustum), tags_of({}), camera, {});
+    simulators::SceneCamera camera;
+    camera.table_from_camera = *settings::looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
+    tags::TagTracker tags({camera.pinhole, camera.table_from_camera, simulators::tags_of({})});
+    const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum),
+                                     simulators::tags_of({}), camera, {});
     const CameraFrame frame{MonotonicTime(milliseconds(1000)), 1, camera.pinhole.width, camera.pinhole.height,
                             scene.picture(
                                 [](double) {
-                                    return RigidTransform{{1, 0, 0, 0}, {0.04, -0.03, 0.0}};
+                                    return geometry::RigidTransform{{1, 0, 0, 0}, {0.04, -0.03, 0.0}};
                                 },
                                 1)};
     tags.use(frame);
-    std::vector<UncertainPose> poses;
+    std::vector<tracking::UncertainPose> poses;
     tags.poll(MonotonicTime(std::chrono::hours(1)), poses);
     return !poses.empty();
 }
@@ -55,21 +56,21 @@ public:
     explicit Frames(const std::filesystem::path& folder)
         : folder_(folder), drift_({marks_, {}, folder / "drift.json"}),
           visitor_({{width, height, 300.0, 300.0, width / 2.0, height / 2.0},
-                    *looking_at({0.0, 0.4, 0.5}, {0.0, -0.4, 0.4}, 0.0),
+                    *settings::looking_at({0.0, 0.4, 0.5}, {0.0, -0.4, 0.4}, 0.0),
                     {}}) {}
 
     unsigned long run() {
         for (; count_ < 10'000 && !std::filesystem::exists(folder_ / "drift.json");
              now_ += milliseconds(66)) {
-            const std::optional<ShownMark> mark = drift_.step(now_, true);
+            const std::optional<drift::ShownMark> mark = drift_.step(now_, true);
             static_cast<void>(shadow_.step(now_, true));
             if (!shadow_.began() ||
-                now_ - *shadow_.began() > MarkTimes::length(marks_.size()) + milliseconds(200)) {
+                now_ - *shadow_.began() > drift::MarkTimes::length(marks_.size()) + milliseconds(200)) {
                 continue; // no mark is expected
             }
-            std::optional<TableScene::Light> light;
+            std::optional<drift::TableScene::Light> light;
             if (mark) {
-                light = TableScene::Light{mark->place_m, mark->brightness};
+                light = drift::TableScene::Light{mark->place_m, mark->brightness};
             }
             frame = {now_ + milliseconds(40), ++count_, width, height, scene_.frame(0.0, light)};
             drift_.use(frame);
@@ -87,22 +88,23 @@ public:
 private:
     std::filesystem::path folder_;
     std::vector<glm::dvec2> marks_ = marks();
-    MarkSchedule shadow_{marks_.size()}; ///< steps in parallel with the watch's own
-    DriftWatch drift_;
-    VisitorTracker visitor_;
-    Viewfinder viewfinder_{{320, 240}, 1};
-    Image8 picture_{320, 240};
-    std::vector<SeenHead> heads_;
-    TableScene scene_{width, height, {}};
+    drift::MarkSchedule shadow_{marks_.size()}; ///< steps in parallel with the watch's own
+    drift::DriftWatch drift_;
+    visitor::VisitorTracker visitor_;
+    show::Viewfinder viewfinder_{{320, 240}, 1};
+    image::Image8 picture_{320, 240};
+    std::vector<tracking::SeenHead> heads_;
+    drift::TableScene scene_{width, height, {}};
     MonotonicTime now_{std::chrono::seconds(100)};
     unsigned long count_ = 0;
 };
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera
 
 int main(int argc, char** argv) {
     using namespace frustumscreen;
+    using namespace frustumscreen::camera;
     if (argc < 2 || !find_tags()) {
         return 1;
     }

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::milliseconds;
@@ -78,4 +78,4 @@ TEST(FrameMailbox, ThreeFramesGoRoundAndNoneIsCopied) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

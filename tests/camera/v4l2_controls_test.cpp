@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 /// Exposure, gain, white balance.
@@ -69,4 +69,4 @@ TEST(CameraControls, ExposureMayNotLengthenFrames) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

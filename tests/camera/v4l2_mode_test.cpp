@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::camera {
 namespace {
 
 std::unique_ptr<V4l2Device> device_of(FakeCamera& camera) {
@@ -159,4 +159,4 @@ TEST(CameraMode, ARefusalSaysWhoseItIs) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::camera

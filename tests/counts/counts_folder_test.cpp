@@ -1,7 +1,7 @@
 // The folder of days: damaged files are told and kept, old days go, and reading changes nothing.
 #include "tests/counts/folder_of_counts.h"
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 namespace {
 
 constexpr std::chrono::sys_days some_day = std::chrono::year(2026) / 11 / 27;
@@ -80,4 +80,4 @@ TEST_F(FolderOfCounts, AFolderThatCannotBeWrittenIsTold) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 namespace {
 
 using std::chrono::seconds;
@@ -87,4 +87,4 @@ TEST(CountsPlot, HasEachDayAndEachHour) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

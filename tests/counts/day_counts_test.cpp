@@ -5,7 +5,7 @@
 
 #include <cctype>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 namespace {
 
 using std::chrono::milliseconds;
@@ -122,4 +122,4 @@ TEST(DayCounts, WhatIsNoDayIsTold) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 
 class FolderOfCounts : public testing::Test {
 protected:
@@ -42,4 +42,4 @@ protected:
     std::filesystem::path folder_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 namespace {
 
 using std::chrono::hours;
@@ -139,4 +139,4 @@ TEST_F(FolderOfCounts, TheBookTakesPiecesAndWritesThemAtItsEnd) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

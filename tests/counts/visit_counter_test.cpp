@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::counts {
 namespace {
 
 using std::chrono::milliseconds;
@@ -147,4 +147,4 @@ TEST(VisitCounter, NothingIsLostHoweverOftenSomebodyPresses) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::counts

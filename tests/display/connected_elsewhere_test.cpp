@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ TEST_F(ConnectedElsewhere, ACardHasItsOwnConnectorsAlone) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -5,7 +5,7 @@
 
 #include <condition_variable>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 /// Hotplug events occur only when the test triggers them; no time passes otherwise.
@@ -137,4 +137,4 @@ TEST(ConnectorWatch, ACardThatIsBeingAskedHoldsUpNobody) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

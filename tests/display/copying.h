@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 using Texel = std::array<unsigned char, 4>;
 
@@ -102,4 +102,4 @@ protected:
     PixelRectangle drawn_; ///< as returned by the last copy
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

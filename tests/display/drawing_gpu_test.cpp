@@ -5,7 +5,7 @@
 #include <EGL/egl.h>
 #include <GLES3/gl31.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 constexpr PixelSize picture_size{64, 40};
@@ -238,4 +238,4 @@ TEST_P(Scanout, AnyCallMayFailOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -357,4 +357,4 @@ void FakeCard::send_event(const Pending& pending, std::uint32_t crtc) const {
     static_cast<void>(!::write(pending.file->events, &event, sizeof event));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -41,7 +41,7 @@ extern "C" {
 #include <xf86drmMode.h>
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 class FakeCard;
 
@@ -230,4 +230,4 @@ private:
     int removed_while_shown_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

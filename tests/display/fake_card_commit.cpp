@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 bool FakeCard::takes(const FakeProperty& property, std::uint64_t value) const {
     const std::uint32_t kind = property.flags & (DRM_MODE_PROP_LEGACY_TYPE | DRM_MODE_PROP_EXTENDED_TYPE);
@@ -303,4 +303,4 @@ void FakeCard::forget_unheld_blobs() {
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

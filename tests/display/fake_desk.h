@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 inline drmModeModeInfo kernel_mode(int width, int height, double hz, bool preferred = false) {
     drmModeModeInfo mode = mode_info(a_mode(width, height, hz));
@@ -119,4 +119,4 @@ private:
     KmsDevice& device_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -13,6 +13,7 @@
 #include <cstring>
 
 using namespace frustumscreen;
+using namespace frustumscreen::display;
 
 extern "C" {
 __eglMustCastToProperFunctionPointerType __real_eglGetProcAddress(const char* name);

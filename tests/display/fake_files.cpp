@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <cstdarg>
 
-using frustumscreen::FakeFile;
-using frustumscreen::FakeKernel;
+using frustumscreen::display::FakeFile;
+using frustumscreen::display::FakeKernel;
 
 extern "C" {
 
@@ -27,8 +27,8 @@ int __wrap_open(const char* path, int flags, ...) {
         return __real_open(path, flags, mode);
     }
     FakeKernel& kernel = FakeKernel::instance();
-    frustumscreen::FakeCard* const card = kernel.card_at(path);
-    const frustumscreen::FakeGpu* const gpu = kernel.gpu_at(path);
+    frustumscreen::display::FakeCard* const card = kernel.card_at(path);
+    const frustumscreen::display::FakeGpu* const gpu = kernel.gpu_at(path);
     if (card == nullptr && gpu == nullptr) {
         return __real_open(path, flags, mode);
     }
@@ -52,7 +52,7 @@ void* __wrap_mmap(void* at, size_t length, int protection, int flags, int file, 
         return __real_mmap(at, length, protection, flags, file, offset);
     }
     FakeKernel& kernel = FakeKernel::instance();
-    const frustumscreen::FakeBuffer* const buffer =
+    const frustumscreen::display::FakeBuffer* const buffer =
         opened->card->buffer(*opened, static_cast<std::uint32_t>(offset >> 12U));
     errno = kernel.enter("mmap");
     if (errno == 0 && (buffer == nullptr || length > buffer->memory->size())) {

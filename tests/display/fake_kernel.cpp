@@ -10,7 +10,7 @@
 
 extern "C" int __real_close(int file);
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 namespace {
 
@@ -155,4 +155,4 @@ std::string FakeKernel::alive() const {
     return words;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -14,7 +14,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 /// A renderer.
 struct FakeGpu {
@@ -78,4 +78,4 @@ private:
     std::string wrongs_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

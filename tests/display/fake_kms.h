@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 inline constexpr Nanoseconds one_refresh{16666667};
 
@@ -205,4 +205,4 @@ struct FakeMemory {
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

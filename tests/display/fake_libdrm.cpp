@@ -6,6 +6,7 @@
 #include <cstring>
 
 using namespace frustumscreen;
+using namespace frustumscreen::display;
 
 struct _drmModeAtomicReq {
     std::vector<FakeChange> changes;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 using namespace frustumscreen;
+using namespace frustumscreen::display;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 MonotonicTime at_us(std::int64_t us) {
@@ -51,4 +51,4 @@ TEST(FlipClock, ASlowerExhibitTakesEverySoManyRefreshes) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

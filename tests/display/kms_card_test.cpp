@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ TEST_F(SeveralCards, AnotherIsOpenedOnlyWhenItsConnectorsChange) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -4,7 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 /// `GetParam`: whether the driver has atomic commits.
@@ -321,4 +321,4 @@ TEST_P(AtomicDevice, WithoutAPlaneOfItsFormatTheCardIsRefused) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

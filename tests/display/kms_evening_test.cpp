@@ -1,7 +1,7 @@
 // An exhibit from start to end on the fake kernel, normally and with each call failing once.
 #include "tests/display/fake_desk.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 bool holds(std::string_view text, std::string_view words) {
@@ -307,4 +307,4 @@ TEST_P(KmsEvening, AnyCallMayFailOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

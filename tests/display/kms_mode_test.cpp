@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 OutputRequest request(int width = 0, int height = 0, double hz = 0.0) {
@@ -205,4 +205,4 @@ TEST(KmsMode, AProjectorWithoutAnEdidGetsUsualModesAndNoOtherIsTouched) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

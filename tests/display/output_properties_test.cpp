@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 /// A connector as in i915 of Linux 6.1 (intel_connector.c, drm_connector.c).
@@ -62,4 +62,4 @@ TEST(OutputProperties, TheRangeIsInDoubtOnHdmiInATelevisionsModeWithoutTheProper
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

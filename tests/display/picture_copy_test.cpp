@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 TEST_F(Copying, OfTheSameSizeEveryCodeArrivesAsItIsAndTheTopRowFirst) {
@@ -159,4 +159,4 @@ TEST(Letterbox, IsAsLargeAsItFitsAndCentred) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 
 inline OutputRequest wish_for_the_preferred() {
     OutputRequest request;
@@ -48,4 +48,4 @@ public:
     Presenter presenter;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -5,7 +5,7 @@
 #include <optional>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
@@ -191,4 +191,4 @@ TEST(Presenter, EndsLitAfterAnyHistoryThatEndsWell) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -1,7 +1,7 @@
 // Which output the presenter lights, how, and what it reports.
 #include "tests/display/presented_exhibit.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
@@ -175,4 +175,4 @@ TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

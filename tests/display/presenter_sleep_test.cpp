@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 ConnectorSeen unplugged() {
@@ -126,4 +126,4 @@ TEST(PresenterSleep, ACardThatIsBackNeedsANewStart) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

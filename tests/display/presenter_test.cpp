@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
@@ -280,4 +280,4 @@ TEST(Presenter, WhoPresentsRarelyWaitsForTheFlip) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

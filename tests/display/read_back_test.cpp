@@ -1,7 +1,7 @@
 #include "firmware_host/display/read_back.h"
 #include "tests/display/copying.h"
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 using ReadingBack = Copying;
@@ -60,4 +60,4 @@ TEST_F(ReadingBack, APartLeavesTheRestOfTheMemoryAsItIs) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST_F(ShaderCache, AFullDiskIsToldAndMesaDoesNotUseIt) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

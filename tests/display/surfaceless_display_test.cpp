@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 TEST(SurfacelessDisplay, KeepsWhatWasDrawnAsSrgbCodes) {
@@ -62,4 +62,4 @@ TEST(SurfacelessDisplay, KnowsDriversThatDrawOnTheProcessorByTheirNames) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

@@ -68,7 +68,7 @@ ssize_t recv(int file, void* bytes, size_t size, int flags) {
 }
 }
 
-namespace frustumscreen {
+namespace frustumscreen::display {
 namespace {
 
 using std::chrono::milliseconds;
@@ -228,4 +228,4 @@ TEST_F(UdevHotplugTest, ALitCardIsAskedAgainWhenUdevSaysSo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::display

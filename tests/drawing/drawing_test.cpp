@@ -12,7 +12,7 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 namespace {
 
 constexpr double written_mm = 2e-3; ///< rounding of the file's values to thousandths
@@ -37,7 +37,7 @@ constexpr Case cases[] = {
     {"small and flat",
      "[prop]\nbase_m = 0.12\ntop_m = 0.1\nheight_m = 0.02\n[eye]\ndefault_m = [0.1, 0.2, 0.6]\n"}};
 
-class Drawing : public ProgramFolder {
+class Drawing : public programs::ProgramFolder {
 protected:
     [[nodiscard]] std::string drawn(const char* settings, const char* sheet) const {
         EXPECT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
@@ -282,4 +282,4 @@ TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

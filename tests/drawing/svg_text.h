@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 struct SvgPolygon {
     std::string view; ///< the view that contains it
@@ -88,4 +88,4 @@ inline std::vector<SvgText> texts(const std::string& svg) {
     return found;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 namespace {
 
 using std::chrono::minutes;
@@ -32,7 +32,8 @@ DriftReference blank() {
 }
 
 /// A measurement of all marks, each displaced by `way_m` and by noise.
-MarkSet look(MonotonicTime time, const glm::dvec2& way_m, double noise_m, SeededNumbers& numbers) {
+MarkSet look(MonotonicTime time, const glm::dvec2& way_m, double noise_m,
+             simulators::SeededNumbers& numbers) {
     MarkSet set{time, {}, {}};
     for (const glm::dvec2& place : places_m) {
         set.marks_px.emplace_back(
@@ -53,7 +54,7 @@ protected:
     [[nodiscard]] DriftState state() const { return check.verdict().state; }
 
     DriftCheck check{blank()};
-    SeededNumbers numbers{3};
+    simulators::SeededNumbers numbers{3};
     MonotonicTime now{};
     int stored = 0;
 };
@@ -161,7 +162,7 @@ std::vector<AnchorTag> anchors(const glm::dvec2& camera_way_px, std::size_t coun
 }
 
 /// The camera was pushed by 8 pixels, 6 mm; the projector by `projector_way_m`.
-DriftMeasure pushed(const glm::dvec2& projector_way_m, std::size_t tags, SeededNumbers& numbers) {
+DriftMeasure pushed(const glm::dvec2& projector_way_m, std::size_t tags, simulators::SeededNumbers& numbers) {
     DriftCheck check(blank());
     for (int k = 0; k < 3; ++k) {
         MarkSet set = look(MonotonicTime(minutes(k)), {}, 1e-4, numbers);
@@ -178,7 +179,7 @@ DriftMeasure pushed(const glm::dvec2& projector_way_m, std::size_t tags, SeededN
 }
 
 TEST(Anchors, TellTheCamerasWayFromTheProjectors) {
-    SeededNumbers numbers(5);
+    simulators::SeededNumbers numbers(5);
     const DriftMeasure camera_alone = pushed({}, 3, numbers);
     EXPECT_TRUE(camera_alone.anchored);
     EXPECT_LT(camera_alone.off_m, 5e-4);
@@ -189,7 +190,7 @@ TEST(Anchors, TellTheCamerasWayFromTheProjectors) {
 }
 
 TEST(Anchors, ATagThatSomebodyMovedIsNotBelieved) {
-    SeededNumbers numbers(6);
+    simulators::SeededNumbers numbers(6);
     DriftReference reference = blank();
     const MarkSet first = look({}, {}, 0.0, numbers);
     reference.marks_px = first.marks_px;
@@ -262,7 +263,7 @@ private:
             }
         }
     }
-    SeededNumbers numbers_;
+    simulators::SeededNumbers numbers_;
     int leans_for_ = 0, thing_for_ = 0;
     glm::dvec2 lean_m_{0.0}, thing_px_{0.0};
     std::size_t first_ = 0, count_ = 0;
@@ -337,4 +338,4 @@ TEST(MuseumDays, DISABLED_OfManyYears) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

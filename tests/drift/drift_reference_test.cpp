@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 namespace {
 
 DriftReference some_reference() {
@@ -35,9 +35,9 @@ TEST(DriftReference, FitsItsOwnMarksAlone) {
         << "another calibration of the same table";
 }
 
-Calibration some_calibration() {
-    const ProjectorSettings projector;
-    Calibration calibration;
+settings::Calibration some_calibration() {
+    const settings::ProjectorSettings projector;
+    settings::Calibration calibration;
     calibration.made = "2026-11-25 10:12 UTC";
     calibration.places = 9;
     calibration.pinhole = projector.pinhole;
@@ -50,18 +50,19 @@ Calibration some_calibration() {
 }
 
 /// The positions lit by a calibration after it was written and read again.
-std::vector<glm::dvec2> marks_by(Calibration& calibration) {
-    const Result<Calibration> kept = parse_calibration(calibration_text(calibration), "kept.toml");
+std::vector<glm::dvec2> marks_by(settings::Calibration& calibration) {
+    const Result<settings::Calibration> kept =
+        settings::parse_calibration(settings::calibration_text(calibration), "kept.toml");
     EXPECT_TRUE(kept) << kept.error().message;
     calibration = *kept;
-    Settings settings;
+    settings::Settings settings;
     settings.projector.pinhole = calibration.pinhole;
     settings.projector.table_from_projector = calibration.table_from_projector;
     return mark_places(settings);
 }
 
 TEST(DriftReference, StaysThatOfAProjectorWhateverElseIsKept) {
-    Calibration calibration = some_calibration();
+    settings::Calibration calibration = some_calibration();
     DriftReference reference;
     reference.marks_m = marks_by(calibration);
     ASSERT_EQ(reference.marks_m.size(), max_marks);
@@ -92,4 +93,4 @@ TEST(DriftReference, WhatIsNoneIsSaid) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -13,14 +13,14 @@
 #include <ctime>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 std::vector<glm::dvec2> shipped_places() {
-    Settings settings;
+    settings::Settings settings;
     settings.projector.pinhole = SceneProjector().pinhole;
     settings.projector.table_from_projector = SceneProjector().table_from_projector;
     return mark_places(settings);
@@ -68,7 +68,7 @@ public:
     SceneProjector projector;
     std::vector<glm::dvec2> marks = shipped_places();
     MarkSchedule shadow{marks.size()}; ///< steps in parallel with the watch's own
-    RigidTransform real = SceneProjector().table_from_projector;
+    geometry::RigidTransform real = SceneProjector().table_from_projector;
     std::unique_ptr<DriftWatch> watch;
     std::filesystem::path folder;
     MonotonicTime now = MonotonicTime(seconds(100));
@@ -88,8 +88,8 @@ private:
         if (mark) {
             light = TableScene::Light{projector.light(mark->place_m, real), mark->brightness};
         }
-        const CameraFrame frame{seen, ++frames, width, height,
-                                scene.frame(to_seconds(now - *shadow.began()), light, hands)};
+        const camera::CameraFrame frame{seen, ++frames, width, height,
+                                        scene.frame(to_seconds(now - *shadow.began()), light, hands)};
         const std::clock_t begin = std::clock();
         watch->use(frame);
         busy_s += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -178,4 +178,4 @@ TEST(DriftWatch, DISABLED_InRenderedScenes) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

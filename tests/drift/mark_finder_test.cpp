@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 namespace {
 
 constexpr int width = 120, height = 90;
@@ -158,4 +158,4 @@ TEST(MarkFinder, FramesThatAreShorterThanTheySayAreLeftOut) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

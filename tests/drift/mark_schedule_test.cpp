@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 namespace {
 
 using std::chrono::milliseconds;
@@ -91,4 +91,4 @@ TEST(MarkTimes, AMarkComesAndGoesSoftly) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::drift {
 
 struct SceneFaults {
     double room = 0.15;       ///< room light, relative to the projector's white
@@ -112,11 +112,11 @@ private:
     }
     [[nodiscard]] double albedo(const glm::dvec2& p) const {
         for (const SceneTag& tag : tags_) {
-            const double module_m = tag.size_m / static_cast<double>(black_modules);
+            const double module_m = tag.size_m / static_cast<double>(tags::black_modules);
             const glm::dvec2 cell = (glm::dvec2(p.x - tag.middle_m.x, tag.middle_m.y - p.y)) / module_m +
-                                    0.5 * static_cast<double>(tag_modules);
-            if (cell.x >= 0.0 && cell.y >= 0.0 && cell.x < tag_modules && cell.y < tag_modules) {
-                const TagModules modules = tag_modules_of(tag.id);
+                                    0.5 * static_cast<double>(tags::tag_modules);
+            if (cell.x >= 0.0 && cell.y >= 0.0 && cell.x < tags::tag_modules && cell.y < tags::tag_modules) {
+                const tags::TagModules modules = tags::tag_modules_of(tag.id);
                 return modules[static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x)] ? 0.85
                                                                                                    : 0.05;
             }
@@ -160,16 +160,17 @@ private:
 
 /// The shipped kiosk's projector.
 struct SceneProjector {
-    Pinhole pinhole{1280, 800, 2400.0, 2400.0, 640.0, 400.0};
-    RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
+    geometry::Pinhole pinhole{1280, 800, 2400.0, 2400.0, 640.0, 400.0};
+    geometry::RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
 
     /// Where the light intended for a place falls if the projector's pose differs from the calibrated one.
-    [[nodiscard]] glm::dvec2 light(const glm::dvec2& meant_m, const RigidTransform& real) const {
+    [[nodiscard]] glm::dvec2 light(const glm::dvec2& meant_m, const geometry::RigidTransform& real) const {
         const glm::dvec2 pixel = *pinhole.pixel(table_from_projector.inverse().point({meant_m, 0.0}));
         const glm::dvec3 ray = real.direction(pinhole.ray(pixel));
         return glm::dvec2(real.translation - ray * (real.translation.z / ray.z));
     }
-    [[nodiscard]] RigidTransform moved(const glm::dvec3& shift_m, const glm::dvec3& turn_rad = {}) const {
+    [[nodiscard]] geometry::RigidTransform moved(const glm::dvec3& shift_m,
+                                                 const glm::dvec3& turn_rad = {}) const {
         const double angle = glm::length(turn_rad);
         const glm::dquat turn =
             angle > 0.0 ? glm::angleAxis(angle, turn_rad / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
@@ -177,4 +178,4 @@ struct SceneProjector {
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drift

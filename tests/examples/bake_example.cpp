@@ -4,18 +4,18 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Bake) {
     // example
-    SourceMesh ball = test::empty_mesh();
+    bake::SourceMesh ball = test::empty_mesh();
     test::add_sphere(ball, {5.0, 0.0, 0.0}, 3.0, 12);
-    BakeOptions options;
+    bake::BakeOptions options;
     options.up = "z";
     options.relief = false;
     options.measuring = 0.05; // few rays: quick, and rough
-    const Pack pack = bake(ball, options).value();
+    const pack::Pack pack = bake::bake(ball, options).value();
     const glm::dvec3 top(pack.box_from_file * glm::dvec4(5.0, 0.0, 3.0, 1.0)); // of the ball
     EXPECT_NEAR(glm::distance(top, glm::dvec3(0.0, 0.0, 1.0)), 0.0, 1e-9);
     EXPECT_FALSE(pack.levels.empty()); // coarse to fine, each with its measured error
@@ -23,4 +23,4 @@ TEST(RoomExample, Bake) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

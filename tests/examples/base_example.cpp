@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Base) {
@@ -24,4 +24,4 @@ TEST(RoomExample, Base) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -4,25 +4,25 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, CalibrationProcedure) {
     // example
     using std::chrono::milliseconds;
     const MonotonicTime start{};
-    TouchProcedure procedure(std::vector<Cross>{{.pixel = {960.0, 600.0}}});
+    calibration::TouchProcedure procedure(std::vector<calibration::Cross>{{.pixel = {960.0, 600.0}}});
     procedure.step({.now = start, .next = true}); // the button that begins
-    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
+    EXPECT_EQ(procedure.stage(), calibration::CalibrationStage::Place);
     procedure.step({.now = start, .next = true}); // the prop lies on the cross
-    const RigidTransform tracker_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.3, 0.1, 0.0}};
+    const geometry::RigidTransform tracker_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.3, 0.1, 0.0}};
     for (int k = 0; k <= 10; ++k) {
         procedure.step({.now = start + k * milliseconds(100), .prop = tracker_from_sensor});
     }
-    EXPECT_EQ(procedure.stage(), CalibrationStage::Solve);
+    EXPECT_EQ(procedure.stage(), calibration::CalibrationStage::Solve);
     EXPECT_EQ(procedure.touches().at(0).pixel, glm::dvec2(960.0, 600.0));
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

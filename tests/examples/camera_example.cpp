@@ -4,21 +4,23 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Camera) {
     // example
-    CameraFrame frame;
+    camera::CameraFrame frame;
     frame.luma.assign(640 * 480, 4); // almost black
-    FrameHealth health(30.0, frame.time);
+    camera::FrameHealth health(30.0, frame.time);
     for (int k = 0; k < 30; ++k) {
         frame.time += std::chrono::milliseconds(33);
-        health.see(frame.time, look_at(frame.luma));
-        EXPECT_EQ(health.verdict(frame.time), k < 16 ? FrameVerdict::Well : FrameVerdict::Dark) << k;
+        health.see(frame.time, camera::look_at(frame.luma));
+        EXPECT_EQ(health.verdict(frame.time),
+                  k < 16 ? camera::FrameVerdict::Well : camera::FrameVerdict::Dark)
+            << k;
     }
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -7,12 +7,12 @@
 #include <array>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Display) {
     // example
-    const std::unique_ptr<Display> display = SurfacelessDisplay::create(64, 40).value();
+    const std::unique_ptr<display::Display> display = display::SurfacelessDisplay::create(64, 40).value();
     glBindFramebuffer(GL_FRAMEBUFFER, display->framebuffer());
     glClearColor(0.5F, 0.0F, 0.0F, 1.0F); // linear light
     glClear(GL_COLOR_BUFFER_BIT);
@@ -26,4 +26,4 @@ TEST(RoomExample, Display) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -4,17 +4,17 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Drawing) {
     // example
-    Settings settings;
+    settings::Settings settings;
     settings.prop.height_m = 0.1237;
-    const std::string svg = prop_sheet(settings, "kiosk.toml");
+    const std::string svg = drawing::prop_sheet(settings, "kiosk.toml");
     EXPECT_NE(svg.find(">123.7<"), std::string::npos);
 
-    const PropNet net = unfold(make_cube(0.16)); // to cut out and glue
+    const drawing::PropNet net = drawing::unfold(geometry::make_cube(0.16)); // to cut out and glue
     EXPECT_EQ(net.faces.size(), 6U);
     EXPECT_EQ(net.folds.size(), 5U);
     EXPECT_EQ(net.tabs.size(), 12U - 5U); // one for each edge that is no fold
@@ -22,4 +22,4 @@ TEST(RoomExample, Drawing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

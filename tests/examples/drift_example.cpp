@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Drift) {
     // example
-    DriftReference reference{1280, 720, {}, {}, {}};
-    MarkSet set;
+    drift::DriftReference reference{1280, 720, {}, {}, {}};
+    drift::MarkSet set;
     for (const double x_m : {-0.3, 0.3}) {
         for (const double y_m : {-0.2, 0.2}) {
             const glm::dvec2 pixel(640.0 + 1000.0 * x_m, 360.0 - 1000.0 * y_m); // 1 mm a pixel
@@ -19,9 +19,9 @@ TEST(RoomExample, Drift) {
             set.marks_px.emplace_back(pixel + glm::dvec2(3.0, 0.0));
         }
     }
-    EXPECT_NEAR(measure_drift(reference, set)->off_m, 0.003, 1e-9);
+    EXPECT_NEAR(drift::measure_drift(reference, set)->off_m, 0.003, 1e-9);
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

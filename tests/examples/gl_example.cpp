@@ -6,17 +6,17 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Gl) {
     // example
-    const auto display = SurfacelessDisplay::create(64, 40).value(); // makes a context current
-    GlBuffer first = GlBuffer::generate();
+    const auto display = display::SurfacelessDisplay::create(64, 40).value(); // makes a context current
+    gl::GlBuffer first = gl::GlBuffer::generate();
     const GLuint name = first.get();
     glBindBuffer(GL_ARRAY_BUFFER, name);
     {
-        const GlBuffer second = std::move(first);
+        const gl::GlBuffer second = std::move(first);
         EXPECT_EQ(glIsBuffer(name), GL_TRUE);
     }
     EXPECT_EQ(glIsBuffer(name), GL_FALSE);
@@ -24,4 +24,4 @@ TEST(RoomExample, Gl) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -4,26 +4,26 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Guidance) {
     // example
-    const ProjectorSettings projector; // its picture is 0.8 m wide on the table
-    const FaceReader reader(
-        {make_frustum({0.16, 0.09, 0.12}), projector.pinhole, projector.table_from_projector});
-    GuidedState state;
+    const settings::ProjectorSettings projector; // its picture is 0.8 m wide on the table
+    const guidance::FaceReader reader(
+        {geometry::make_frustum({0.16, 0.09, 0.12}), projector.pinhole, projector.table_from_projector});
+    guidance::GuidedState state;
     state.table_from_prop.translation = {0.36, 0.0, 0.0}; // 4 cm of the prop stand outside the picture
     state.eye_m = {0.0, -0.55, 0.50};
     EXPECT_FALSE(reader.valid(state));
 
-    const std::optional<Advice> advice = advise(reader, state);
+    const std::optional<guidance::Advice> advice = guidance::advise(reader, state);
     ASSERT_TRUE(advice);
-    EXPECT_EQ(advice->move.action, Action::Slide);
+    EXPECT_EQ(advice->move.action, guidance::Action::Slide);
     EXPECT_LT(advice->move.by_m.x, -0.04); // to the left, by 4 cm and more
-    EXPECT_TRUE(reader.valid(after(advice->move, reader.setup(), state)));
+    EXPECT_TRUE(reader.valid(guidance::after(advice->move, reader.setup(), state)));
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

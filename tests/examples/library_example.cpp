@@ -6,11 +6,11 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
-InstalledPack pack(const std::string& id, std::uint64_t serial) {
-    InstalledPack pack;
+library::InstalledPack pack(const std::string& id, std::uint64_t serial) {
+    library::InstalledPack pack;
     pack.id = id;
     pack.serial = serial;
     return pack;
@@ -18,17 +18,18 @@ InstalledPack pack(const std::string& id, std::uint64_t serial) {
 
 TEST(RoomExample, Library) {
     // example
-    InstalledSet shown;
+    library::InstalledSet shown;
     shown.packs = {pack("cup", 1), pack("vase", 1)};
-    StickPack newer, other;
+    library::StickPack newer, other;
     newer.pack = pack("cup", 2);
     other.pack = pack("mask", 1);
-    const PlannedSet planned = plan_set(shown, std::array{newer, other}, {}, std::nullopt).value();
-    const std::vector<InstalledPack> expected{pack("cup", 2), pack("vase", 1), pack("mask", 1)};
+    const library::PlannedSet planned =
+        library::plan_set(shown, std::array{newer, other}, {}, std::nullopt).value();
+    const std::vector<library::InstalledPack> expected{pack("cup", 2), pack("vase", 1), pack("mask", 1)};
     EXPECT_EQ(planned.set.packs, expected);
     EXPECT_TRUE(planned.removed.empty());
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -4,23 +4,24 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Pack) {
     // example
-    Pack pack = samples::pack();
+    pack::Pack pack = samples::pack();
     pack.title = "A cup";
-    Bytes bytes = write_pack(pack).value();
-    const VerifiedPack read = verify_pack(bytes).value();
+    Bytes bytes = pack::write_pack(pack).value();
+    const pack::VerifiedPack read = pack::verify_pack(bytes).value();
     EXPECT_EQ(read->title, "A cup");
-    const Placement placement = place(*read, make_frustum({})); // a pack knows no prop's size
+    const pack::Placement placement =
+        pack::place(*read, geometry::make_frustum({})); // a pack knows no prop's size
     EXPECT_GT(placement.metres_per_box, 0.0);
 
     bytes[bytes.size() / 2] ^= std::byte{1};
-    EXPECT_FALSE(verify_pack(bytes));
+    EXPECT_FALSE(pack::verify_pack(bytes));
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

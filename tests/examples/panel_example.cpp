@@ -3,15 +3,15 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Panel) {
     // example
     using std::chrono::seconds;
     const MonotonicTime start{};
-    ScriptedPanel panel({{seconds(2), 1}, {seconds(5), 0}}, Nanoseconds(0), start); // played once
-    std::vector<PanelEvent> events;
+    panel::ScriptedPanel panel({{seconds(2), 1}, {seconds(5), 0}}, Nanoseconds(0), start); // played once
+    std::vector<panel::PanelEvent> events;
     ASSERT_TRUE(panel.poll(start + seconds(3), events));
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].button, 1);
@@ -20,4 +20,4 @@ TEST(RoomExample, Panel) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -6,22 +6,25 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Residency) {
     // example
-    std::array<ResidentItem, 3> items{{{60, true, false, 1}, {30, true, false, 2}, {50, false, false, 0}}};
+    std::array<residency::ResidentItem, 3> items{
+        {{60, true, false, 1}, {30, true, false, 2}, {50, false, false, 0}}};
     const std::array<std::size_t, 2> needed{2, 1}; // the third artifact is chosen, the second still shown
     const std::uint64_t budget = 100;
-    EXPECT_EQ(next_step(items, needed, {}, budget),
-              (ResidencyStep{.release = 0, .load = {}})); // 60 + 30 + 50 > 100
+    EXPECT_EQ(residency::next_step(items, needed, {}, budget),
+              (residency::ResidencyStep{.release = 0, .load = {}})); // 60 + 30 + 50 > 100
     items[0].loaded = false;
-    EXPECT_EQ(next_step(items, needed, {}, budget), (ResidencyStep{.release = {}, .load = 2}));
+    EXPECT_EQ(residency::next_step(items, needed, {}, budget),
+              (residency::ResidencyStep{.release = {}, .load = 2}));
     items[2].loaded = true;
-    EXPECT_EQ(next_step(items, needed, {}, budget), ResidencyStep{}); // nothing is left to do
+    EXPECT_EQ(residency::next_step(items, needed, {}, budget),
+              residency::ResidencyStep{}); // nothing is left to do
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -3,24 +3,24 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Scene) {
     // example
-    const Settings settings; // the exhibit as shipped
-    PackOutline pack;
+    const settings::Settings settings; // the exhibit as shipped
+    pack::PackOutline pack;
     pack.levels.resize(3); // coarse to fine
     pack.description.extremes = {{-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}};
-    SceneRequest request;
+    scene::SceneRequest request;
     request.technique = "level1";
     request.live = false; // no governor
-    request.visibility = visibility_of(settings);
-    const ScenePlan plan = plan_scene(settings, pack, request).value();
+    request.visibility = scene::visibility_of(settings);
+    const scene::ScenePlan plan = scene::plan_scene(settings, pack, request).value();
     EXPECT_EQ(plan.levels, std::vector<std::uint32_t>{1}); // the other two are not read
     EXPECT_EQ(plan.faces, 0b11111U);                       // a visitor can see all five faces of the prop
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

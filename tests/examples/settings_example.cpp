@@ -4,20 +4,21 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Settings) {
     // example
-    const CheckedSettings settings = parse_settings("[prop]\nheight_m = 0.2\n", "kiosk.toml").value();
+    const settings::CheckedSettings settings =
+        settings::parse_settings("[prop]\nheight_m = 0.2\n", "kiosk.toml").value();
     EXPECT_EQ(settings->prop.height_m, 0.2);
     EXPECT_EQ(settings->prop.base_m, 0.30); // as shipped
 
-    const Error error = parse_settings("[prop]\nheigth_m = 0.2\n", "kiosk.toml").error();
+    const Error error = settings::parse_settings("[prop]\nheigth_m = 0.2\n", "kiosk.toml").error();
     EXPECT_NE(error.message.find("kiosk.toml"), std::string::npos);
     EXPECT_NE(error.message.find("height_m"), std::string::npos) << error.message; // the nearest known key
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

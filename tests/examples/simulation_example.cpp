@@ -5,28 +5,29 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Simulation) {
     // example
     const glm::u8vec4 red(255, 0, 0, 255), blue(0, 0, 255, 255);
-    Image8 projected(192, 120, blue);
+    image::Image8 projected(192, 120, blue);
     for (int k = 0; k < 192 * 120; ++k) {
         projected.at(k % 192, k / 192) = k % 192 < 96 ? red : blue;
     }
-    const ProjectorSettings projector;
-    const VisitorScene scene{projector.pinhole.scaled_to(192, 120),
-                             projector.table_from_projector,
-                             make_frustum({}),
-                             {},
-                             {0.0, -0.55, 0.50}};
-    const VisitorCamera eye = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 96, 60);
-    const Image8 view = visitor_view(scene, projected, eye, exact_check());
+    const settings::ProjectorSettings projector;
+    const simulation::VisitorScene scene{projector.pinhole.scaled_to(192, 120),
+                                         projector.table_from_projector,
+                                         geometry::make_frustum({}),
+                                         {},
+                                         {0.0, -0.55, 0.50}};
+    const simulation::VisitorCamera eye =
+        simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 96, 60);
+    const image::Image8 view = simulation::visitor_view(scene, projected, eye, simulation::exact_check());
     EXPECT_EQ(view.at(38, 30), red); // the prop's left half
     EXPECT_EQ(view.at(58, 30), blue);
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

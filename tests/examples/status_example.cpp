@@ -4,26 +4,26 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Status) {
     // example
-    StatusReport report; // by the exhibit
+    status::StatusReport report; // by the exhibit
     report.written = {{}, MonotonicTime(std::chrono::seconds(100)), Sentence("boot")};
     report.state = "view";
     report.tracker = Sentence("no tracker is connected; plug it in");
-    report.devices.tracker = DeviceReport({DeviceHealth::Away, "tracker.none"});
-    const std::string file = status_json(report);
+    report.devices.tracker = status::DeviceReport({DeviceHealth::Away, "tracker.none"});
+    const std::string file = status::status_json(report);
 
-    KnownExhibit known; // by whoever asks, two seconds later
-    known.status = parse_status(file, {MonotonicTime(std::chrono::seconds(102)), "boot"});
+    status::KnownExhibit known; // by whoever asks, two seconds later
+    known.status = status::parse_status(file, {MonotonicTime(std::chrono::seconds(102)), "boot"});
     EXPECT_EQ(known.status.age_s, 2.0);
-    const ExhibitVerdict verdict = verdict_of(known);
+    const status::ExhibitVerdict verdict = status::verdict_of(known);
     EXPECT_TRUE(verdict.runs && !verdict.well);
     EXPECT_EQ(verdict.id, "tracker.none");
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

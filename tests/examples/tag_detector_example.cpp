@@ -4,19 +4,19 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, TagDetector) {
     // example
-    constexpr std::size_t module_px = 12, side_px = module_px * tag_modules;
-    const TagModules printed = tag_modules_of(7);
+    constexpr std::size_t module_px = 12, side_px = module_px * tags::tag_modules;
+    const tags::TagModules printed = tags::tag_modules_of(7);
     std::vector<std::uint8_t> luma(side_px * side_px);
     for (std::size_t k = 0; k < luma.size(); ++k) {
         luma[k] = printed[k / side_px / module_px][k % side_px / module_px] ? 255 : 0;
     }
-    TagDetector detector;
-    std::vector<FoundTag> found;
+    tags::TagDetector detector;
+    std::vector<tags::FoundTag> found;
     detector.find(luma, side_px, side_px, found);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].id, 7);
@@ -25,4 +25,4 @@ TEST(RoomExample, TagDetector) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

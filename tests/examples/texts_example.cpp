@@ -3,22 +3,22 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Texts) {
     // example
-    const Shaper shaper = Shaper::open().value();
-    const std::int32_t wide = 20 * em_units, narrow = 5 * em_units;
-    const ShapedText text = shaper.shape({"Amphora signed Exekias", "en", {wide, narrow}}).value();
-    EXPECT_EQ(text.direction, TextDirection::LeftToRight);
+    const texts::Shaper shaper = texts::Shaper::open().value();
+    const std::int32_t wide = 20 * pack::em_units, narrow = 5 * pack::em_units;
+    const texts::ShapedText text = shaper.shape({"Amphora signed Exekias", "en", {wide, narrow}}).value();
+    EXPECT_EQ(text.direction, pack::TextDirection::LeftToRight);
     ASSERT_EQ(text.settings.size(), 2U);
     EXPECT_EQ(text.settings[0].lines.size(), 1U);
     EXPECT_EQ(text.settings[1].lines.size(), 3U); // a word a line
 
-    EXPECT_EQ(direction_of("he"), TextDirection::RightToLeft);
+    EXPECT_EQ(texts::direction_of("he"), pack::TextDirection::RightToLeft);
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -3,19 +3,19 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Tracking) {
     // example
     using std::chrono::milliseconds;
     const MonotonicTime start{};
-    TrackedStateTracker tracker({0.0, -0.55, 0.50}); // the eye where nobody is known
-    PoseSample sample{start};
+    tracking::TrackedStateTracker tracker({0.0, -0.55, 0.50}); // the eye where nobody is known
+    tracker::PoseSample sample{start};
     sample.position_m = {0.1, 0.0, 0.0};
     EXPECT_TRUE(tracker.take(sample));
 
-    const TrackedState soon = tracker.at(start + milliseconds(500));
+    const tracking::TrackedState soon = tracker.at(start + milliseconds(500));
     EXPECT_TRUE(soon.prop_known && !soon.eye_known());
     EXPECT_EQ(soon.table_from_prop.translation.x, 0.1);
     EXPECT_FALSE(tracker.at(start + milliseconds(1500)).prop_known); // the sample is older than a second
@@ -23,4 +23,4 @@ TEST(RoomExample, Tracking) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 std::vector<std::uint8_t> head_and_shoulders() {
@@ -21,12 +21,15 @@ std::vector<std::uint8_t> head_and_shoulders() {
 
 TEST(RoomExample, Visitor) {
     // example
-    const Pinhole camera{320, 180, 147.0, 147.0, 160.0, 90.0};
-    const RigidTransform table_from_camera = *looking_at({0.0, 0.28, 0.12}, {0.0, -0.60, 0.44}, 0.0);
+    const geometry::Pinhole camera{320, 180, 147.0, 147.0, 160.0, 90.0};
+    const geometry::RigidTransform table_from_camera =
+        *settings::looking_at({0.0, 0.28, 0.12}, {0.0, -0.60, 0.44}, 0.0);
     const std::vector<std::uint8_t> foreground = head_and_shoulders(); // a head 30 pixels wide
-    const std::vector<HeadOutline> outlines = find_head_outlines(foreground, camera.width, camera.height);
+    const std::vector<visitor::HeadOutline> outlines =
+        visitor::find_head_outlines(foreground, camera.width, camera.height);
     ASSERT_EQ(outlines.size(), 1U);
-    const std::optional<FittedHead> head = fit_head(outlines[0], camera, table_from_camera, HeadZone{});
+    const std::optional<visitor::FittedHead> head =
+        visitor::fit_head(outlines[0], camera, table_from_camera, visitor::HeadZone{});
     ASSERT_TRUE(head);
     EXPECT_NEAR(head->width_px, 30.0, 1.5);
     EXPECT_NEAR(glm::distance(head->pixel, glm::dvec2(160.0, 80.0)), 0.0, 1.5);
@@ -36,4 +39,4 @@ TEST(RoomExample, Visitor) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

@@ -4,20 +4,20 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::example {
 namespace {
 
 TEST(RoomExample, Watch) {
     // example
     using std::chrono::seconds;
-    Ladder ladder(LadderMemory{}, true);
-    const Observation dark{Cause::NoPicture, false};
-    const Capabilities all{.last_good_set = true, .device = true, .reboot = true};
-    EXPECT_EQ(ladder.look(seconds(1), dark, all)->step, Step::RestartExhibit);
+    watch::Ladder ladder(watch::LadderMemory{}, true);
+    const watch::Observation dark{watch::Cause::NoPicture, false};
+    const watch::Capabilities all{.last_good_set = true, .device = true, .reboot = true};
+    EXPECT_EQ(ladder.look(seconds(1), dark, all)->step, watch::Step::RestartExhibit);
     EXPECT_FALSE(ladder.look(seconds(5), dark, all)); // a restart shows its effect after ten seconds
-    EXPECT_EQ(ladder.look(seconds(25), dark, all)->step, Step::LastGoodSet);
+    EXPECT_EQ(ladder.look(seconds(25), dark, all)->step, watch::Step::LastGoodSet);
     // end
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::example

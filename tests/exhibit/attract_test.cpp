@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 const MonotonicTime start{seconds(100)};
-const RigidTransform held_pose{{1.0, 0.0, 0.0, 0.0}, {0.2, -0.1, 0.0}};
+const geometry::RigidTransform held_pose{{1.0, 0.0, 0.0, 0.0}, {0.2, -0.1, 0.0}};
 constexpr glm::dvec2 place_m{0.03, 0.01};
 
 /// A tracker that gives a good pose in every frame until `lost`, and again from `found` on; the pose counts as known
@@ -119,4 +119,4 @@ TEST(Attract, WithoutAnyPoseYetItTurnsAtOnceAndGivesWayToTheFirst) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

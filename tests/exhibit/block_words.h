@@ -35,23 +35,24 @@ inline const std::vector<std::pair<std::string, int>>& stick_words() {
 }
 
 /// Letters half an em wide, an em apart, on the baseline; broken for 36, 18 and 9 em, as in the bake.
-inline LanguageWords block_words(const std::string& language, TextDirection direction) {
-    LanguageWords all{language, language, {}, {}, DistanceAtlas(12, 12, 255), {}};
+inline pack::LanguageWords block_words(const std::string& language, pack::TextDirection direction) {
+    pack::LanguageWords all{language, language, {}, {}, pack::DistanceAtlas(12, 12, 255), {}};
     all.runs.texels_per_em = 8;
     all.runs.spread_texels = 1;
     all.runs.atlas_width = all.runs.atlas_height = 12;
     all.runs.boxes = {{2, 2, 4, 4, 0, 4}};
     for (const auto& [key, letters] : stick_words()) {
-        GlyphText text{key, direction, {}};
+        pack::GlyphText text{key, direction, {}};
         for (const int limit : {36, 18, 9}) {
-            GlyphSetting setting{limit * em_units, std::min(letters, limit) * em_units, 0, {}, {}};
+            pack::GlyphSetting setting{
+                limit * pack::em_units, std::min(letters, limit) * pack::em_units, 0, {}, {}};
             for (int first = 0; first < letters; first += limit) {
                 const int count = std::min(limit, letters - first);
-                setting.lines.push_back({setting.height + em_units, static_cast<std::uint32_t>(count)});
+                setting.lines.push_back({setting.height + pack::em_units, static_cast<std::uint32_t>(count)});
                 for (int k = 0; k < count; ++k) {
-                    setting.glyphs.push_back({0, 0, k * em_units});
+                    setting.glyphs.push_back({0, 0, k * pack::em_units});
                 }
-                setting.height += em_units + em_units / 5;
+                setting.height += pack::em_units + pack::em_units / 5;
             }
             text.settings.push_back(setting);
         }

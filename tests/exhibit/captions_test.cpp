@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -17,32 +17,32 @@ const glm::dvec3 eye(0.0, -0.55, 0.5);
 const std::vector<glm::dvec2> shipped_table{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
 const std::vector<glm::dvec2> near_table{{-0.2, -0.126}, {0.2, -0.126}, {0.2, 0.126}, {-0.2, 0.126}};
 
-RigidTransform standing(double x, double y, double yaw) {
+geometry::RigidTransform standing(double x, double y, double yaw) {
     return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x, y, 0.0}};
 }
 
 struct Table {
-    PropShape prop = make_frustum({});
-    CaptionPlacer placer;
+    geometry::PropShape prop = geometry::make_frustum({});
+    typography::CaptionPlacer placer;
     glm::dvec3 lens_m = lens;
 
     explicit Table(const std::vector<glm::dvec2>& room) : placer(room) {}
-    CaptionPlace step(MonotonicTime now, const RigidTransform& pose) {
-        placer.update(now, hidden_by_prop(prop, pose, lens_m), hidden_by_prop(prop, pose, eye),
-                      glm::dvec2(pose.translation));
+    typography::CaptionPlace step(MonotonicTime now, const geometry::RigidTransform& pose) {
+        placer.update(now, typography::hidden_by_prop(prop, pose, lens_m),
+                      typography::hidden_by_prop(prop, pose, eye), glm::dvec2(pose.translation));
         return placer.at(now);
     }
 };
 
 /// True if the projector's ray to a table point meets the prop: brute force over the prop's planes.
-bool lands_on_prop(const PropShape& prop, const RigidTransform& pose, const glm::dvec3& from,
-                   const glm::dvec2& p) {
+bool lands_on_prop(const geometry::PropShape& prop, const geometry::RigidTransform& pose,
+                   const glm::dvec3& from, const glm::dvec2& p) {
     const glm::dvec3 a = pose.inverse().point(from);
     const glm::dvec3 b = pose.inverse().point({p, 0.0});
     for (int k = 0; k <= 400; ++k) {
         const glm::dvec3 point = a + (b - a) * (k / 400.0);
         bool inside = true;
-        for (const Plane& bound : prop.bounds) {
+        for (const geometry::Plane& bound : prop.bounds) {
             inside = inside && bound.distance(point) < -1e-9;
         }
         if (inside) {
@@ -56,18 +56,18 @@ TEST(Captions, TheShadowHoldsExactlyTheTablePointsWhoseRayMeetsTheProp) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> x(-0.3, 0.3);
     std::uniform_real_distribution<double> turn(-3.2, 3.2);
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     for (int k = 0; k < 200; ++k) {
-        const RigidTransform pose = standing(x(random), x(random), turn(random));
-        const auto shadow = hidden_by_prop(prop, pose, lens);
+        const geometry::RigidTransform pose = standing(x(random), x(random), turn(random));
+        const auto shadow = typography::hidden_by_prop(prop, pose, lens);
         ASSERT_TRUE(shadow);
         for (int n = 0; n < 20; ++n) {
             const glm::dvec2 p = glm::dvec2(pose.translation) + 0.6 * glm::dvec2(x(random), x(random));
             const std::array<glm::dvec2, 3> spot{p, p + glm::dvec2(1e-4, 0.0), p + glm::dvec2(0.0, 1e-4)};
-            const bool clear = clearance(spot, shadow->corners()) > 0.004;
+            const bool clear = typography::clearance(spot, shadow->corners()) > 0.004;
             if (lands_on_prop(prop, pose, lens, p)) {
-                EXPECT_EQ(clearance(spot, shadow->corners()), 0.0);
-            } else if (!clear && clearance(spot, shadow->corners()) == 0.0) {
+                EXPECT_EQ(typography::clearance(spot, shadow->corners()), 0.0);
+            } else if (!clear && typography::clearance(spot, shadow->corners()) == 0.0) {
                 // Inside the hull, the coarse march may miss a sliver at the border only.
                 const std::array<glm::dvec2, 3> inner{p + glm::dvec2(4e-3, 4e-3), p + glm::dvec2(-4e-3, 4e-3),
                                                       p + glm::dvec2(0.0, -4e-3)};
@@ -94,8 +94,8 @@ TEST(Captions, AShownCaptionNeverOverlapsThePropHoweverItJumps) {
     int shown = 0;
     for (int k = 0; k < 3000; ++k) {
         now += milliseconds(pause(random));
-        const RigidTransform pose = standing(x(random), y(random), turn(random));
-        const CaptionPlace place = table.step(now, pose);
+        const geometry::RigidTransform pose = standing(x(random), y(random), turn(random));
+        const typography::CaptionPlace place = table.step(now, pose);
         if (place.opacity <= 0.0) {
             continue;
         }
@@ -120,7 +120,8 @@ TEST(Captions, AtRestACaptionIsShownInFrontOfTheVisitorOnBothSetUps) {
         const std::array<glm::dvec2, 2> sizes{glm::dvec2(0.30, 0.05), glm::dvec2(0.07, 0.15)};
         table.placer.set_shapes(sizes);
         (void)table.step(MonotonicTime{}, standing(0.0, 0.0, 0.3));
-        const CaptionPlace place = table.step(MonotonicTime{} + milliseconds(500), standing(0.0, 0.0, 0.3));
+        const typography::CaptionPlace place =
+            table.step(MonotonicTime{} + milliseconds(500), standing(0.0, 0.0, 0.3));
         EXPECT_EQ(place.opacity, 1.0) << height;
         if (height > 1.0) {
             EXPECT_LT(place.rectangle.centre_m.y, -0.1);
@@ -137,7 +138,7 @@ TEST(Captions, ItStaysPutWhileThePropMovesElsewhere) {
     const glm::dvec2 centre = table.placer.at(MonotonicTime{}).rectangle.centre_m;
     for (int k = 1; k < 600; ++k) {
         const double phase = 0.01 * k;
-        const CaptionPlace place =
+        const typography::CaptionPlace place =
             table.step(MonotonicTime{} + milliseconds(16 * k),
                        standing(0.1 * std::sin(phase), 0.08 + 0.03 * std::cos(phase), phase));
         EXPECT_EQ(place.rectangle.centre_m, centre);
@@ -156,7 +157,7 @@ TEST(Captions, ItLeavesBeforeAHandMovesThePropOverItAndComesBackElsewhere) {
         now += milliseconds(16);
         // From the far side over the caption at 0.1 m/s.
         const double y = std::max(-0.14, 0.10 - 0.0016 * std::max(0, k - 60));
-        const CaptionPlace place = table.step(now, standing(0.0, y, 0.0));
+        const typography::CaptionPlace place = table.step(now, standing(0.0, y, 0.0));
         largest_step = std::max(largest_step, std::abs(place.opacity - before));
         before = place.opacity;
         if (k == 50) {
@@ -173,30 +174,31 @@ TEST(Captions, WithoutRoomOrUnderALowLensNothingIsShown) {
     const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.5, 0.05)};
     table.placer.set_shapes(sizes);
     EXPECT_EQ(table.step(MonotonicTime{} + milliseconds(900), standing(0, 0, 0)).opacity, 0.0);
-    EXPECT_FALSE(hidden_by_prop(table.prop, standing(0, 0, 0), {0.0, 0.0, 0.1}));
+    EXPECT_FALSE(typography::hidden_by_prop(table.prop, standing(0, 0, 0), {0.0, 0.0, 0.1}));
 }
 
 TEST(Captions, TheDistanceBetweenShapesIsTheLeastBetweenTheirPoints) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> x(-1.0, 1.0);
     for (int k = 0; k < 300; ++k) {
-        const TableRectangle a{{x(random), x(random)},
-                               {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
-        const TableRectangle b{{x(random), x(random)},
-                               {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
+        const typography::TableRectangle a{{x(random), x(random)},
+                                           {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
+        const typography::TableRectangle b{{x(random), x(random)},
+                                           {0.1 + std::abs(x(random)), 0.1 + std::abs(x(random))}};
         const glm::dvec2 gap =
             glm::max(glm::abs(a.centre_m - b.centre_m) - (a.size_m + b.size_m) / 2.0, glm::dvec2(0.0));
-        EXPECT_NEAR(clearance(a.corners(), b.corners()), glm::length(gap), 1e-12);
+        EXPECT_NEAR(typography::clearance(a.corners(), b.corners()), glm::length(gap), 1e-12);
     }
 }
 
 TEST(Captions, TypeIsNeverSmallerThanTwentyFourPoint) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter) << typesetter.error().message;
     constexpr double texels_per_m = 8000.0;
     // A capital of DejaVu Sans is 0.729 em high; 'H' has neither overshoot nor descender.
-    const CaptionImage caption =
-        make_caption(*typesetter, std::array{PlainPart{CaptionRole::Text, "HHH"}}, 0.002, 0.2, texels_per_m);
+    const typography::CaptionImage caption = typography::make_caption(
+        *typesetter, std::array{typography::PlainPart{typography::CaptionRole::Text, "HHH"}}, 0.002, 0.2,
+        texels_per_m);
     int rows = 0;
     for (int y = 0; y < caption.coverage.height; ++y) {
         bool ink = false;
@@ -210,17 +212,18 @@ TEST(Captions, TypeIsNeverSmallerThanTwentyFourPoint) {
 }
 
 TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const std::string text =
         "Wine was carried and poured from vessels like this one in every house of the town";
-    const std::array parts{PlainPart{CaptionRole::Title, "Amphora"}, PlainPart{CaptionRole::Text, text}};
-    const CaptionImage wide = make_caption(*typesetter, parts, 0.010, 0.30, 2000.0);
-    const CaptionImage narrow = make_caption(*typesetter, parts, 0.010, 0.12, 2000.0);
+    const std::array parts{typography::PlainPart{typography::CaptionRole::Title, "Amphora"},
+                           typography::PlainPart{typography::CaptionRole::Text, text}};
+    const typography::CaptionImage wide = typography::make_caption(*typesetter, parts, 0.010, 0.30, 2000.0);
+    const typography::CaptionImage narrow = typography::make_caption(*typesetter, parts, 0.010, 0.12, 2000.0);
     EXPECT_LE(wide.size_m.x, 0.302);
     EXPECT_LE(narrow.size_m.x, 0.122);
     EXPECT_GT(narrow.size_m.y, 1.5 * wide.size_m.y);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -27,14 +27,14 @@ MonotonicTime at_s(double seconds) {
 }
 
 /// The pictures of a full page of the table as shipped.
-const std::vector<TableRectangle>& shipped_pictures() {
-    static const std::vector<TableRectangle> pictures = [] {
+const std::vector<typography::TableRectangle>& shipped_pictures() {
+    static const std::vector<typography::TableRectangle> pictures = [] {
         TableSetUp set_up;
         set_up.artifacts = 12;
         set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
-        set_up.prop = make_frustum(shipped_frustum);
+        set_up.prop = geometry::make_frustum(geometry::shipped_frustum);
         set_up.lens_m = {0.0, 0.0, 1.5};
-        std::vector<TableRectangle> found;
+        std::vector<typography::TableRectangle> found;
         for (const TablePlace& place : lay_out_table(set_up, 0).places) {
             found.push_back(place.picture);
         }
@@ -59,7 +59,7 @@ glm::dvec2 noise(Random& random) {
 }
 
 TEST(Dwell, ARingFillsInASecondAndAHalfAndThePictureIsChosenOnce) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     ASSERT_EQ(pictures.size(), 12U);
     Dwell dwell;
     double full = 0.0;
@@ -84,7 +84,7 @@ TEST(Dwell, ARingFillsInASecondAndAHalfAndThePictureIsChosenOnce) {
 }
 
 TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     double before = 0.0;
     double most = 0.0;
@@ -106,7 +106,7 @@ TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
 }
 
 TEST(Dwell, AChosenPictureIsRefusedUntilThePropHasLeftIt) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     std::vector<std::size_t> chosen;
     const auto rest = [&](double from_s, double to_s, const glm::dvec2& at) {
@@ -128,7 +128,7 @@ TEST(Dwell, AChosenPictureIsRefusedUntilThePropHasLeftIt) {
 }
 
 TEST(Dwell, PicturesThatComeToLieUnderThePropAreRefusedUntilItHasLeft) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     bool chosen = false;
     for (int frame = 0; frame < 300; ++frame) {
@@ -143,16 +143,16 @@ TEST(Dwell, PicturesThatComeToLieUnderThePropAreRefusedUntilItHasLeft) {
 }
 
 TEST(Dwell, APropThatIsLiftedOrLostRestsNowhere) {
-    const PropShape prop = make_frustum(shipped_frustum);
+    const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     EXPECT_EQ(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.0}}), glm::dvec2(0.1, 0.2));
     EXPECT_FALSE(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.03}}));
     // A cube that lies on another face: its middle counts, not its bottom's.
     const glm::dquat lying = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(0, 1, 0));
-    const std::optional<glm::dvec2> at = standing_place(make_cube(0.1), {lying, {0.1, 0.2, 0.05}});
+    const std::optional<glm::dvec2> at = standing_place(geometry::make_cube(0.1), {lying, {0.1, 0.2, 0.05}});
     ASSERT_TRUE(at);
     EXPECT_LT(glm::distance(*at, {0.15, 0.2}), 1e-12);
 
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     for (int frame = 0; frame < 600; ++frame) {
         // Lost for one frame every 1.2 seconds; in the second half, one frame a second.
@@ -165,7 +165,7 @@ TEST(Dwell, APropThatIsLiftedOrLostRestsNowhere) {
 }
 
 TEST(Dwell, SweepsOverPicturesNeverChoose) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(21);
     int choices = 0;
     int crossed = 0;
@@ -203,7 +203,7 @@ TEST(Dwell, SweepsOverPicturesNeverChoose) {
 
 /// The slowest motion that counts as a sweep: 12 mm/s, through the middles of a row of pictures.
 TEST(Dwell, ASlowSteadySweepNeverChooses) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(22);
     for (int k = 0; k < 100; ++k) {
         Dwell dwell;
@@ -238,7 +238,7 @@ struct RestingHand {
 };
 
 TEST(Dwell, WhoRestsOnAPictureGetsItWithinEighteenTenthsOfASecond) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(23);
     constexpr int people = 4000;
     int in_time = 0;
@@ -276,7 +276,7 @@ TEST(Dwell, WhoRestsOnAPictureGetsItWithinEighteenTenthsOfASecond) {
 }
 
 /// True if, for the time of a ring before `last`, the prop was within 24 mm of its place at `last`: plain search.
-bool rested_before(const std::vector<PoseSample>& samples, const std::vector<glm::dvec2>& places,
+bool rested_before(const std::vector<tracker::PoseSample>& samples, const std::vector<glm::dvec2>& places,
                    std::size_t last) {
     for (std::size_t k = last + 1; k-- > 0 && samples[last].time - samples[k].time <= milliseconds(1490);) {
         if (glm::distance(places[last], places[k]) > 0.024) {
@@ -287,16 +287,17 @@ bool rested_before(const std::vector<PoseSample>& samples, const std::vector<glm
 }
 
 /// The recorded path as laid on the table; or turned, scaled down, and begun over one of the pictures.
-std::vector<glm::dvec2> some_way(Random& random, const std::vector<PoseSample>& samples, bool as_it_is) {
+std::vector<glm::dvec2> some_way(Random& random, const std::vector<tracker::PoseSample>& samples,
+                                 bool as_it_is) {
     const double scale = as_it_is ? 1.0 : between(random, 0.3, 1.0);
     const double angle = as_it_is ? 0.0 : between(random, -3.14, 3.14);
     const glm::dvec2 across(-std::sin(angle), std::cos(angle));
     const glm::dvec2 along(std::cos(angle), std::sin(angle));
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     const glm::dvec2 over = pictures[random() % pictures.size()].centre_m;
     const glm::dvec2 met(samples[random() % samples.size()].position_m);
     std::vector<glm::dvec2> way;
-    for (const PoseSample& sample : samples) {
+    for (const tracker::PoseSample& sample : samples) {
         const glm::dvec2 off = scale * (glm::dvec2(sample.position_m) - (as_it_is ? glm::dvec2(0.0) : met));
         way.push_back((as_it_is ? glm::dvec2(0.0) : over) + off.x * along + off.y * across);
     }
@@ -304,7 +305,7 @@ std::vector<glm::dvec2> some_way(Random& random, const std::vector<PoseSample>& 
 }
 
 TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
-    const std::vector<TableRectangle>& pictures = shipped_pictures();
+    const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(24);
     int accidents = 0;
     int choices = 0;
@@ -316,10 +317,11 @@ TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
         if (!bytes) {
             GTEST_SKIP() << "the recordings are missing: " << bytes.error().message;
         }
-        const RecordingOptions options{prop_station, true, {0.4, 0.25}};
-        const Result<ConvertedRecording> recording = convert_recording(as_text(*bytes), name, options);
+        const tracker::RecordingOptions options{tracker::prop_station, true, {0.4, 0.25}};
+        const Result<tracker::ConvertedRecording> recording =
+            tracker::convert_recording(as_text(*bytes), name, options);
         ASSERT_TRUE(recording) << recording.error().message;
-        const std::vector<PoseSample>& samples = recording->samples;
+        const std::vector<tracker::PoseSample>& samples = recording->samples;
         for (int run = 0; run < 40; ++run) {
             const std::vector<glm::dvec2> way = some_way(random, samples, run == 0);
             Dwell dwell;
@@ -344,4 +346,4 @@ TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

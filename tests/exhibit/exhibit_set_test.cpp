@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -19,11 +19,11 @@ Catalogue artifacts(std::size_t count, const std::vector<std::string>& languages
 
 class AnotherSet : public ::testing::Test {
 protected:
-    const Presentation& run(Nanoseconds length, std::vector<Command> commands = {}) {
+    const Presentation& run(Nanoseconds length, std::vector<settings::Command> commands = {}) {
         const MonotonicTime end = now + length;
         while (now < end) {
             now += milliseconds(20);
-            TrackedState tracked_state = sample::tracked_state(now);
+            tracking::TrackedState tracked_state = sample::tracked_state(now);
             tracked_state.table_from_prop.translation.x = x_m;
             shown = exhibit.step(now, commands, tracked_state);
             commands.clear();
@@ -31,7 +31,7 @@ protected:
         return shown;
     }
     void visit() {
-        run(seconds(1), {Command::NextArtifact});
+        run(seconds(1), {settings::Command::NextArtifact});
         ASSERT_EQ(shown.state, State::View);
     }
     /// The time that the set takes to leave from now on, at most `longest`.
@@ -51,7 +51,7 @@ protected:
 
 TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     visit();
-    run(seconds(1), {Command::NextLanguage});
+    run(seconds(1), {settings::Command::NextLanguage});
     ASSERT_EQ(shown.language, "de");
     const double before = shown.brightness;
     exhibit.await_set(true);
@@ -78,7 +78,7 @@ TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     EXPECT_EQ(shown.set_share, 1.0);
     EXPECT_EQ(shown.language, "de");
     EXPECT_EQ(shown.state, State::View);
-    run(seconds(1), {Command::NextArtifact});
+    run(seconds(1), {settings::Command::NextArtifact});
     EXPECT_EQ(shown.artifact, 0U); // the set has two
 }
 
@@ -118,7 +118,7 @@ TEST_F(AnotherSet, ComesAtOnceWhereAVisitorLooks) {
 TEST_F(AnotherSet, DoesNotComeInTheMiddleOfAChange) {
     visit();
     exhibit.await_set(true);
-    run(milliseconds(20), {Command::NextArtifact});
+    run(milliseconds(20), {settings::Command::NextArtifact});
     // Out and in for the change of artifact, and out for the set.
     EXPECT_GE(leaves_within(seconds(5)), 3 * fade_time - milliseconds(60));
 }
@@ -176,7 +176,7 @@ TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
 
 TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {
     visit();
-    run(milliseconds(20), {Command::StaffMode});
+    run(milliseconds(20), {settings::Command::StaffMode});
     ASSERT_TRUE(shown.staff);
     exhibit.await_set(true);
     leaves_within(seconds(1));
@@ -185,4 +185,4 @@ TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

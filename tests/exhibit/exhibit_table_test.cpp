@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using sample::start;
@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 struct Table {
     MonotonicTime now = start;
-    TrackedState tracked_state = sample::tracked_state(start);
+    tracking::TrackedState tracked_state = sample::tracked_state(start);
     Exhibit exhibit;
     Presentation shown;
 
@@ -27,12 +27,12 @@ struct Table {
         place.table_pictures = true;
         return {Catalogue(artifacts, entry), place, "en", start};
     }
-    void wait(milliseconds time, std::span<const Command> commands = {}) {
+    void wait(milliseconds time, std::span<const settings::Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(16)) {
             now += milliseconds(16);
             tracked_state.time = now;
-            shown =
-                exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
+            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const settings::Command>{},
+                                 tracked_state);
         }
     }
     void put(const glm::dvec2& at) { tracked_state.table_from_prop.translation = glm::dvec3(at, 0.0); }
@@ -76,14 +76,14 @@ TEST(ExhibitTable, WhatThePropRestsOnIsShownInIt) {
 TEST(ExhibitTable, ButtonsAndRestsGoTogether) {
     Table table(4);
     table.wait(milliseconds(800));
-    table.wait(milliseconds(800), std::array{Command::NextArtifact});
+    table.wait(milliseconds(800), std::array{settings::Command::NextArtifact});
     EXPECT_EQ(table.shown.artifact, 1U);
     EXPECT_EQ(table.bright(), (std::set<std::size_t>{0, 2, 3}));
     table.put(table.place_of(0));
     table.wait(milliseconds(3000));
     EXPECT_EQ(table.shown.artifact, 0U);
     table.put({0.0, 0.0});
-    table.wait(milliseconds(800), std::array{Command::PreviousArtifact});
+    table.wait(milliseconds(800), std::array{settings::Command::PreviousArtifact});
     EXPECT_EQ(table.shown.artifact, 3U);
 }
 
@@ -91,7 +91,7 @@ TEST(ExhibitTable, AStaffsPatternAndALostPropChooseNothing) {
     Table table(4);
     table.wait(milliseconds(800));
     table.put(table.place_of(2));
-    table.wait(milliseconds(5000), std::array{Command::StaffMode});
+    table.wait(milliseconds(5000), std::array{settings::Command::StaffMode});
     EXPECT_TRUE(table.shown.staff);
     EXPECT_EQ(table.shown.artifact, 0U);
 
@@ -115,7 +115,8 @@ TEST(ExhibitTable, TheCaptionLiesBesideThePictures) {
         EXPECT_EQ(table.bright().size(), 9U) << side;
         for (const PlacedPicture& picture : table.shown.table->pictures()) {
             EXPECT_EQ(picture.place.picture.quarter_turns, side);
-            EXPECT_GE(clearance(table.shown.caption->rectangle.corners(), picture.place.whole().corners()),
+            EXPECT_GE(typography::clearance(table.shown.caption->rectangle.corners(),
+                                            picture.place.whole().corners()),
                       0.008 - 1e-9)
                 << side;
         }
@@ -145,4 +146,4 @@ TEST(ExhibitTable, WithoutPicturesThereIsNoTable) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -8,21 +8,21 @@
 #include <array>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const Settings shipped;
+const settings::Settings shipped;
 constexpr glm::dvec2 short_text{0.2, 0.05};
 const std::vector<std::vector<glm::dvec2>> portion_sizes{{{0.20, 0.03}}, {{0.18, 0.06}}, {{0.10, 0.02}}};
 
 ExhibitPlace place() {
     ExhibitPlace place;
-    place.prop = make_prop(shipped.prop);
+    place.prop = settings::make_prop(shipped.prop);
     place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = picture_on_table(shipped, 0.0);
+    place.picture_m = settings::picture_on_table(shipped, 0.0);
     place.guidance = guidance_setup(shipped);
     place.words = {{"en", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}}};
     place.buttons = 5;
@@ -44,11 +44,11 @@ constexpr std::uint32_t help_lamp = 1U << 4U;
 
 class NarrationExhibit : public ::testing::Test {
 protected:
-    const Presentation& run(Nanoseconds length, std::vector<Command> commands = {}) {
+    const Presentation& run(Nanoseconds length, std::vector<settings::Command> commands = {}) {
         const MonotonicTime end = now_ + length;
         while (now_ < end) {
             now_ += milliseconds(20);
-            TrackedState tracked_state = sample::tracked_state(now_, lost_);
+            tracking::TrackedState tracked_state = sample::tracked_state(now_, lost_);
             tracked_state.head_known = head_;
             tracked_state.table_from_prop.translation.x = x_;
             const DescriptionIndex told = shown.tells.value_or(DescriptionIndex{});
@@ -97,7 +97,7 @@ protected:
 TEST_F(NarrationExhibit, ChooseTellsOneThingAfterTheOther) {
     run(seconds(2));
     EXPECT_FALSE(describes());
-    run(milliseconds(20), {Command::Choose});
+    run(milliseconds(20), {settings::Command::Choose});
     ASSERT_EQ(shown.tells, (DescriptionIndex{0, 0})) << "speech begins at once";
     run(seconds(1));
     ASSERT_TRUE(describes());
@@ -108,20 +108,20 @@ TEST_F(NarrationExhibit, ChooseTellsOneThingAfterTheOther) {
     run(milliseconds(2500));
     EXPECT_EQ(shown.caption->portion, 1U);
     EXPECT_LT(glm::distance(shown.caption->rectangle.corners()[3], begin), 1e-12) << "it stands still";
-    run(milliseconds(20), {Command::Choose});
+    run(milliseconds(20), {settings::Command::Choose});
     EXPECT_FALSE(shown.tells || shown.leaves);
     EXPECT_EQ(shown.tells_of, 0U);
     run(seconds(1));
     EXPECT_TRUE(shown.caption && !describes());
-    run(milliseconds(20), {Command::Choose});
+    run(milliseconds(20), {settings::Command::Choose});
     EXPECT_EQ(shown.tells_of, 1U);
-    run(milliseconds(20), {Command::Choose});
+    run(milliseconds(20), {settings::Command::Choose});
     EXPECT_FALSE(shown.tells_of);
 }
 
 TEST_F(NarrationExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
-    run(seconds(2), {Command::NextLanguage});
-    run(seconds(1), {Command::Help});
+    run(seconds(2), {settings::Command::NextLanguage});
+    run(seconds(1), {settings::Command::Help});
     ASSERT_TRUE(describes());
     EXPECT_EQ(shown.tells, (DescriptionIndex{0, 1}));
     const glm::dvec2 begin = shown.caption->rectangle.corners()[2];
@@ -144,19 +144,19 @@ TEST_F(NarrationExhibit, RestTellsAndPlayDoesNot) {
 }
 
 TEST_F(NarrationExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
-    run(seconds(1), {Command::Help});
+    run(seconds(1), {settings::Command::Help});
     EXPECT_TRUE(shown.tells);
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), choose_lamp | help_lamp);
-    run(milliseconds(20), {Command::NextArtifact});
+    run(milliseconds(20), {settings::Command::NextArtifact});
     EXPECT_FALSE(shown.tells || shown.leaves);
-    run(seconds(2), {Command::Choose});
+    run(seconds(2), {settings::Command::Choose});
     EXPECT_FALSE(shown.tells || shown.prepares || shown.tells_of);
     EXPECT_FALSE(describes());
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), 0U);
 }
 
 TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionUntilThen) {
-    run(seconds(2), {Command::Choose});
+    run(seconds(2), {settings::Command::Choose});
     x_ = 0.3;
     bool left_in_words = false;
     for (int k = 0; k < 300 && !shown.advice; ++k) {
@@ -181,7 +181,7 @@ TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     x_ = 0.3;
     run(milliseconds(100)); // too early for a sign
     EXPECT_FALSE(shown.sign);
-    run(milliseconds(120), {Command::Help});
+    run(milliseconds(120), {settings::Command::Help});
     EXPECT_TRUE(shown.sign);
     EXPECT_EQ(advised_, 1);
     run(milliseconds(500));
@@ -192,11 +192,11 @@ TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
 }
 
 TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
-    run(seconds(2), {Command::Help});
+    run(seconds(2), {settings::Command::Help});
     EXPECT_TRUE(shown.tells);
     x_ = 0.3;
     run(milliseconds(100));
-    run(milliseconds(120), {Command::Help});
+    run(milliseconds(120), {settings::Command::Help});
     EXPECT_FALSE(shown.tells || shown.leaves);
     run(milliseconds(40)); // the advice shows its words first
     EXPECT_TRUE(shown.advice);
@@ -204,7 +204,7 @@ TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
 }
 
 TEST_F(NarrationExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
-    run(seconds(2), {Command::Choose});
+    run(seconds(2), {settings::Command::Choose});
     lost_ = now_;
     run(milliseconds(900));
     EXPECT_TRUE(shown.tells) << "trackers drop out";
@@ -212,7 +212,7 @@ TEST_F(NarrationExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
     EXPECT_FALSE(shown.tells);
     lost_.reset();
     run(seconds(3));
-    run(seconds(2), {Command::Choose});
+    run(seconds(2), {settings::Command::Choose});
     EXPECT_TRUE(shown.tells);
     head_ = false;
     run(milliseconds(900));
@@ -225,7 +225,7 @@ TEST_F(NarrationExhibit, NobodyIsToldAnythingAfterARest) {
     ExhibitPlace hasty = place();
     hasty.rest = seconds(10);
     with(catalogue(), hasty);
-    run(seconds(1), {Command::NextLanguage});
+    run(seconds(1), {settings::Command::NextLanguage});
     for (int k = 0; k < 100; ++k) {
         run(seconds(1));
         EXPECT_TRUE(!shown.tells || shown.state == State::Describe);
@@ -238,7 +238,7 @@ TEST_F(NarrationExhibit, WhatCannotBeReadIsNotHeardForLong) {
     const std::vector<std::vector<glm::dvec2>> too_large(3, {{2.0, 1.0}});
     catalogue_of_long_texts[0].descriptions[0] = {too_large, largest_sizes(too_large), false};
     with(catalogue_of_long_texts, place());
-    run(seconds(1), {Command::Help});
+    run(seconds(1), {settings::Command::Help});
     EXPECT_TRUE(shown.tells) << "the short text fades out";
     run(seconds(3));
     EXPECT_FALSE(shown.tells || describes());
@@ -246,23 +246,23 @@ TEST_F(NarrationExhibit, WhatCannotBeReadIsNotHeardForLong) {
 }
 
 TEST_F(NarrationExhibit, TheStaffsPatternEndsIt) {
-    run(seconds(2), {Command::Choose});
-    run(milliseconds(20), {Command::StaffMode});
+    run(seconds(2), {settings::Command::Choose});
+    run(milliseconds(20), {settings::Command::StaffMode});
     EXPECT_FALSE(shown.tells || shown.leaves);
 }
 
 /// While the prop rests on a picture, Choose takes that picture and tells nothing.
 TEST(NarrationTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     ExhibitPlace where = place();
-    where.prop = make_frustum({0.10, 0.06, 0.05});
+    where.prop = geometry::make_frustum({0.10, 0.06, 0.05});
     where.guidance.reset();
     where.table_pictures = true;
     Catalogue three = catalogue();
     three.push_back(three[0]);
     Exhibit exhibit(three, where, "en", sample::start);
     MonotonicTime now = sample::start;
-    TrackedState tracked_state = sample::tracked_state(now);
-    const auto run = [&](Nanoseconds length, std::vector<Command> commands = {}) {
+    tracking::TrackedState tracked_state = sample::tracked_state(now);
+    const auto run = [&](Nanoseconds length, std::vector<settings::Command> commands = {}) {
         Presentation shown;
         for (const MonotonicTime end = now + length; now < end; commands.clear()) {
             now += milliseconds(20);
@@ -280,12 +280,12 @@ TEST(NarrationTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     shown = run(Dwell::settles + milliseconds(200));
     ASSERT_TRUE(shown.table->ring);
     EXPECT_NE(shown.lamps & choose_lamp, 0U);
-    shown = run(milliseconds(20), {Command::Choose});
+    shown = run(milliseconds(20), {settings::Command::Choose});
     EXPECT_FALSE(shown.tells);
     shown = run(seconds(1));
     EXPECT_EQ(shown.artifact, 2U);
     EXPECT_FALSE(shown.tells);
-    shown = run(milliseconds(20), {Command::Choose});
+    shown = run(milliseconds(20), {settings::Command::Choose});
     EXPECT_TRUE(shown.tells) << "there is no ring any more";
 }
 
@@ -298,9 +298,9 @@ TEST_F(NarrationExhibit, AStepAllocatesNothing) {
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 6000; ++k) {
         now_ += milliseconds(20);
-        TrackedState tracked_state = sample::tracked_state(now_);
+        tracking::TrackedState tracked_state = sample::tracked_state(now_);
         tracked_state.table_from_prop.translation.x = k / 1000 % 2 == 0 ? 0.0 : 0.3;
-        const std::array command{button_commands.at(random() % 5)};
+        const std::array command{settings::button_commands.at(random() % 5)};
         shown = exhibit_.step(now_, std::span(command).first(random() % 150 == 0 ? 1 : 0), tracked_state);
         exhibit_.hear(shown.tells.has_value(), {SpeechProgress::State::Heard, random() % 3});
     }
@@ -308,4 +308,4 @@ TEST_F(NarrationExhibit, AStepAllocatesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

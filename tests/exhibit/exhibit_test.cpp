@@ -9,7 +9,7 @@
 #include <array>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using sample::start;
@@ -22,18 +22,24 @@ constexpr Nanoseconds rest = seconds(3); ///< all fades are over
 /// The effect of one command, by the state in which it arrives.
 struct Row {
     bool staff;
-    Command command;
+    settings::Command command;
     bool staff_after;
     int artifact_step;
     int language_step;
 };
 constexpr std::array table{
-    Row{false, Command::PreviousArtifact, false, -1, 0}, Row{false, Command::NextArtifact, false, 1, 0},
-    Row{false, Command::NextLanguage, false, 0, 1},      Row{false, Command::StaffMode, true, 0, 0},
-    Row{false, Command::HoldFirst, false, 0, 0},         Row{false, Command::HoldOther, false, 0, 0},
-    Row{true, Command::PreviousArtifact, true, 0, 0},    Row{true, Command::NextArtifact, true, 0, 0},
-    Row{true, Command::NextLanguage, true, 0, 0},        Row{true, Command::StaffMode, false, 0, 0},
-    Row{true, Command::HoldFirst, true, 0, 0},           Row{true, Command::HoldOther, true, 0, 0},
+    Row{false, settings::Command::PreviousArtifact, false, -1, 0},
+    Row{false, settings::Command::NextArtifact, false, 1, 0},
+    Row{false, settings::Command::NextLanguage, false, 0, 1},
+    Row{false, settings::Command::StaffMode, true, 0, 0},
+    Row{false, settings::Command::HoldFirst, false, 0, 0},
+    Row{false, settings::Command::HoldOther, false, 0, 0},
+    Row{true, settings::Command::PreviousArtifact, true, 0, 0},
+    Row{true, settings::Command::NextArtifact, true, 0, 0},
+    Row{true, settings::Command::NextLanguage, true, 0, 0},
+    Row{true, settings::Command::StaffMode, false, 0, 0},
+    Row{true, settings::Command::HoldFirst, true, 0, 0},
+    Row{true, settings::Command::HoldOther, true, 0, 0},
 };
 
 const std::vector<std::string> languages{"en", "de", "fr"};
@@ -52,13 +58,14 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
         Exhibit exhibit = sample::exhibit(4, languages);
         MonotonicTime now = start;
         if (row.staff) {
-            const std::array chord{Command::StaffMode};
+            const std::array chord{settings::Command::StaffMode};
             EXPECT_TRUE(exhibit.step(now, chord, tracked_state(now)).staff);
         }
         now += seconds(1);
         EXPECT_EQ(exhibit.step(now, std::span(&row.command, 1), tracked_state(now)).staff, row.staff_after);
         if (row.staff_after) {
-            static_cast<void>(exhibit.step(now, std::array{Command::StaffMode}, tracked_state(now)));
+            static_cast<void>(
+                exhibit.step(now, std::array{settings::Command::StaffMode}, tracked_state(now)));
         }
         const Presentation shown = settled(exhibit, now);
         EXPECT_EQ(shown.artifact, static_cast<std::size_t>(row.artifact_step + 4) % 4);
@@ -113,10 +120,11 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
         MonotonicTime now = start;
         for (int k = 0; k < 60; ++k) {
             now += milliseconds(random() % 400);
-            std::vector<Command> commands;
+            std::vector<settings::Command> commands;
             for (auto each = random() % 3; each > 0; --each) {
                 const std::size_t button = random() % (buttons + 1);
-                commands.push_back(button < buttons ? button_commands.at(button) : Command::StaffMode);
+                commands.push_back(button < buttons ? settings::button_commands.at(button)
+                                                    : settings::Command::StaffMode);
                 button < buttons ? ledger.press(button) : ledger.chord();
             }
             ASSERT_EQ(exhibit.step(now, commands, tracked_state(now)).staff, ledger.staff) << seed;
@@ -129,7 +137,7 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
 
 TEST(Exhibit, TheStaffsPictureEndsByItself) {
     Exhibit exhibit = sample::exhibit(2, languages);
-    const std::array chord{Command::StaffMode};
+    const std::array chord{settings::Command::StaffMode};
     const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, tracked_state(now)).staff; };
     EXPECT_TRUE(exhibit.step(start, chord, tracked_state(start)).staff);
     EXPECT_TRUE(staff_at(start + StaffTool::after_press - milliseconds(1)));
@@ -143,23 +151,23 @@ TEST(Exhibit, TheStaffsPictureEndsByItself) {
 TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     Exhibit exhibit = sample::exhibit(2, languages);
     MonotonicTime now = start;
-    const auto step = [&](std::initializer_list<Command> commands) {
+    const auto step = [&](std::initializer_list<settings::Command> commands) {
         now += milliseconds(400);
         return exhibit.step(now, std::span(commands.begin(), commands.size()), tracked_state(now));
     };
     const std::size_t artifact = exhibit.chosen();
-    static_cast<void>(step({Command::PreviousArtifact, Command::NextLanguage}));
-    EXPECT_TRUE(step({Command::StaffMode}).staff);
-    EXPECT_FALSE(step({Command::PreviousArtifact, Command::HoldFirst}).calibrate)
+    static_cast<void>(step({settings::Command::PreviousArtifact, settings::Command::NextLanguage}));
+    EXPECT_TRUE(step({settings::Command::StaffMode}).staff);
+    EXPECT_FALSE(step({settings::Command::PreviousArtifact, settings::Command::HoldFirst}).calibrate)
         << "the first page has nothing to measure";
-    EXPECT_EQ(step({Command::NextArtifact}).staff_view.page, StaffPage::Place);
-    EXPECT_FALSE(step({Command::NextLanguage, Command::HoldOther}).calibrate);
-    const Presentation asked = step({Command::PreviousArtifact, Command::HoldFirst});
+    EXPECT_EQ(step({settings::Command::NextArtifact}).staff_view.page, StaffPage::Place);
+    EXPECT_FALSE(step({settings::Command::NextLanguage, settings::Command::HoldOther}).calibrate);
+    const Presentation asked = step({settings::Command::PreviousArtifact, settings::Command::HoldFirst});
     EXPECT_TRUE(asked.calibrate);
     EXPECT_TRUE(asked.staff) << "and where nobody sees to it, the picture is there";
     EXPECT_FALSE(step({}).calibrate) << "it is asked once";
-    EXPECT_FALSE(step({Command::StaffMode}).staff);
-    EXPECT_FALSE(step({Command::HoldFirst}).calibrate);
+    EXPECT_FALSE(step({settings::Command::StaffMode}).staff);
+    EXPECT_FALSE(step({settings::Command::HoldFirst}).calibrate);
     EXPECT_EQ(exhibit.chosen(), artifact)
         << "the chord's presses are undone, and those on the staff's picture are no visitor's";
     EXPECT_EQ(exhibit.language(), "en");
@@ -170,7 +178,7 @@ TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
     place.buttons = 3;
     place.staff_stays = true;
     Exhibit exhibit({}, place, "en", start);
-    const std::array chord{Command::StaffMode};
+    const std::array chord{settings::Command::StaffMode};
     EXPECT_TRUE(exhibit.step(start, chord, tracked_state(start)).staff_view.stays);
     const MonotonicTime later = start + std::chrono::hours(20);
     EXPECT_TRUE(exhibit.step(later, {}, tracked_state(later)).staff);
@@ -179,10 +187,10 @@ TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
 
 TEST(Exhibit, AVisitorsLongPressIsNoSecondPress) {
     Exhibit exhibit = sample::exhibit(4, languages);
-    static_cast<void>(exhibit.step(start, std::array{Command::NextArtifact}, tracked_state(start)));
+    static_cast<void>(exhibit.step(start, std::array{settings::Command::NextArtifact}, tracked_state(start)));
     const MonotonicTime pressed = *exhibit.used();
     const MonotonicTime later = start + seconds(2);
-    static_cast<void>(exhibit.step(later, std::array{Command::HoldOther}, tracked_state(later)));
+    static_cast<void>(exhibit.step(later, std::array{settings::Command::HoldOther}, tracked_state(later)));
     EXPECT_EQ(exhibit.chosen(), 1U);
     EXPECT_EQ(exhibit.used(), pressed);
 }
@@ -200,7 +208,7 @@ TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
 
 TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
     Exhibit exhibit = sample::exhibit(2, languages);
-    TrackedState known = tracked_state(start);
+    tracking::TrackedState known = tracked_state(start);
     known.table_from_prop.translation = {0.1, 0.05, 0.0};
     const Presentation with = exhibit.step(start, {}, known);
     EXPECT_FALSE(with.attracts);
@@ -214,7 +222,7 @@ TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
 
 TEST(Exhibit, NothingAndNoCaptionsAreNoTrouble) {
     Exhibit none = sample::exhibit(0, {});
-    EXPECT_EQ(none.step(start + rest, button_commands, tracked_state(start)).brightness, 0.0);
+    EXPECT_EQ(none.step(start + rest, settings::button_commands, tracked_state(start)).brightness, 0.0);
     Exhibit silent = sample::exhibit(2, {});
     const Presentation shown = settled(silent, start);
     EXPECT_FALSE(shown.caption);
@@ -233,9 +241,10 @@ TEST(Exhibit, AStepAllocatesNothing) {
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 2000; ++k) {
         now += milliseconds(16);
-        TrackedState moved = tracked_state(now);
+        tracking::TrackedState moved = tracked_state(now);
         moved.table_from_prop.translation.x = 0.3 * std::sin(0.01 * k);
-        const std::array commands{button_commands.at(random() % 3), Command::HoldOther, Command::StaffMode};
+        const std::array commands{settings::button_commands.at(random() % 3), settings::Command::HoldOther,
+                                  settings::Command::StaffMode};
         static_cast<void>(
             exhibit.step(now, std::span(commands).last(random() % 40 == 0 ? random() % 4 : 0), moved));
     }
@@ -243,12 +252,12 @@ TEST(Exhibit, AStepAllocatesNothing) {
 }
 
 TEST(Commands, EachButtonHasOne) {
-    for (int button = 0; button < static_cast<int>(button_commands.size()); ++button) {
-        EXPECT_EQ(button_of(*command_of_button(button)), button);
+    for (int button = 0; button < static_cast<int>(settings::button_commands.size()); ++button) {
+        EXPECT_EQ(settings::button_of(*settings::command_of_button(button)), button);
     }
-    EXPECT_FALSE(command_of_button(-1));
-    EXPECT_FALSE(command_of_button(static_cast<int>(button_commands.size())));
+    EXPECT_FALSE(settings::command_of_button(-1));
+    EXPECT_FALSE(settings::command_of_button(static_cast<int>(settings::button_commands.size())));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 struct Luminance {
     MonotonicTime time;
@@ -71,4 +71,4 @@ inline int max_flashes_per_second(std::span<const Luminance> samples) {
     return most;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -57,7 +57,8 @@ public:
     explicit Watched(Exhibit exhibit) : exhibit_(std::move(exhibit)) {}
 
     /// `lost`: since when the prop's pose is unknown.
-    void look(MonotonicTime now, std::span<const Command> commands, std::optional<MonotonicTime> lost = {}) {
+    void look(MonotonicTime now, std::span<const settings::Command> commands,
+              std::optional<MonotonicTime> lost = {}) {
         const Presentation shown = exhibit_.step(now, commands, sample::tracked_state(now, lost));
         artifact.push_back({now, shown.brightness});
         caption.push_back({now, shown.caption ? shown.caption->brightness : 0.0});
@@ -71,11 +72,11 @@ private:
 };
 
 /// A press; or the staff's chord, twice at once, which undoes presses and shows no pattern.
-void press(std::vector<Command>& commands, std::mt19937& random) {
+void press(std::vector<settings::Command>& commands, std::mt19937& random) {
     if (random() % 8 == 0) {
-        commands.insert(commands.end(), 2, Command::StaffMode);
+        commands.insert(commands.end(), 2, settings::Command::StaffMode);
     } else {
-        commands.push_back(button_commands.at(random() % button_commands.size()));
+        commands.push_back(settings::button_commands.at(random() % settings::button_commands.size()));
     }
 }
 
@@ -91,7 +92,7 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
         MonotonicTime turn = start + seconds(1);
         const unsigned slowest_ms = 1U << (1 + seed % 11); // 2 ms to 2 s
         for (MonotonicTime now = start; now < start + seconds(30); now += frame) {
-            std::vector<Command> commands;
+            std::vector<settings::Command> commands;
             while (next <= now) {
                 press(commands, random);
                 next += milliseconds(1 + random() % slowest_ms);
@@ -118,7 +119,7 @@ Exhibit narration_exhibit() {
     entry.tellables.assign(2, {{seconds(1), seconds(1)}, {seconds(1), seconds(1)}});
     entry.descriptions.assign(2, {sizes, largest_sizes(sizes), false});
     ExhibitPlace place = sample::place();
-    place.buttons = button_commands.size();
+    place.buttons = settings::button_commands.size();
     return {Catalogue(3, entry), place, "en", start};
 }
 
@@ -131,7 +132,7 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
         MonotonicTime next = start;
         const unsigned slowest_ms = 1U << (1 + seed % 11);
         for (MonotonicTime now = start; now < start + seconds(30); now += frame) {
-            std::vector<Command> commands;
+            std::vector<settings::Command> commands;
             while (next <= now) {
                 press(commands, random);
                 next += milliseconds(1 + random() % slowest_ms);
@@ -144,14 +145,15 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
     }
     EXPECT_GE(most, 2) << "nothing was seen of the presses";
     // Choose and another button in turn, each at various brightnesses while fading in or out.
-    for (const Command other : {Command::NextArtifact, Command::NextLanguage, Command::Help}) {
+    for (const settings::Command other :
+         {settings::Command::NextArtifact, settings::Command::NextLanguage, settings::Command::Help}) {
         for (int k = 0; k < 400; k += 3) {
             Watched watched(narration_exhibit());
             double before = 0.0;
             bool chooses = true;
             bool presses = false;
             for (MonotonicTime now = start; now < start + seconds(8); now += frame) {
-                const Command command = chooses ? Command::Choose : other;
+                const settings::Command command = chooses ? settings::Command::Choose : other;
                 watched.look(now, std::span(&command, presses ? 1 : 0));
                 chooses = presses ? !chooses : chooses;
                 const double seen = watched.caption.back().value;
@@ -168,15 +170,16 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
 
 /// The worst case: presses at any brightness on its way up.
 TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
-    for (const Command command : button_commands) {
+    for (const settings::Command command : settings::button_commands) {
         for (int percent = 1; percent <= 100; percent += 3) {
             Watched watched(3);
             double before = 0.0;
             bool presses = false;
             for (MonotonicTime now = start; now < start + seconds(10); now += frame) {
                 watched.look(now, std::span(&command, presses ? 1 : 0));
-                const double seen = command == Command::NextLanguage ? watched.caption.back().value
-                                                                     : watched.artifact.back().value;
+                const double seen = command == settings::Command::NextLanguage
+                                        ? watched.caption.back().value
+                                        : watched.artifact.back().value;
                 presses = seen >= 0.01 * percent && seen >= before;
                 before = seen;
             }
@@ -187,4 +190,4 @@ TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

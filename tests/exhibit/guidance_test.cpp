@@ -10,19 +10,19 @@
 #include <cmath>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const Settings shipped;
+const settings::Settings shipped;
 
 ExhibitPlace guided_place() {
     ExhibitPlace place;
-    place.prop = make_prop(shipped.prop);
+    place.prop = settings::make_prop(shipped.prop);
     place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = picture_on_table(shipped, 0.0);
+    place.picture_m = settings::picture_on_table(shipped, 0.0);
     place.guidance = guidance_setup(shipped);
     place.words = {{"de", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}},
                    {"en", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}}};
@@ -51,20 +51,21 @@ glm::dvec2 point_of(const PlacedSign& sign, double u, double v) {
 /// The sign's light meets the table and not the prop, for every advice: traced ray by ray.
 TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     const ExhibitPlace place = guided_place();
-    const FaceReader reader(*place.guidance);
-    Seeded seeded(21);
+    const guidance::FaceReader reader(*place.guidance);
+    bench::Seeded seeded(21);
     std::map<Sign, int> shown;
     int advised = 0;
     for (int k = 0; k < 1500; ++k) {
-        Guidance guidance;
-        guidance.tracked_state = seeded_situation(*place.guidance, seeded);
-        const std::optional<Advice> advice = advise(reader, guidance.tracked_state);
-        const auto shadow = hidden_by_prop(place.prop, guidance.tracked_state.table_from_prop, place.lens_m);
+        guidance::Guidance guidance;
+        guidance.tracked_state = bench::seeded_situation(*place.guidance, seeded);
+        const std::optional<guidance::Advice> advice = guidance::advise(reader, guidance.tracked_state);
+        const auto shadow =
+            typography::hidden_by_prop(place.prop, guidance.tracked_state.table_from_prop, place.lens_m);
         if (!advice || !shadow) {
             continue;
         }
         ++advised;
-        guidance.stage = GuidanceStage::Picture;
+        guidance.stage = guidance::GuidanceStage::Picture;
         guidance.move = advice->move;
         const MonotonicTime now{milliseconds(static_cast<int>(seeded.between(0.0, 5000.0)))};
         const auto sign = place_sign(guidance, now, *shadow, place.picture_m, k % 4);
@@ -72,15 +73,16 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
             continue;
         }
         ++shown[sign->sign];
-        const RigidTransform prop_from_table = guidance.tracked_state.table_from_prop.inverse();
+        const geometry::RigidTransform prop_from_table = guidance.tracked_state.table_from_prop.inverse();
         const glm::dvec3 lens = prop_from_table.point(place.lens_m);
         for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
             for (const double v : {0.0, 0.5, 1.0}) {
                 const glm::dvec2 point = point_of(*sign, u, v);
                 EXPECT_TRUE(inside(place.picture_m, point)) << "situation " << k;
-                PropHit hit;
+                geometry::PropHit hit;
                 const glm::dvec3 ray = prop_from_table.point({point, 0.0}) - lens;
-                EXPECT_FALSE(enter(place.prop, lens, ray, hit) && hit.t < 1.0 - 1e-6) << "situation " << k;
+                EXPECT_FALSE(geometry::enter(place.prop, lens, ray, hit) && hit.t < 1.0 - 1e-6)
+                    << "situation " << k;
             }
         }
     }
@@ -96,14 +98,14 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
 
 TEST(Signs, AnArrowPointsTheWay) {
     const ExhibitPlace place = guided_place();
-    Guidance guidance;
-    guidance.stage = GuidanceStage::Picture;
+    guidance::Guidance guidance;
+    guidance.stage = guidance::GuidanceStage::Picture;
     guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
     int pointed = 0;
     for (int k = 0; k < 16; ++k) {
         const double azimuth = k * std::numbers::pi / 8.0;
-        guidance.move = {Action::Slide, {0.1 * std::cos(azimuth), 0.1 * std::sin(azimuth), 0.0}};
-        const auto shadow = hidden_by_prop(place.prop, {}, place.lens_m);
+        guidance.move = {guidance::Action::Slide, {0.1 * std::cos(azimuth), 0.1 * std::sin(azimuth), 0.0}};
+        const auto shadow = typography::hidden_by_prop(place.prop, {}, place.lens_m);
         const auto sign = place_sign(guidance, MonotonicTime(seconds(1)), *shadow, place.picture_m, 0);
         if (!sign) {
             continue; // the shipped prop leaves little room above and below it
@@ -121,11 +123,11 @@ TEST(Signs, AnArcTurnsTheWay) {
     ExhibitPlace place = guided_place();
     place.picture_m = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
     for (const double turn : {0.5, -0.5}) {
-        Guidance guidance;
-        guidance.stage = GuidanceStage::Picture;
-        guidance.move = {Action::Turn, {}, turn};
+        guidance::Guidance guidance;
+        guidance.stage = guidance::GuidanceStage::Picture;
+        guidance.move = {guidance::Action::Turn, {}, turn};
         guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
-        const auto shadow = hidden_by_prop(place.prop, {}, place.lens_m);
+        const auto shadow = typography::hidden_by_prop(place.prop, {}, place.lens_m);
         const auto sign = place_sign(guidance, MonotonicTime(seconds(1)), *shadow, place.picture_m, 0);
         ASSERT_TRUE(sign);
         const glm::dvec2 tail = point_of(*sign, 0.0, 0.5);
@@ -133,7 +135,7 @@ TEST(Signs, AnArcTurnsTheWay) {
         EXPECT_GT(turn * (tail.x * head.y - tail.y * head.x), 0.0);
     }
     // The picture itself: more ink at the head's end.
-    const Image<std::uint8_t> arc = sign_picture(Sign::Turn, 2000.0);
+    const image::Image<std::uint8_t> arc = sign_picture(Sign::Turn, 2000.0);
     long left = 0;
     long right = 0;
     for (int y = 0; y < arc.height; ++y) {
@@ -150,7 +152,7 @@ protected:
         Presentation presentation;
         for (; time_ <= time; time_ += milliseconds(20)) {
             const MonotonicTime now = sample::start + time_;
-            TrackedState tracked_state = sample::tracked_state(now);
+            tracking::TrackedState tracked_state = sample::tracked_state(now);
             tracked_state.head_known = true;
             tracked_state.table_from_prop.translation = {x, 0.0, 0.0};
             presentation = exhibit_.step(now, {}, tracked_state);
@@ -214,8 +216,8 @@ TEST_F(GuidedExhibit, GuidesWithoutAllocating) {
 /// A tracker's noise at rest does not count as a visitor.
 TEST(PresenceTest, IsAMovementOrAPress) {
     Presence presence;
-    Seeded seeded(4);
-    TrackedState tracked_state = sample::tracked_state(sample::start);
+    bench::Seeded seeded(4);
+    tracking::TrackedState tracked_state = sample::tracked_state(sample::start);
     for (int k = 0; k < 2000; ++k) {
         tracked_state.table_from_prop.translation =
             1e-3 * glm::dvec3(seeded.between(-1, 1), seeded.between(-1, 1), seeded.between(-1, 1));
@@ -230,4 +232,4 @@ TEST(PresenceTest, IsAMovementOrAPress) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -12,27 +12,27 @@
 #include <numbers>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using sample::start;
 using std::chrono::milliseconds;
 
 struct Visit {
-    Settings shipped;
+    settings::Settings shipped;
     ExhibitPlace place;
     std::optional<Exhibit> exhibit;
     MonotonicTime now = start;
-    TrackedState tracked_state = sample::tracked_state(start);
+    tracking::TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown;
 
     explicit Visit(bool pictures, std::vector<glm::dvec3> hull = {}) {
-        place.prop = make_prop(shipped.prop);
+        place.prop = settings::make_prop(shipped.prop);
         place.lens_m = shipped.projector.table_from_projector.translation;
-        place.picture_m = picture_on_table(shipped, 0.0);
+        place.picture_m = settings::picture_on_table(shipped, 0.0);
         place.guidance = guidance_setup(shipped);
         place.table_pictures = pictures;
-        place.zone = ZoneFrame(lit_rectangle(shipped), 0.15, {0.8, 0.5});
+        place.zone = ZoneFrame(settings::lit_rectangle(shipped), 0.15, {0.8, 0.5});
         for (const char* key : {"slide_left", "slide_right", "slide_nearer", "slide_farther",
                                 "slide_left_a_little", "slide_right_a_little", "slide_nearer_a_little",
                                 "slide_farther_a_little", "turn", "turn_left", "turn_right"}) {
@@ -76,7 +76,7 @@ struct Visit {
 /// The middle of a picture where a face of the prop is seen but not lit.
 glm::dvec2 dark_picture(const Visit& visit) {
     for (const PlacedPicture& picture : visit.shown.table->pictures()) {
-        const FaceReader reader(*visit.place.guidance);
+        const guidance::FaceReader reader(*visit.place.guidance);
         const glm::dvec2& at = picture.place.picture.centre_m;
         if (picture.artifact && picture.artifact != std::size_t{0} &&
             !reader.valid({{glm::dquat(1, 0, 0, 0), glm::dvec3(at, 0.0)}, visit.tracked_state.eye_m})) {
@@ -153,8 +153,9 @@ TEST(GuidedTable, PicturesUnderTheSignAreDim) {
                 visit.signs_in(milliseconds(1400));
                 int here = 0;
                 for (const PlacedPicture& picture : visit.shown.table->pictures()) {
-                    if (visit.shown.sign && clearance(hull_of({}, visit.shown.sign->corners_m).corners(),
-                                                      picture.place.whole().corners()) <= 0.0) {
+                    if (visit.shown.sign &&
+                        typography::clearance(typography::hull_of({}, visit.shown.sign->corners_m).corners(),
+                                              picture.place.whole().corners()) <= 0.0) {
                         ++here;
                         EXPECT_LE(picture.brightness, 0.121);
                     }
@@ -176,7 +177,8 @@ TEST(GuidedTable, WordsLieBesideThePictures) {
         if (visit.shown.advice) {
             ++seen;
             for (const PlacedPicture& picture : visit.shown.table->pictures()) {
-                EXPECT_GT(clearance(visit.shown.advice->rectangle.corners(), picture.place.whole().corners()),
+                EXPECT_GT(typography::clearance(visit.shown.advice->rectangle.corners(),
+                                                picture.place.whole().corners()),
                           0.0);
             }
         }
@@ -196,13 +198,14 @@ TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
 TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
     constexpr glm::dvec2 at(0.20, 0.05);
     for (const bool known : {true, false}) {
-        Visit visit(false, known ? usual_artifact(make_prop(Settings().prop)) : std::vector<glm::dvec3>());
+        Visit visit(false, known ? settings::usual_artifact(settings::make_prop(settings::Settings().prop))
+                                 : std::vector<glm::dvec3>());
         visit.tracked_state.table_from_prop.rotation =
             glm::angleAxis(0.25 * std::numbers::pi, glm::dvec3(0, 0, 1));
         visit.tracked_state.eye_m = visit.shipped.eye.default_m;
         visit.signs_in(milliseconds(800));
         visit.slide_to(at);
-        const FaceReader reader(*visit.place.guidance);
+        const guidance::FaceReader reader(*visit.place.guidance);
         ASSERT_FALSE(reader.valid({visit.tracked_state.table_from_prop, visit.tracked_state.eye_m}));
         const int signs = visit.signs_in(milliseconds(3000));
         EXPECT_EQ(signs > 60, !known);
@@ -222,4 +225,4 @@ TEST(GuidedTable, TheFrameLiesAroundTheShownArtifactsZone) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -10,7 +10,7 @@
 #include <memory>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using sample::start;
@@ -62,7 +62,8 @@ constexpr double tolerance_m = 1e-4;
 
 HotspotSet hotspots_of(const Blocks& blocks) {
     HotspotSet set;
-    set.triangles = {std::make_shared<const TriangleTree>(blocks.points, blocks.indices), tolerance_m};
+    set.triangles = {std::make_shared<const geometry::TriangleTree>(blocks.points, blocks.indices),
+                     tolerance_m};
     for (const auto& [point, normal] :
          {std::pair(glm::dvec3(-0.008, 0.0, 0.03), glm::dvec3(1, 0, 0)), // inner sides
           std::pair(glm::dvec3(0.008, 0.004, 0.02), glm::dvec3(-1, 0, 0)),
@@ -85,31 +86,31 @@ Exhibit make_exhibit(const HotspotSet& set) {
 struct Shower {
     Exhibit exhibit;
     MonotonicTime now = start;
-    TrackedState tracked_state = sample::tracked_state(start);
+    tracking::TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown = {};
 
-    void wait(milliseconds time, std::span<const Command> commands = {}) {
+    void wait(milliseconds time, std::span<const settings::Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown =
-                exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
+            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const settings::Command>{},
+                                 tracked_state);
         }
     }
     /// Presses until this hotspot is told; nothing: until none is.
     void point_out(std::optional<std::size_t> hotspot) {
         for (int press = 0; press < 100 && shown.tells_of != hotspot; ++press) {
-            wait(milliseconds(20), std::array{Command::Choose});
+            wait(milliseconds(20), std::array{settings::Command::Choose});
         }
         ASSERT_EQ(shown.tells_of, hotspot);
     }
 };
 
 /// True if the face through which the eye looks at the point is lit by the lens.
-bool looks_through_a_lit_face(const PropShape& prop, const glm::dvec3& eye, const glm::dvec3& lens,
+bool looks_through_a_lit_face(const geometry::PropShape& prop, const glm::dvec3& eye, const glm::dvec3& lens,
                               const glm::dvec3& point) {
     double entry = -1.0;
     bool lit = false;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         const double from = face.plane.distance(eye);
         const double to = face.plane.distance(point);
         if (from > 0.0 && from / (from - to) > entry) {
@@ -142,7 +143,7 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
                              std::sin(elevation));
         shower.point_out(which);
         shower.wait(milliseconds(2000));
-        const RigidTransform prop_from_table = shower.tracked_state.table_from_prop.inverse();
+        const geometry::RigidTransform prop_from_table = shower.tracked_state.table_from_prop.inverse();
         const glm::dvec3 eye = prop_from_table.point(shower.tracked_state.eye_m);
         const Hotspot& at = set.hotspots[which].at;
         const bool faces = glm::dot(eye - at.point_m, at.normal) > 0.0;
@@ -159,11 +160,12 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
             EXPECT_EQ(shown.hotspot, which);
             ASSERT_TRUE(shown.line);
             const auto shadow =
-                hidden_by_prop(place.prop, shower.tracked_state.table_from_prop, {0.0, 0.0, 1.4});
-            EXPECT_GT(clearance(shown.label.corners(), shadow->corners()), 0.0);
+                typography::hidden_by_prop(place.prop, shower.tracked_state.table_from_prop, {0.0, 0.0, 1.4});
+            EXPECT_GT(typography::clearance(shown.label.corners(), shadow->corners()), 0.0);
             ASSERT_TRUE(shower.shown.caption);
-            EXPECT_GT(clearance(shown.label.corners(), shower.shown.caption->rectangle.corners()), 0.0);
-            EXPECT_EQ(clearance(shown.label.corners(), shown.line->points().last(1)), 0.0);
+            EXPECT_GT(typography::clearance(shown.label.corners(), shower.shown.caption->rectangle.corners()),
+                      0.0);
+            EXPECT_EQ(typography::clearance(shown.label.corners(), shown.line->points().last(1)), 0.0);
         }
     }
     EXPECT_GT(seen, 60);
@@ -205,7 +207,7 @@ TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {
     shower.wait(milliseconds(1000));
     ASSERT_TRUE(shower.shown.hotspot);
     EXPECT_EQ(shower.shown.hotspot->label.size_m.x, 0.04);
-    shower.wait(milliseconds(1500), std::array{Command::NextLanguage});
+    shower.wait(milliseconds(1500), std::array{settings::Command::NextLanguage});
     EXPECT_FALSE(shower.shown.hotspot);
     shower.point_out(2);
     shower.wait(milliseconds(1000));
@@ -240,4 +242,4 @@ TEST(HotspotLabels, AllocateNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

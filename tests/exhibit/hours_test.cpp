@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::hours;
@@ -60,12 +60,12 @@ std::vector<Opened> expected(const std::string& zone, const std::string& times, 
     return all;
 }
 
-HoursSettings every_day(const std::string& times) {
-    HoursSettings settings;
-    HoursSettings::Day day;
+settings::HoursSettings every_day(const std::string& times) {
+    settings::HoursSettings settings;
+    settings::HoursSettings::Day day;
     std::istringstream in(times);
     for (std::string each; std::getline(in, each, ',');) {
-        day.push_back(parse_open_span(each).value());
+        day.push_back(settings::parse_open_span(each).value());
     }
     settings.weekdays.fill(day);
     return settings;
@@ -126,19 +126,19 @@ TEST(Timetable, IsOpenFromOpeningToClosing) {
 }
 
 TEST(Timetable, WithoutHoursIsAlwaysOpen) {
-    const Timetable table(HoursSettings(), no_offset);
+    const Timetable table(settings::HoursSettings(), no_offset);
     EXPECT_TRUE(table.always_open());
     EXPECT_EQ(table.at(utc(2026, 1, 1, 0)), (Opening{true, std::nullopt}));
 }
 
 TEST(Timetable, WithoutAnyDayIsNeverOpen) {
-    HoursSettings settings;
+    settings::HoursSettings settings;
     settings.weekdays.fill({});
     EXPECT_EQ(Timetable(settings, no_offset).at(utc(2026, 1, 1, 0)), (Opening{false, std::nullopt}));
 }
 
 TEST(Timetable, JoinsWhatTouches) {
-    HoursSettings settings = every_day("00:00-24:00");
+    settings::HoursSettings settings = every_day("00:00-24:00");
     settings.weekdays[6].clear(); // 2026-11-29 is a Sunday
     EXPECT_EQ(Timetable(settings, no_offset).at(utc(2026, 11, 23, 12)),
               (Opening{true, utc(2026, 11, 29, 0)}));
@@ -149,10 +149,10 @@ TEST(Timetable, JoinsWhatTouches) {
 }
 
 TEST(Timetable, ExceptionsStandInTheWeekdaysPlace) {
-    HoursSettings settings = every_day("20:00-02:00");
-    settings.exceptions = {*parse_hours_exception("2026-12-24 10:00-14:00"),
-                           *parse_hours_exception("2026-12-24 16:00-17:00"),
-                           *parse_hours_exception("2026-12-25 closed")};
+    settings::HoursSettings settings = every_day("20:00-02:00");
+    settings.exceptions = {*settings::parse_hours_exception("2026-12-24 10:00-14:00"),
+                           *settings::parse_hours_exception("2026-12-24 16:00-17:00"),
+                           *settings::parse_hours_exception("2026-12-25 closed")};
     const Timetable table(settings, no_offset);
     EXPECT_EQ(table.at(utc(2026, 12, 24, 1)), (Opening{true, utc(2026, 12, 24, 2)})) << "of the day before";
     EXPECT_EQ(table.at(utc(2026, 12, 24, 2)), (Opening{false, utc(2026, 12, 24, 10)}));
@@ -280,4 +280,4 @@ TEST(Sleep, BeginsAwakeUntilItMaySleep) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

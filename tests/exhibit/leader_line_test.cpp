@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using Random = std::mt19937_64;
@@ -101,8 +101,8 @@ struct Agreement {
 };
 
 Agreement compare(const Mesh& truth, const Mesh& drawn, double tolerance_m, int count) {
-    const PropShape prop = make_frustum(shipped_frustum);
-    const TriangleTree tree(drawn.positions, drawn.indices);
+    const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
+    const geometry::TriangleTree tree(drawn.positions, drawn.indices);
     const Occluder artifact{&tree, glm::dmat4(1.0), tolerance_m};
     Random random(31);
     Agreement agreement;
@@ -163,7 +163,7 @@ TEST(Hotspots, ACoarserLevelDecidesTheSameButWithinItsError) {
 }
 
 TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
-    const PropShape prop = make_frustum(shipped_frustum);
+    const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     const Occluder nothing;
     Random random(32);
     int seen = 0;
@@ -196,15 +196,15 @@ TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
 }
 
 struct Scene {
-    PropShape prop = make_frustum({0.16, 0.09, 0.12});
+    geometry::PropShape prop = geometry::make_frustum({0.16, 0.09, 0.12});
     glm::dvec3 lens_m{0.0, 0.0, 1.5};
-    RigidTransform table_from_prop;
-    std::vector<TableRectangle> pictures;
+    geometry::RigidTransform table_from_prop;
+    std::vector<typography::TableRectangle> pictures;
     LeaderLineNeeds needs;
 };
 
 /// A prop somewhere on the shipped table, a page of pictures, and a label at a free place.
-Scene some_scene(Random& random, const std::vector<TableRectangle>& pictures) {
+Scene some_scene(Random& random, const std::vector<typography::TableRectangle>& pictures) {
     Scene scene;
     scene.pictures = pictures;
     scene.table_from_prop = {glm::angleAxis(between(random, -3.1, 3.1), glm::dvec3(0, 0, 1)),
@@ -213,9 +213,10 @@ Scene some_scene(Random& random, const std::vector<TableRectangle>& pictures) {
     needs.eye_m = {between(random, -0.5, 0.5), between(random, -0.9, -0.45), between(random, 0.3, 0.8)};
     needs.point_m = scene.table_from_prop.point(
         {between(random, -0.03, 0.03), between(random, -0.03, 0.03), between(random, 0.0, 0.11)});
-    needs.shadow = hidden_by_prop(scene.prop, scene.table_from_prop, scene.lens_m);
-    needs.hidden = hidden_by_prop(scene.prop, scene.table_from_prop, needs.eye_m);
-    CaptionPlacer placer(std::vector<glm::dvec2>{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}});
+    needs.shadow = typography::hidden_by_prop(scene.prop, scene.table_from_prop, scene.lens_m);
+    needs.hidden = typography::hidden_by_prop(scene.prop, scene.table_from_prop, needs.eye_m);
+    typography::CaptionPlacer placer(
+        std::vector<glm::dvec2>{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}});
     placer.set_shapes(std::vector<glm::dvec2>{{between(random, 0.05, 0.12), 0.022}});
     placer.set_obstacles(pictures);
     placer.update({}, needs.shadow, needs.hidden, glm::dvec2(scene.table_from_prop.translation));
@@ -223,29 +224,29 @@ Scene some_scene(Random& random, const std::vector<TableRectangle>& pictures) {
     return scene;
 }
 
-std::vector<TableRectangle> page_of(std::size_t artifacts) {
+std::vector<typography::TableRectangle> page_of(std::size_t artifacts) {
     TableSetUp set_up;
     set_up.artifacts = artifacts;
     set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
-    set_up.prop = make_frustum({0.16, 0.09, 0.12});
+    set_up.prop = geometry::make_frustum({0.16, 0.09, 0.12});
     set_up.lens_m = {0.0, 0.0, 1.5};
-    std::vector<TableRectangle> found;
+    std::vector<typography::TableRectangle> found;
     for (const TablePlace& place : lay_out_table(set_up, 0).places) {
         found.push_back(place.whole());
     }
     return found;
 }
 
-bool holds(const TableRectangle& rectangle, const glm::dvec2& at, double margin) {
+bool holds(const typography::TableRectangle& rectangle, const glm::dvec2& at, double margin) {
     return glm::all(glm::lessThan(glm::abs(at - rectangle.centre_m), 0.5 * rectangle.size_m + margin));
 }
 
 /// True if the prop lies between a point and a table point, by ray cast.
 bool hides(const Scene& scene, const glm::dvec3& from_m, const glm::dvec2& at) {
-    const RigidTransform prop_from_table = scene.table_from_prop.inverse();
+    const geometry::RigidTransform prop_from_table = scene.table_from_prop.inverse();
     const glm::dvec3 from = prop_from_table.point(from_m);
-    PropHit hit;
-    return enter(scene.prop, from, prop_from_table.point({at, 0.0}) - from, hit) && hit.t < 1.0;
+    geometry::PropHit hit;
+    return geometry::enter(scene.prop, from, prop_from_table.point({at, 0.0}) - from, hit) && hit.t < 1.0;
 }
 
 TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
@@ -253,7 +254,7 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
     int lines = 0;
     int bent = 0;
     constexpr int scenes = 2500;
-    std::vector<std::vector<TableRectangle>> pages;
+    std::vector<std::vector<typography::TableRectangle>> pages;
     for (std::size_t artifacts = 2; artifacts <= max_table_places; ++artifacts) {
         pages.push_back(page_of(artifacts));
     }
@@ -272,7 +273,7 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
                 const glm::dvec2 at = glm::mix(points[part], points[part + 1], step / 60.0);
                 EXPECT_FALSE(hides(scene, scene.lens_m, at)) << k;
                 EXPECT_FALSE(hides(scene, scene.needs.eye_m, at)) << k;
-                for (const TableRectangle& picture : scene.pictures) {
+                for (const typography::TableRectangle& picture : scene.pictures) {
                     EXPECT_FALSE(holds(picture, at, 0.0035)) << k;
                 }
             }
@@ -280,10 +281,11 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
         EXPECT_TRUE(holds(scene.needs.label, points.back(), 1e-9));
         EXPECT_FALSE(holds(scene.needs.label, points.back(), -1e-9));
         // It begins beside the prop, or beside the prop's shadow.
-        const double off = std::min(clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
-                                              scene.needs.shadow->corners()),
-                                    clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
-                                              scene.needs.hidden->corners()));
+        const double off =
+            std::min(typography::clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
+                                           scene.needs.shadow->corners()),
+                     typography::clearance(std::vector{points[0], points[0] + 1e-9, points[0] - 1e-9},
+                                           scene.needs.hidden->corners()));
         EXPECT_LT(off, 0.0075) << k; // 4 mm across the outline's edges, more at its corners
         // For the eye, the point and the first part of the line lie on one straight line.
         const glm::dvec3 eye = scene.needs.eye_m;
@@ -317,8 +319,9 @@ TEST(LeaderLine, FollowsSoftlyAsThePropTurns) {
             scene.table_from_prop.rotation =
                 glm::angleAxis(step_rad, glm::dvec3(0, 0, 1)) * scene.table_from_prop.rotation;
             scene.needs.point_m = scene.table_from_prop.point(point);
-            scene.needs.shadow = hidden_by_prop(scene.prop, scene.table_from_prop, scene.lens_m);
-            scene.needs.hidden = hidden_by_prop(scene.prop, scene.table_from_prop, scene.needs.eye_m);
+            scene.needs.shadow = typography::hidden_by_prop(scene.prop, scene.table_from_prop, scene.lens_m);
+            scene.needs.hidden =
+                typography::hidden_by_prop(scene.prop, scene.table_from_prop, scene.needs.eye_m);
             const std::optional<LeaderLine> line = leader_line(scene.needs);
             ASSERT_TRUE(line);
             ASSERT_EQ(line->count, 2U);
@@ -348,10 +351,10 @@ TEST(LeaderLine, WithoutAWayThereIsNone) {
     needs.label.centre_m = glm::dvec2(scene.table_from_prop.translation); // under the prop
     EXPECT_FALSE(leader_line(needs));
     needs = scene.needs;
-    const std::vector<TableRectangle> everywhere{{{0.0, 0.0}, {2.0, 2.0}, 0}};
+    const std::vector<typography::TableRectangle> everywhere{{{0.0, 0.0}, {2.0, 2.0}, 0}};
     needs.pictures = everywhere;
     EXPECT_FALSE(leader_line(needs));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -412,4 +412,4 @@ TEST_F(Telling_, AllocatesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

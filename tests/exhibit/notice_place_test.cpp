@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -26,18 +26,18 @@ const NoticeText told{
     {{"coin.fspack", "coin.fspack", "stick.refused.altered"}, {"Vase", "vase.fspack", "stick.taken"}},
     false};
 
-const Typesetter& typesetter() {
-    static const Typesetter opened = Typesetter::open().value();
+const typography::Typesetter& typesetter() {
+    static const typography::Typesetter opened = typography::Typesetter::open().value();
     return opened;
 }
-NoticePicture draw(const NoticeText& text, TextDirection direction = TextDirection::LeftToRight) {
-    const LanguageWords words = synthetic::block_words("en", direction);
+NoticePicture draw(const NoticeText& text, pack::TextDirection direction = pack::TextDirection::LeftToRight) {
+    const pack::LanguageWords words = synthetic::block_words("en", direction);
     return draw_notice(text, text, {words.runs, words.atlas, typesetter(), texels_per_m});
 }
 
 /// The number of solid squares of half the type size: each has the area of a quarter of an em square.
-double squares_in(const Image<std::uint8_t>& image) {
-    const double em_px = min_caption_em_m * texels_per_m;
+double squares_in(const image::Image<std::uint8_t>& image) {
+    const double em_px = typography::min_caption_em_m * texels_per_m;
     double light = 0.0;
     for (const std::uint8_t texel : image.texels) {
         light += texel / 255.0;
@@ -45,7 +45,7 @@ double squares_in(const Image<std::uint8_t>& image) {
     return light / (0.25 * em_px * em_px);
 }
 /// The light in the columns [first, end), given as fractions of the picture's width.
-double light_between(const Image<std::uint8_t>& image, double first, double end) {
+double light_between(const image::Image<std::uint8_t>& image, double first, double end) {
     double light = 0.0;
     for (int y = 0; y < image.height; ++y) {
         for (int x = static_cast<int>(first * image.width); x < static_cast<int>(end * image.width); ++x) {
@@ -58,26 +58,30 @@ double light_between(const Image<std::uint8_t>& image, double first, double end)
 } // namespace
 
 TEST(NoticeImage, every_shape_has_all_letters) {
-    for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
+    for (const pack::TextDirection direction :
+         {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
         const NoticePicture picture = draw(copying, direction);
         ASSERT_EQ(picture.shapes.size(), 4U);
         for (const NoticeShape& shape : picture.shapes) {
             // In the narrowest shape, sentences are no larger than lines.
-            const double em = &shape == &picture.shapes.back() ? 1.0 : caption_title_em;
+            const double em = &shape == &picture.shapes.back() ? 1.0 : typography::caption_title_em;
             EXPECT_NEAR(squares_in(shape.image.coverage), 14.0 * em * em, 0.055 * 14.0 * em * em);
             ASSERT_TRUE(shape.ring_m);
         }
         // Letters, then the words in lines: 24 pt, as captions.
         EXPECT_LT(picture.sizes_m[3].x, picture.sizes_m[0].x);
-        EXPECT_NEAR(picture.sizes_m[0].x, (14.0 * caption_title_em + 1.0) * min_caption_em_m + 0.032, 0.004);
+        EXPECT_NEAR(picture.sizes_m[0].x,
+                    (14.0 * typography::caption_title_em + 1.0) * typography::min_caption_em_m + 0.032,
+                    0.004);
     }
 }
 
 TEST(NoticeImage, the_ring_has_a_place_without_letters) {
-    constexpr double reach_m = notice_ring_radius_m + ring_gap_m + ring_width_m;
-    for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
+    constexpr double reach_m = notice_ring_radius_m + typography::ring_gap_m + typography::ring_width_m;
+    for (const pack::TextDirection direction :
+         {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
         for (const NoticeShape& shape : draw(copying, direction).shapes) {
-            const Image<std::uint8_t>& image = shape.image.coverage;
+            const image::Image<std::uint8_t>& image = shape.image.coverage;
             const glm::dvec2 middle(0.5 * image.width + shape.ring_m->x * texels_per_m,
                                     0.5 * image.height - shape.ring_m->y * texels_per_m);
             double light = 0.0;
@@ -90,7 +94,7 @@ TEST(NoticeImage, the_ring_has_a_place_without_letters) {
             EXPECT_EQ(light, 0.0);
             EXPECT_GE(middle.x, reach_m * texels_per_m - 1.0);
             EXPECT_LE(middle.x, image.width - reach_m * texels_per_m + 1.0);
-            EXPECT_EQ(direction == TextDirection::RightToLeft, shape.ring_m->x > 0.001);
+            EXPECT_EQ(direction == pack::TextDirection::RightToLeft, shape.ring_m->x > 0.001);
         }
     }
 }
@@ -100,9 +104,10 @@ TEST(NoticeImage, titles_stand_where_the_reader_begins) {
     lines.lines = {{"IIIII", "", "stick.taken"}};
     lines.sentences.clear();
     // Words are fainter than titles and have solid letters, so their light is known.
-    const double word = 3 * 0.8 * 0.25 * std::pow(min_caption_em_m * texels_per_m, 2);
-    const Image<std::uint8_t> to_right = draw(lines).shapes[0].image.coverage;
-    const Image<std::uint8_t> to_left = draw(lines, TextDirection::RightToLeft).shapes[0].image.coverage;
+    const double word = 3 * 0.8 * 0.25 * std::pow(typography::min_caption_em_m * texels_per_m, 2);
+    const image::Image<std::uint8_t> to_right = draw(lines).shapes[0].image.coverage;
+    const image::Image<std::uint8_t> to_left =
+        draw(lines, pack::TextDirection::RightToLeft).shapes[0].image.coverage;
     EXPECT_NEAR(light_between(to_right, 0.5, 1.0), word, 0.1 * word);
     EXPECT_NEAR(light_between(to_left, 0.0, 0.5), word, 0.1 * word);
 }
@@ -122,10 +127,10 @@ TEST(NoticeImage, a_long_name_is_cut_off) {
     NoticeText text = told;
     text.lines[0].label = std::string(900, 'W');
     const NoticePicture picture = draw(text);
-    EXPECT_LE(picture.sizes_m[0].x, 36.5 * min_caption_em_m);
-    EXPECT_LE(picture.sizes_m[1].x, 25.5 * min_caption_em_m);
-    EXPECT_LE(picture.sizes_m[2].x, 18.5 * min_caption_em_m);
-    EXPECT_LE(picture.sizes_m[3].x, 9.5 * min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[0].x, 36.5 * typography::min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[1].x, 25.5 * typography::min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[2].x, 18.5 * typography::min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[3].x, 9.5 * typography::min_caption_em_m);
 }
 
 namespace {
@@ -138,18 +143,18 @@ SharedNotice notice_of(std::vector<glm::dvec2> sizes_m) {
 }
 
 struct Table {
-    PropShape prop = make_frustum(shipped_frustum);
-    RigidTransform pose;
+    geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
+    geometry::RigidTransform pose;
     int quarter_turns = 0;
-    std::vector<TableRectangle> obstacles, kept;
-    std::optional<TableRectangle> caption;
+    std::vector<typography::TableRectangle> obstacles, kept;
+    std::optional<typography::TableRectangle> caption;
     NoticePlace place{room};
     MonotonicTime now = start;
     Nanoseconds frame = milliseconds(20);
 
     [[nodiscard]] NoticeEnvironment environment() const {
-        return {hidden_by_prop(prop, pose, {0.0, 0.0, 1.5}),
-                hidden_by_prop(prop, pose, {0.0, -0.55, 0.5}),
+        return {typography::hidden_by_prop(prop, pose, {0.0, 0.0, 1.5}),
+                typography::hidden_by_prop(prop, pose, {0.0, -0.55, 0.5}),
                 glm::dvec2(pose.translation),
                 quarter_turns,
                 obstacles,
@@ -166,8 +171,8 @@ struct Table {
     }
 };
 
-bool touch(const TableRectangle& a, const TableRectangle& b) {
-    return clearance(a.corners(), b.corners()) <= 0.0;
+bool touch(const typography::TableRectangle& a, const typography::TableRectangle& b) {
+    return typography::clearance(a.corners(), b.corners()) <= 0.0;
 }
 
 } // namespace
@@ -175,7 +180,7 @@ bool touch(const TableRectangle& a, const TableRectangle& b) {
 TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_other) {
     const SharedNotice small = notice_of({{0.2, 0.05}});
     Table table;
-    table.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+    table.caption = typography::TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
     const auto beside = table.wait(milliseconds(600), small);
     ASSERT_TRUE(beside);
     EXPECT_EQ(beside->brightness, 1.0);
@@ -190,10 +195,10 @@ TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_
     ASSERT_TRUE(over);
     EXPECT_TRUE(touch(over->rectangle, *full.caption));
     EXPECT_EQ(left_to_caption(*full.caption, *over), 0.0);
-    for (const TableRectangle& obstacle : full.obstacles) {
+    for (const typography::TableRectangle& obstacle : full.obstacles) {
         EXPECT_FALSE(touch(over->rectangle, obstacle));
     }
-    const TableRectangle first = over->rectangle;
+    const typography::TableRectangle first = over->rectangle;
     for (int k = 0; k < 100; ++k) {
         const auto later = full.wait(milliseconds(100), small);
         ASSERT_TRUE(later);
@@ -206,7 +211,7 @@ TEST(NoticePlace, it_finds_the_captions_place_at_every_projectors_rate) {
     for (const int hz : {24, 25, 30, 50, 60, 75, 85, 100, 120, 144}) {
         Table full;
         full.frame = Nanoseconds(1'000'000'000 / hz);
-        full.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+        full.caption = typography::TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
         full.kept = {{{0.0, 0.19}, {0.4, 0.1}, 0}};
         full.obstacles = {{{-0.3, 0.0}, {0.19, 0.49}, 0}, {{0.3, 0.0}, {0.19, 0.49}, 0}};
         const SharedNotice small = notice_of({{0.2, 0.05}});
@@ -224,7 +229,7 @@ TEST(NoticePlace, empty_places_are_kept_free_where_there_is_other_room) {
     const SharedNotice tall = notice_of({{0.12, 0.3}});
     Table table;
     table.kept = {{{-0.3, 0.0}, {0.1, 0.1}, 0}};
-    table.caption = TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
+    table.caption = typography::TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
     const auto right = table.wait(milliseconds(1500), tall);
     ASSERT_TRUE(right);
     EXPECT_GT(right->rectangle.centre_m.x, 0.2);
@@ -238,7 +243,7 @@ TEST(NoticePlace, empty_places_are_kept_free_where_there_is_other_room) {
 TEST(NoticePlace, it_gives_way_to_what_comes) {
     const SharedNotice notice = notice_of({{0.2, 0.05}});
     Table table;
-    const TableRectangle before = table.wait(milliseconds(600), notice)->rectangle;
+    const typography::TableRectangle before = table.wait(milliseconds(600), notice)->rectangle;
     table.obstacles = {before};
     const auto after = table.wait(milliseconds(800), notice);
     ASSERT_TRUE(after);
@@ -313,8 +318,10 @@ TEST(NoticePlace, the_ring_lies_in_the_picture_for_every_reader) {
         const auto round = notice_ring(*shown);
         ASSERT_TRUE(round);
         for (const glm::dvec2& corner : round->corners()) {
-            EXPECT_LE(clearance(polygon_of(shown->rectangle).corners(), std::span(&corner, 1)), 0.0);
-            const glm::dvec2 seen = turned(corner - shown->rectangle.centre_m, -side);
+            EXPECT_LE(typography::clearance(typography::polygon_of(shown->rectangle).corners(),
+                                            std::span(&corner, 1)),
+                      0.0);
+            const glm::dvec2 seen = typography::turned(corner - shown->rectangle.centre_m, -side);
             EXPECT_LT(seen.x, 0.0) << "at the reader's left";
         }
     }
@@ -360,7 +367,9 @@ TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) 
                 continue;
             }
             ++lit;
-            EXPECT_GT(clearance(shown->rectangle.corners(), table.environment().shadow->corners()), 0.0);
+            EXPECT_GT(
+                typography::clearance(shown->rectangle.corners(), table.environment().shadow->corners()),
+                0.0);
             for (std::size_t each = 0; each < table.obstacles.size(); ++each) {
                 if (table.now - came[each] > milliseconds(300)) { // long enough to have faded
                     EXPECT_FALSE(touch(shown->rectangle, table.obstacles[each]));
@@ -371,4 +380,4 @@ TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) 
     EXPECT_GT(lit, 5000);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

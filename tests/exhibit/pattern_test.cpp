@@ -3,20 +3,20 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
-PatternScene shipped() {
+typography::PatternScene shipped() {
     return {{1280, 800, 1920.0, 1920.0, 640.0, 400.0},
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
             {0.8, 0.5},
-            make_frustum({})};
+            geometry::make_frustum({})};
 }
 
 TEST(Pattern, TheOutermostPixelsAreWhiteAndTheNextOnesMostlyBlack) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
-    const Image8 picture = table_pattern(shipped(), *typesetter);
+    const image::Image8 picture = typography::table_pattern(shipped(), *typesetter);
     for (int x = 0; x < picture.width; ++x) {
         EXPECT_EQ(picture.at(x, 0).r, 255);
         EXPECT_EQ(picture.at(x, picture.height - 1).r, 255);
@@ -27,11 +27,12 @@ TEST(Pattern, TheOutermostPixelsAreWhiteAndTheNextOnesMostlyBlack) {
 }
 
 TEST(Pattern, EdgesOfThePropAreWhereThePinholeSeesThem) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
-    const PatternScene scene = shipped();
-    const Image8 black(1280, 800, glm::u8vec4(0, 0, 0, 255));
-    const Image8 picture = with_prop(black, scene, {{1, 0, 0, 0}, {0.1, -0.05, 0.0}}, *typesetter);
+    const typography::PatternScene scene = shipped();
+    const image::Image8 black(1280, 800, glm::u8vec4(0, 0, 0, 255));
+    const image::Image8 picture =
+        typography::with_prop(black, scene, {{1, 0, 0, 0}, {0.1, -0.05, 0.0}}, *typesetter);
     // The base's corner (+x, -y): 1920 / 1.2 = 1600 pixels a metre; the picture's top is +Y.
     const glm::dvec2 corner(640.0 + 1600.0 * 0.18, 400.0 + 1600.0 * 0.13);
     EXPECT_GT(picture.at(static_cast<int>(corner.x) - 20, static_cast<int>(corner.y)).g, 150);
@@ -40,31 +41,32 @@ TEST(Pattern, EdgesOfThePropAreWhereThePinholeSeesThem) {
 }
 
 TEST(Canvas, APictureScaledDownKeepsItsMeanLight) {
-    Image8 checks(64, 64, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 checks(64, 64, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
             checks.at(x, y) = (x + y) % 2 == 0 ? glm::u8vec4(255) : glm::u8vec4(0, 0, 0, 255);
         }
     }
-    Canvas canvas(8, 8, Colour(9));
+    typography::Canvas canvas(8, 8, typography::Colour(9));
     canvas.picture(checks, {0, 0}, {64, 64}, {0, 0}, {8, 8});
     EXPECT_NEAR(canvas.image().at(4, 4).r, 188, 1); // half the light is code 188
 }
 
 TEST(Canvas, AFillCoversPartsOfPixelsByTheirShare) {
-    Canvas canvas(4, 4, Colour(0));
-    canvas.fill({0.5, 0.0}, {2.0, 4.0}, Colour(255));
+    typography::Canvas canvas(4, 4, typography::Colour(0));
+    canvas.fill({0.5, 0.0}, {2.0, 4.0}, typography::Colour(255));
     EXPECT_NEAR(canvas.image().at(0, 1).r, 188, 1);
     EXPECT_EQ(canvas.image().at(1, 1).r, 255);
     EXPECT_EQ(canvas.image().at(2, 1).r, 0);
 }
 
 TEST(Pattern, LinesForTheStaffStayWithinThePictureAndLongOnesAreBroken) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
-    const Image8 black(640, 400, glm::u8vec4(0, 0, 0, 255));
+    const image::Image8 black(640, 400, glm::u8vec4(0, 0, 0, 255));
     const auto lit_rows = [&](const std::string& line) {
-        const Image8 picture = with_lines(black, std::vector<std::string>{line}, *typesetter);
+        const image::Image8 picture =
+            typography::with_lines(black, std::vector<std::string>{line}, *typesetter);
         int rows = 0;
         for (int y = 0; y < picture.height; ++y) {
             bool lit = false;
@@ -86,4 +88,4 @@ TEST(Pattern, LinesForTheStaffStayWithinThePictureAndLongOnesAreBroken) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

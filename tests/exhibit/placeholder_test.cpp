@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -16,7 +16,7 @@ using std::chrono::seconds;
 using sample::start;
 constexpr Nanoseconds frame = std::chrono::nanoseconds(1'000'000'000 / 120);
 
-TableRectangle square(const glm::dvec2& centre_m, double side_m) {
+typography::TableRectangle square(const glm::dvec2& centre_m, double side_m) {
     return {centre_m, glm::dvec2(side_m), 0};
 }
 
@@ -70,7 +70,7 @@ TEST(ExhibitThatLoads, ShowsWhatIsReadyAsEver) {
     exhibit.note(std::vector{ArtifactState::Ready, ArtifactState::Ready, ArtifactState::Away});
     MonotonicTime now = start;
     static_cast<void>(exhibit.step(now, {}, sample::tracked_state(now)));
-    const std::array<Command, 1> next{Command::NextArtifact};
+    const std::array<settings::Command, 1> next{settings::Command::NextArtifact};
     now += seconds(1);
     static_cast<void>(exhibit.step(now, next, sample::tracked_state(now)));
     for (; now < start + milliseconds(1500); now += frame) {
@@ -86,7 +86,7 @@ TEST(ExhibitThatLoads, ShowsAPictureUntilTheArtifactIsThereAndThenFadesItIn) {
     MonotonicTime now = start;
     static_cast<void>(exhibit.step(now, {}, sample::tracked_state(now)));
     now += seconds(1);
-    const std::array<Command, 1> next{Command::NextArtifact};
+    const std::array<settings::Command, 1> next{settings::Command::NextArtifact};
     const Presentation pressed = exhibit.step(now, next, sample::tracked_state(now));
     ASSERT_EQ(pressed.wanted.artifacts().size(), 3U);
     EXPECT_EQ(pressed.wanted.artifacts()[0], 1U);
@@ -124,9 +124,10 @@ TEST(ExhibitThatLoads, NeverShowsWhatIsLeftOut) {
     std::mt19937 random(1);
     MonotonicTime now = start;
     for (int k = 0; k < 4000; ++k, now += frame) {
-        std::vector<Command> commands;
+        std::vector<settings::Command> commands;
         if (random() % 20 == 0) {
-            commands.push_back(random() % 2 == 0 ? Command::NextArtifact : Command::PreviousArtifact);
+            commands.push_back(random() % 2 == 0 ? settings::Command::NextArtifact
+                                                 : settings::Command::PreviousArtifact);
         }
         const Presentation shown = exhibit.step(now, commands, sample::tracked_state(now));
         EXPECT_EQ(shown.artifact % 2, 0U);
@@ -140,7 +141,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
     std::vector<ArtifactState> states{ArtifactState::Ready, ArtifactState::Away, ArtifactState::Ready};
     exhibit.note(states);
-    const std::array<Command, 1> next{Command::NextArtifact};
+    const std::array<settings::Command, 1> next{settings::Command::NextArtifact};
     MonotonicTime now = start + seconds(1);
     static_cast<void>(exhibit.step(now, next, sample::tracked_state(now)));
     now += seconds(1);
@@ -185,9 +186,10 @@ TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWha
                 }
             }
             exhibit.note(states);
-            std::vector<Command> commands;
+            std::vector<settings::Command> commands;
             if (random() % (seed % 2 == 0 ? 4 : 25) == 0) {
-                constexpr std::array all{Command::NextArtifact, Command::PreviousArtifact};
+                constexpr std::array all{settings::Command::NextArtifact,
+                                         settings::Command::PreviousArtifact};
                 commands.push_back(all[random() % 2]);
             }
             const Presentation shown = exhibit.step(now, commands, sample::tracked_state(now));
@@ -201,4 +203,4 @@ TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWha
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using sample::start;
@@ -30,12 +30,12 @@ AdviceLanguage words_in(const std::string& language) {
 class RestTest : public ::testing::Test {
 protected:
     static Exhibit make(std::size_t artifacts) {
-        const Settings shipped;
+        const settings::Settings shipped;
         const std::vector<std::string> languages{"en", "de"};
         ExhibitPlace place;
-        place.prop = make_prop(shipped.prop);
+        place.prop = settings::make_prop(shipped.prop);
         place.lens_m = shipped.projector.table_from_projector.translation;
-        place.picture_m = picture_on_table(shipped, 0.0);
+        place.picture_m = settings::picture_on_table(shipped, 0.0);
         place.guidance = guidance_setup(shipped);
         place.words = {words_in("de"), words_in("en")};
         place.rest = seconds(30);
@@ -45,9 +45,9 @@ protected:
     void SetUp() override { tracked_state.eye_m = {0.0, -0.55, 0.5}; }
 
     /// Runs for `time`; with `lost`, the prop's pose is unknown.
-    void wait(Nanoseconds time, std::span<const Command> commands = {}) {
+    void wait(Nanoseconds time, std::span<const settings::Command> commands = {}) {
         const MonotonicTime end = now + time;
-        for (std::span<const Command> pressed = commands; now < end; pressed = {}) {
+        for (std::span<const settings::Command> pressed = commands; now < end; pressed = {}) {
             now += milliseconds(20);
             tracked_state.time = now;
             tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
@@ -63,7 +63,7 @@ protected:
     /// The key of the sentence on the table; empty: none.
     [[nodiscard]] std::string text() const { return shown.advice ? keys.at(shown.advice->word.text) : ""; }
 
-    TrackedState tracked_state;
+    tracking::TrackedState tracked_state;
     MonotonicTime now = start;
     std::optional<MonotonicTime> lost;
     Presentation before;
@@ -114,13 +114,13 @@ TEST_F(RestTest, TheFirstTouchKeepsTheArtifactAndItsPlaceAndTheLineFades) {
 
 TEST_F(RestTest, TheFirstPressDoesWhatItSays) {
     wait(seconds(1));
-    wait(seconds(1), std::array{Command::NextArtifact});
+    wait(seconds(1), std::array{settings::Command::NextArtifact});
     EXPECT_EQ(shown.state, State::View);
     EXPECT_EQ(shown.artifact, 1U);
 }
 
 TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
-    wait(seconds(1), std::array{Command::NextLanguage});
+    wait(seconds(1), std::array{settings::Command::NextLanguage});
     EXPECT_EQ(shown.language, "de");
     wait(seconds(28));
     EXPECT_EQ(shown.language, "de");
@@ -192,7 +192,7 @@ TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
     EXPECT_TRUE(shown.attracts);
     EXPECT_EQ(text(), "attract_line");
     wait(seconds(1),
-         std::array{Command::NextArtifact}); // the prop's pose is unknown, but a visitor is present
+         std::array{settings::Command::NextArtifact}); // the prop's pose is unknown, but a visitor is present
     EXPECT_EQ(shown.state, State::Degraded);
 }
 
@@ -210,7 +210,7 @@ TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
     slide(0.02);
     wait(milliseconds(100));
     lose();
-    tracked_state.tracker = TrackerHealth::Away;
+    tracked_state.tracker = tracker::TrackerHealth::Away;
     wait(seconds(6));
     EXPECT_EQ(text(), "wait_tracker");
 }
@@ -218,7 +218,7 @@ TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
 TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
     wait(seconds(1));
     slide(0.02);
-    tracked_state.tracker = TrackerHealth::MetalNear;
+    tracked_state.tracker = tracker::TrackerHealth::MetalNear;
     wait(seconds(3));
     EXPECT_EQ(shown.state, State::Guide);
     EXPECT_EQ(text(), "away_from_metal");
@@ -256,15 +256,15 @@ TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
-    wait(seconds(1), std::array{Command::StaffMode});
+    wait(seconds(1), std::array{settings::Command::StaffMode});
     EXPECT_EQ(shown.state, State::Staff);
     EXPECT_EQ(shown.state_before, State::View);
     lose();
     wait(seconds(5));
     EXPECT_EQ(shown.state, State::Staff);
-    wait(milliseconds(20), std::array{Command::NextArtifact});
+    wait(milliseconds(20), std::array{settings::Command::NextArtifact});
     EXPECT_EQ(shown.state, State::Staff);
-    wait(milliseconds(20), std::array{Command::StaffMode});
+    wait(milliseconds(20), std::array{settings::Command::StaffMode});
     EXPECT_EQ(shown.state, State::Degraded);
     wait(seconds(1));
     EXPECT_EQ(shown.artifact, 0U);
@@ -275,13 +275,13 @@ TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::Fault);
     EXPECT_EQ(text(), "fault.no_artifact");
-    wait(seconds(120), std::array{Command::StaffMode});
+    wait(seconds(120), std::array{settings::Command::StaffMode});
     EXPECT_EQ(shown.state, State::Fault);
     EXPECT_EQ(said, 0);
 }
 
 TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
-    wait(seconds(1), std::array{Command::NextLanguage});
+    wait(seconds(1), std::array{settings::Command::NextLanguage});
     exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::LeftOut, ArtifactState::LeftOut});
     wait(seconds(2));
     EXPECT_EQ(shown.state, State::Fault);
@@ -299,4 +299,4 @@ TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -29,7 +29,7 @@ TEST(Selection, BeginsDarkAndBrightensWithinTheFadeTime) {
 TEST(Selection, ThePictureChangesOnlyInTheDark) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
-    selection.take(Command::NextArtifact, press);
+    selection.take(settings::Command::NextArtifact, press);
     std::size_t before = 0;
     for (int ms = 0; ms <= 500; ++ms) {
         const Shown shown = selection.at(press + milliseconds(ms));
@@ -45,19 +45,20 @@ TEST(Selection, ThePictureChangesOnlyInTheDark) {
 TEST(Selection, ArtifactsFollowInACircleBothWays) {
     Selection selection = three_artifacts();
     MonotonicTime now = start + std::chrono::seconds(1);
-    const auto after = [&](Command command) {
+    const auto after = [&](settings::Command command) {
         selection.take(command, now);
         now += std::chrono::seconds(1);
         return selection.at(now).artifact;
     };
-    EXPECT_EQ(after(Command::NextArtifact), 1U);
-    EXPECT_EQ(after(Command::NextArtifact), 2U);
-    EXPECT_EQ(after(Command::NextArtifact), 0U);
-    EXPECT_EQ(after(Command::PreviousArtifact), 2U);
+    EXPECT_EQ(after(settings::Command::NextArtifact), 1U);
+    EXPECT_EQ(after(settings::Command::NextArtifact), 2U);
+    EXPECT_EQ(after(settings::Command::NextArtifact), 0U);
+    EXPECT_EQ(after(settings::Command::PreviousArtifact), 2U);
 }
 
 TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
-    constexpr std::array commands{Command::NextArtifact, Command::NextLanguage, Command::PreviousArtifact};
+    constexpr std::array commands{settings::Command::NextArtifact, settings::Command::NextLanguage,
+                                  settings::Command::PreviousArtifact};
     std::mt19937 random(3);
     for (int run = 0; run < 200; ++run) {
         Selection selection = three_artifacts();
@@ -92,10 +93,10 @@ TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
 TEST(Selection, APressShowsAtOnceAndNoneIsForgotten) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
-    selection.take(Command::NextArtifact, press);
+    selection.take(settings::Command::NextArtifact, press);
     EXPECT_LT(selection.at(press + milliseconds(50)).brightness, 0.9);
     const MonotonicTime next = press + milliseconds(300); // the other one fades in
-    selection.take(Command::NextArtifact, next);
+    selection.take(settings::Command::NextArtifact, next);
     EXPECT_GT(selection.at(next + milliseconds(50)).brightness, selection.at(next).brightness)
         << "no turning round";
     EXPECT_TRUE(selection.at(next).changing);
@@ -108,10 +109,10 @@ TEST(Selection, APressShowsAtOnceAndNoneIsForgotten) {
 TEST(Selection, ACommandThatWaitsAndIsUndoneChangesNothing) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
-    selection.take(Command::NextArtifact, press);
+    selection.take(settings::Command::NextArtifact, press);
     const MonotonicTime next = press + milliseconds(300);
-    selection.take(Command::NextArtifact, next);
-    selection.undo(Command::NextArtifact, next + milliseconds(100));
+    selection.take(settings::Command::NextArtifact, next);
+    selection.undo(settings::Command::NextArtifact, next + milliseconds(100));
     for (int ms = 100; ms < 1000; ++ms) {
         EXPECT_EQ(selection.at(next + milliseconds(ms)).artifact, 1U);
         EXPECT_GT(selection.at(next + milliseconds(ms)).brightness, 0.2) << ms;
@@ -121,7 +122,7 @@ TEST(Selection, ACommandThatWaitsAndIsUndoneChangesNothing) {
 TEST(Selection, ALanguageChangesTheCaptionInTheDarkAndLeavesTheArtifactBright) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
-    selection.take(Command::NextLanguage, press);
+    selection.take(settings::Command::NextLanguage, press);
     double darkest = 1.0;
     for (int ms = 0; ms < 500; ++ms) {
         const Shown shown = selection.at(press + milliseconds(ms));
@@ -137,8 +138,8 @@ TEST(Selection, ALateFrameShowsWhatAnEarlyOneWouldHave) {
     Selection often = three_artifacts();
     Selection seldom = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(2);
-    often.take(Command::NextArtifact, press);
-    seldom.take(Command::NextArtifact, press);
+    often.take(settings::Command::NextArtifact, press);
+    seldom.take(settings::Command::NextArtifact, press);
     for (int ms = 0; ms < 317; ++ms) {
         (void)often.at(press + milliseconds(ms));
     }
@@ -148,19 +149,21 @@ TEST(Selection, ALateFrameShowsWhatAnEarlyOneWouldHave) {
 
 TEST(Selection, TheLanguageButtonGoesThroughTheLanguages) {
     Selection selection = three_artifacts();
-    selection.take(Command::NextLanguage, start);
+    selection.take(settings::Command::NextLanguage, start);
     EXPECT_EQ(selection.language(), "de");
-    selection.take(Command::NextLanguage, start);
-    selection.take(Command::NextLanguage, start);
+    selection.take(settings::Command::NextLanguage, start);
+    selection.take(settings::Command::NextLanguage, start);
     EXPECT_EQ(selection.language(), "en");
     Selection elsewhere(1, {"en", "de"}, "nl", start);
-    elsewhere.take(Command::NextLanguage, start);
+    elsewhere.take(settings::Command::NextLanguage, start);
     EXPECT_EQ(elsewhere.language(), "en");
 }
 
 TEST(Selection, ACommandThatIsUndoneLeavesWhatWasThere) {
     const MonotonicTime later = start + std::chrono::seconds(3);
-    for (const Command command : {Command::NextArtifact, Command::PreviousArtifact, Command::NextLanguage}) {
+    for (const settings::Command command :
+         {settings::Command::NextArtifact, settings::Command::PreviousArtifact,
+          settings::Command::NextLanguage}) {
         for (const std::string language : {"en", "fr", "nl"}) { // "nl": no caption in this language
             Selection selection(3, {"en", "de", "fr"}, language, start);
             selection.take(command, start + std::chrono::seconds(1));
@@ -176,16 +179,18 @@ TEST(Selection, ACommandThatIsUndoneLeavesWhatWasThere) {
 
 TEST(Selection, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
     Selection none(0, {}, "en", start);
-    none.take(Command::NextArtifact, start);
-    none.take(Command::NextLanguage, start);
+    none.take(settings::Command::NextArtifact, start);
+    none.take(settings::Command::NextLanguage, start);
     EXPECT_EQ(none.at(start + std::chrono::seconds(1)).brightness, 0.0);
     Selection one(1, {"en"}, "en", start);
-    for (const Command command : {Command::NextArtifact, Command::PreviousArtifact, Command::NextLanguage}) {
+    for (const settings::Command command :
+         {settings::Command::NextArtifact, settings::Command::PreviousArtifact,
+          settings::Command::NextLanguage}) {
         EXPECT_FALSE(none.accepts(command));
         EXPECT_FALSE(one.accepts(command));
         EXPECT_TRUE(three_artifacts().accepts(command));
     }
-    one.take(Command::NextArtifact, start + std::chrono::seconds(1));
+    one.take(settings::Command::NextArtifact, start + std::chrono::seconds(1));
     EXPECT_EQ(one.at(start + milliseconds(1100)).brightness, 1.0);
 }
 
@@ -201,4 +206,4 @@ TEST(Selection, TheCaptionIsInTheLanguageAskedForOrTheNearestThereIs) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 
 inline double between(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-inline RigidTransform standing(const glm::dvec2& place, double yaw) {
+inline geometry::RigidTransform standing(const glm::dvec2& place, double yaw) {
     return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(place, 0.0)};
 }
 
@@ -30,10 +30,11 @@ inline TableSetUp some_set_up(std::mt19937_64& random) {
                                       at.x * std::sin(roll) + at.y * std::cos(roll));
     }
     if (random() % 4 == 0) {
-        set_up.prop = make_cube(between(random, 0.06, 0.2));
+        set_up.prop = geometry::make_cube(between(random, 0.06, 0.2));
     } else {
         const double base = between(random, 0.08, 0.32);
-        set_up.prop = make_frustum({base, base * between(random, 0.2, 1.0), between(random, 0.05, 0.25)});
+        set_up.prop =
+            geometry::make_frustum({base, base * between(random, 0.2, 1.0), between(random, 0.05, 0.25)});
     }
     set_up.lens_m = {between(random, -0.2, 0.2), between(random, -0.3, 0.3), between(random, 0.7, 2.2)};
     set_up.home_m = {between(random, -0.2, 0.2) * half.x, between(random, -0.2, 0.2) * half.y};
@@ -43,4 +44,4 @@ inline TableSetUp some_set_up(std::mt19937_64& random) {
     return set_up;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -261,4 +261,4 @@ TEST(StaffTool, EveryStateThatCanBeReachedIsInOrder) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

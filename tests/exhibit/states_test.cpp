@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 /// The state after each event, in the order of the headings; '.' stays.
@@ -157,4 +157,4 @@ TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -18,9 +18,9 @@ using std::chrono::seconds;
 
 const MonotonicTime start{seconds(100)};
 
-ImportReport report_of(const std::string& id, ImportStage stage, std::uint64_t done = 0,
-                       std::uint64_t total = 100) {
-    ImportReport report;
+library::ImportReport report_of(const std::string& id, library::ImportStage stage, std::uint64_t done = 0,
+                                std::uint64_t total = 100) {
+    library::ImportReport report;
     report.import_id = id;
     report.stage = stage;
     report.done_bytes = done;
@@ -28,8 +28,8 @@ ImportReport report_of(const std::string& id, ImportStage stage, std::uint64_t d
     return report;
 }
 
-ImportedPack pack_of(const std::string& name, ImportOutcome outcome,
-                     ImportRefusal refusal = ImportRefusal::None) {
+library::ImportedPack pack_of(const std::string& name, library::ImportOutcome outcome,
+                              library::ImportRefusal refusal = library::ImportRefusal::None) {
     return {name + ".fspack", "Title of " + name, outcome, refusal, "because"};
 }
 
@@ -38,44 +38,49 @@ using Keys = std::vector<std::string_view>;
 } // namespace
 
 TEST(NoticeText, each_stage_has_its_sentence_and_its_ring) {
-    EXPECT_EQ(notice_text(report_of("a", ImportStage::Found)), (NoticeText{{"stick.found"}, {}, true}));
-    EXPECT_EQ(notice_text(report_of("a", ImportStage::Copying)), (NoticeText{{"stick.copying"}, {}, true}));
-    EXPECT_EQ(notice_text(report_of("a", ImportStage::MayTakeOut)),
+    EXPECT_EQ(notice_text(report_of("a", library::ImportStage::Found)),
+              (NoticeText{{"stick.found"}, {}, true}));
+    EXPECT_EQ(notice_text(report_of("a", library::ImportStage::Copying)),
+              (NoticeText{{"stick.copying"}, {}, true}));
+    EXPECT_EQ(notice_text(report_of("a", library::ImportStage::MayTakeOut)),
               (NoticeText{{"stick.take_out"}, {}, true}));
-    EXPECT_EQ(notice_text(report_of("a", ImportStage::Done)),
+    EXPECT_EQ(notice_text(report_of("a", library::ImportStage::Done)),
               (NoticeText{{"stick.nothing_on_it", "stick.take_out"}, {}, false}));
-    ImportReport failed = report_of("a", ImportStage::Failed);
-    failed.refusal = ImportRefusal::NoRoom;
+    library::ImportReport failed = report_of("a", library::ImportStage::Failed);
+    failed.refusal = library::ImportRefusal::NoRoom;
     EXPECT_EQ(notice_text(failed), (NoticeText{{"stick.refused.no_room", "stick.take_out"}, {}, false}));
-    failed.refusal = ImportRefusal::Unreadable; // a stick that was pulled out need not be taken out
+    failed.refusal = library::ImportRefusal::Unreadable; // a stick that was pulled out need not be taken out
     EXPECT_EQ(notice_text(failed).sentences, (Keys{"stick.refused.unreadable"}));
 }
 
 TEST(NoticeText, wrong_settings_are_told_with_their_line) {
-    ImportReport report = report_of("a", ImportStage::Done);
-    report.packs = {{"kiosk.toml", "", ImportOutcome::Refused, ImportRefusal::NotAPack, "line 3: no"},
-                    {"vase.fspack", "", ImportOutcome::Refused, ImportRefusal::Unsigned, "it is not signed"}};
+    library::ImportReport report = report_of("a", library::ImportStage::Done);
+    report.packs = {
+        {"kiosk.toml", "", library::ImportOutcome::Refused, library::ImportRefusal::NotAPack, "line 3: no"},
+        {"vase.fspack", "", library::ImportOutcome::Refused, library::ImportRefusal::Unsigned,
+         "it is not signed"}};
     EXPECT_EQ(notice_text(report).remark, "kiosk.toml: line 3: no");
     EXPECT_EQ(notice_text(report).lines.size(), 2U);
-    report.packs.front() = {"kiosk.toml", "", ImportOutcome::Taken, ImportRefusal::None, ""};
+    report.packs.front() = {"kiosk.toml", "", library::ImportOutcome::Taken, library::ImportRefusal::None,
+                            ""};
     EXPECT_EQ(notice_text(report).remark, "") << "what a curator must mend is in the report alone";
 }
 
 TEST(NoticeText, a_report_on_the_stick_is_told_by_its_folder_and_a_missing_one_by_its_reason) {
-    ImportReport report = report_of("a", ImportStage::Done);
-    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", ImportOutcome::Written, {}, ""}};
+    library::ImportReport report = report_of("a", library::ImportStage::Done);
+    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", library::ImportOutcome::Written, {}, ""}};
     EXPECT_EQ(notice_text(report), (NoticeText{{"stick.take_out"},
                                                {{"frustumscreen-report-2031-05-04-120000",
                                                  "frustumscreen-report-2031-05-04-120000", "stick.written"}},
                                                false}));
-    report.packs = {{"frustumscreen-report.toml", "", ImportOutcome::NotWritten, ImportRefusal::NoRoom,
-                     "the stick is full"}};
+    report.packs = {{"frustumscreen-report.toml", "", library::ImportOutcome::NotWritten,
+                     library::ImportRefusal::NoRoom, "the stick is full"}};
     EXPECT_EQ(notice_text(report).remark, "frustumscreen-report.toml: the stick is full");
     EXPECT_EQ(notice_text(report).lines.front().key, "stick.not_written");
     // A report that is written in spite of a mistake in the file
-    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", ImportOutcome::Written, {}, ""},
-                    {"frustumscreen-report.toml", "", ImportOutcome::Refused, ImportRefusal::NotAPack,
-                     "frustumscreen-report.toml:1: unknown"}};
+    report.packs = {{"frustumscreen-report-2031-05-04-120000", "", library::ImportOutcome::Written, {}, ""},
+                    {"frustumscreen-report.toml", "", library::ImportOutcome::Refused,
+                     library::ImportRefusal::NotAPack, "frustumscreen-report.toml:1: unknown"}};
     EXPECT_EQ(notice_text(report).lines.size(), 2U);
     EXPECT_NE(notice_text(report).remark, "");
 }
@@ -85,22 +90,24 @@ TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
     for (const auto& [key, letters] : synthetic::stick_words()) {
         keys.insert(key);
     }
-    for (std::size_t k = 1; k < import_refusal_names.size(); ++k) {
-        EXPECT_EQ(outcome_word(ImportOutcome::Refused, static_cast<ImportRefusal>(k)),
-                  "stick.refused." + std::string(import_refusal_names[k]));
+    for (std::size_t k = 1; k < library::import_refusal_names.size(); ++k) {
+        EXPECT_EQ(outcome_word(library::ImportOutcome::Refused, static_cast<library::ImportRefusal>(k)),
+                  "stick.refused." + std::string(library::import_refusal_names[k]));
     }
-    for (const ImportOutcome outcome :
-         {ImportOutcome::Taken, ImportOutcome::AlreadyThere, ImportOutcome::Removed, ImportOutcome::Written,
-          ImportOutcome::NotWritten}) {
-        EXPECT_TRUE(keys.contains(std::string(outcome_word(outcome, ImportRefusal::None))));
+    for (const library::ImportOutcome outcome :
+         {library::ImportOutcome::Taken, library::ImportOutcome::AlreadyThere,
+          library::ImportOutcome::Removed, library::ImportOutcome::Written,
+          library::ImportOutcome::NotWritten}) {
+        EXPECT_TRUE(keys.contains(std::string(outcome_word(outcome, library::ImportRefusal::None))));
     }
 }
 
 TEST(NoticeText, a_refused_pack_is_called_by_its_file_and_comes_first) {
-    ImportReport report = report_of("a", ImportStage::Done);
-    report.packs = {pack_of("vase", ImportOutcome::Taken), pack_of("old", ImportOutcome::Removed),
-                    pack_of("coin", ImportOutcome::Refused, ImportRefusal::Altered),
-                    pack_of("cup", ImportOutcome::AlreadyThere)};
+    library::ImportReport report = report_of("a", library::ImportStage::Done);
+    report.packs = {pack_of("vase", library::ImportOutcome::Taken),
+                    pack_of("old", library::ImportOutcome::Removed),
+                    pack_of("coin", library::ImportOutcome::Refused, library::ImportRefusal::Altered),
+                    pack_of("cup", library::ImportOutcome::AlreadyThere)};
     EXPECT_EQ(notice_text(report).lines,
               (std::vector<NoticeLine>{{"coin.fspack", "coin.fspack", "stick.refused.altered"},
                                        {"Title of vase", "vase.fspack", "stick.taken"},
@@ -111,17 +118,19 @@ TEST(NoticeText, a_refused_pack_is_called_by_its_file_and_comes_first) {
 TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
     std::mt19937 random(7);
     for (int round = 0; round < 400; ++round) {
-        ImportReport report = report_of("a", round % 5 == 0 ? ImportStage::Failed : ImportStage::Done);
-        report.refusal = ImportRefusal::TooMuch;
+        library::ImportReport report =
+            report_of("a", round % 5 == 0 ? library::ImportStage::Failed : library::ImportStage::Done);
+        report.refusal = library::ImportRefusal::TooMuch;
         const std::size_t count = random() % (round % 3 == 0 ? 600 : 12);
         std::map<std::string, int, std::less<>> expected;
         for (std::size_t k = 0; k < count; ++k) {
-            const auto outcome = static_cast<ImportOutcome>(random() % import_outcome_names.size());
-            const auto refusal = outcome == ImportOutcome::Refused
-                                     ? static_cast<ImportRefusal>(1 + random() % 9)
-                                     : ImportRefusal::None;
+            const auto outcome =
+                static_cast<library::ImportOutcome>(random() % library::import_outcome_names.size());
+            const auto refusal = outcome == library::ImportOutcome::Refused
+                                     ? static_cast<library::ImportRefusal>(1 + random() % 9)
+                                     : library::ImportRefusal::None;
             report.packs.push_back(pack_of(std::to_string(k), outcome, refusal));
-            if (outcome != ImportOutcome::Pending) {
+            if (outcome != library::ImportOutcome::Pending) {
                 ++expected[std::string(outcome_word(outcome, refusal))];
             }
         }
@@ -154,35 +163,35 @@ TEST(StickNotice, lines_stay_for_two_minutes_or_until_a_press) {
     for (const bool pressed : {false, true}) {
         StickNotice notice;
         EXPECT_FALSE(notice.press(start));
-        notice.take(start, report_of("a", ImportStage::Found), false);
+        notice.take(start, report_of("a", library::ImportStage::Found), false);
         EXPECT_EQ(notice.at(start)->speech, "stick.found");
-        notice.take(start + seconds(1), report_of("a", ImportStage::Copying, 0), false);
+        notice.take(start + seconds(1), report_of("a", library::ImportStage::Copying, 0), false);
         EXPECT_FALSE(notice.press(start + seconds(2))) << "a visitor's press is a visitor's";
-        notice.take(start + seconds(3), report_of("a", ImportStage::Copying, 40), false);
+        notice.take(start + seconds(3), report_of("a", library::ImportStage::Copying, 40), false);
         EXPECT_NEAR(*notice.at(start + seconds(4))->ring, 0.4, 1e-9);
         EXPECT_TRUE(notice.at(start + seconds(4))->speech.empty());
-        notice.take(start + seconds(5), report_of("a", ImportStage::MayTakeOut), false);
+        notice.take(start + seconds(5), report_of("a", library::ImportStage::MayTakeOut), false);
         EXPECT_NEAR(*notice.at(start + seconds(6))->ring, 1.0, 1e-9);
         EXPECT_EQ(notice.at(start + seconds(6))->speech, "stick.take_out");
         EXPECT_FALSE(notice.press(start + seconds(7)));
         const MonotonicTime over = start + seconds(8);
-        notice.take(over, report_of("a", ImportStage::Done), false);
+        notice.take(over, report_of("a", library::ImportStage::Done), false);
         EXPECT_FALSE(notice.at(over)->ring);
         EXPECT_TRUE(notice.at(over + minutes(2) - milliseconds(1)));
         EXPECT_EQ(notice.press(over + seconds(pressed ? 10 : 120)), pressed);
         EXPECT_FALSE(notice.at(over + seconds(120)));
         EXPECT_EQ(notice.at(over + seconds(11)).has_value(), !pressed);
         EXPECT_FALSE(notice.press(over + seconds(121))) << "nothing is there to end";
-        notice.take(over + seconds(122), report_of("a", ImportStage::Done, 1), false);
+        notice.take(over + seconds(122), report_of("a", library::ImportStage::Done, 1), false);
         EXPECT_FALSE(notice.at(over + seconds(122))) << "it was over";
-        notice.take(over + seconds(123), report_of("b", ImportStage::Found), false);
+        notice.take(over + seconds(123), report_of("b", library::ImportStage::Found), false);
         ASSERT_TRUE(notice.at(over + seconds(123))) << "another stick";
         EXPECT_EQ(notice.at(over + seconds(123))->import, 2U);
     }
 }
 
 TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
-    for (const ImportStage stage : {ImportStage::Done, ImportStage::Failed}) {
+    for (const library::ImportStage stage : {library::ImportStage::Done, library::ImportStage::Failed}) {
         StickNotice notice;
         notice.take(start, report_of("a", stage), true);
         EXPECT_FALSE(notice.at(start));
@@ -191,17 +200,17 @@ TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
         EXPECT_TRUE(notice.at(start));
     }
     StickNotice notice;
-    notice.take(start, report_of("a", ImportStage::Copying, 20), true);
+    notice.take(start, report_of("a", library::ImportStage::Copying, 20), true);
     EXPECT_TRUE(notice.at(start)) << "it goes on";
-    notice.take(start + seconds(1), report_of("a", ImportStage::Done), true);
+    notice.take(start + seconds(1), report_of("a", library::ImportStage::Done), true);
     EXPECT_TRUE(notice.at(start + seconds(1)));
 }
 
 TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
     StickNotice notice;
-    notice.take(start, report_of("a", ImportStage::Copying, 20), false);
+    notice.take(start, report_of("a", library::ImportStage::Copying, 20), false);
     const MonotonicTime renewed = start + seconds(20);
-    notice.take(renewed, report_of("a", ImportStage::Copying, 20), false); // the same report again
+    notice.take(renewed, report_of("a", library::ImportStage::Copying, 20), false); // the same report again
     EXPECT_FALSE(notice.at(start + seconds(30) - milliseconds(1))->stopped);
     EXPECT_TRUE(notice.at(start + seconds(30))->stopped);
     EXPECT_FALSE(notice.at(start + seconds(30))->ring);
@@ -209,23 +218,23 @@ TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
     EXPECT_FALSE(notice.at(start + seconds(30) + minutes(2)));
     EXPECT_TRUE(notice.press(start + seconds(40)));
     EXPECT_FALSE(notice.at(start + seconds(41)));
-    notice.take(start + seconds(50), report_of("a", ImportStage::Copying, 30), false);
+    notice.take(start + seconds(50), report_of("a", library::ImportStage::Copying, 30), false);
     ASSERT_TRUE(notice.at(start + seconds(50))) << "a slow stick";
     EXPECT_FALSE(notice.at(start + seconds(50))->stopped);
 
     StickNotice looked;
-    looked.take(start, report_of("a", ImportStage::Found), false);
+    looked.take(start, report_of("a", library::ImportStage::Found), false);
     EXPECT_FALSE(looked.at(start + seconds(60))->stopped) << "looking may take a minute";
     EXPECT_TRUE(looked.at(start + seconds(90))->stopped);
 }
 
 TEST(StickNotice, sizes_that_lie_break_nothing) {
     StickNotice notice;
-    notice.take(start, report_of("a", ImportStage::Copying, 500, 100), false);
+    notice.take(start, report_of("a", library::ImportStage::Copying, 500, 100), false);
     EXPECT_EQ(*notice.at(start + seconds(1))->ring, 1.0);
-    notice.take(start, report_of("b", ImportStage::Copying, 5, 0), false);
+    notice.take(start, report_of("b", library::ImportStage::Copying, 5, 0), false);
     EXPECT_EQ(*notice.at(start + seconds(1))->ring, 1.0);
-    notice.take(start, report_of("c", ImportStage::Copying, 0, 0), false);
+    notice.take(start, report_of("c", library::ImportStage::Copying, 0, 0), false);
     EXPECT_EQ(*notice.at(start + seconds(1))->ring, 0.0);
 }
 
@@ -239,9 +248,9 @@ TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_eve
         for (int k = 0; k < 3000; ++k) {
             now += milliseconds(random() % 40 == 0 ? random() % 60000 : 10);
             if (random() % 50 == 0) {
-                ImportReport report =
-                    report_of(std::to_string(random() % 2), ImportStage(random() % 5), random() % 101, 100);
-                report.refusal = static_cast<ImportRefusal>(random() % 10);
+                library::ImportReport report = report_of(
+                    std::to_string(random() % 2), library::ImportStage(random() % 5), random() % 101, 100);
+                report.refusal = static_cast<library::ImportRefusal>(random() % 10);
                 notice.take(now, report, random() % 4 == 0);
                 silent_since = now;
             }
@@ -265,7 +274,8 @@ TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_eve
     for (int k = 0; k < 500; ++k) {
         const MonotonicTime now = start + milliseconds(10 * k);
         if (k % 7 == 0) {
-            notice.take(now, report_of("a", ImportStage::Copying, std::min(100U, 2U * (k / 7))), false);
+            notice.take(now, report_of("a", library::ImportStage::Copying, std::min(100U, 2U * (k / 7))),
+                        false);
         }
         const double ring = *notice.at(now)->ring;
         EXPECT_GE(ring, last - 1e-9);
@@ -275,4 +285,4 @@ TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_eve
     EXPECT_GT(last, 0.9);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -16,7 +16,7 @@ TableSetUp shipped(std::size_t artifacts) {
     TableSetUp set_up;
     set_up.artifacts = artifacts;
     set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
-    set_up.prop = make_frustum(shipped_frustum);
+    set_up.prop = geometry::make_frustum(geometry::shipped_frustum);
     set_up.lens_m = {0.0, 0.0, 1.5};
     return set_up;
 }
@@ -30,7 +30,8 @@ struct Visitor {
     explicit Visitor(std::size_t artifacts) : set_up(shipped(artifacts)), browser(set_up) { put({0.0, 0.0}); }
     void put(const glm::dvec2& at) {
         input.prop_m = at;
-        input.shadow = hidden_by_prop(set_up.prop, {{1, 0, 0, 0}, glm::dvec3(at, 0.0)}, set_up.lens_m);
+        input.shadow =
+            typography::hidden_by_prop(set_up.prop, {{1, 0, 0, 0}, glm::dvec3(at, 0.0)}, set_up.lens_m);
     }
     /// The chosen artifact comes into the prop.
     void wait(double seconds) {
@@ -174,7 +175,7 @@ TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
 TEST(TableBrowser, PicturesUnderASignDim) {
     Visitor visitor(6);
     visitor.wait(0.6);
-    const TableRectangle under = visitor.picture_of(4).place.picture;
+    const typography::TableRectangle under = visitor.picture_of(4).place.picture;
     double before = 1.0;
     int changes_of_way = 0;
     for (int k = 0; k < 600; ++k) {
@@ -182,8 +183,8 @@ TEST(TableBrowser, PicturesUnderASignDim) {
         const double glides =
             std::sin(k * 2.0 * 3.14159 / 108.0); // the sign is beside the picture for half of the time
         const double below = 0.5 * under.size_m.y + 0.026 + 0.02 - 0.02 * glides;
-        const TableRectangle sign{under.centre_m - glm::dvec2(0.0, below), glm::dvec2(0.04)};
-        visitor.input.sign = signs ? std::optional(polygon_of(sign)) : std::nullopt;
+        const typography::TableRectangle sign{under.centre_m - glm::dvec2(0.0, below), glm::dvec2(0.04)};
+        visitor.input.sign = signs ? std::optional(typography::polygon_of(sign)) : std::nullopt;
         visitor.wait(1.0 / 60.0);
         const double now = visitor.picture_of(4).brightness;
         EXPECT_LE(std::abs(now - before), 0.15);
@@ -199,4 +200,4 @@ TEST(TableBrowser, PicturesUnderASignDim) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 /// A caption finds room in the area that is left for it.
@@ -20,23 +20,25 @@ TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
             continue;
         }
         ++tried;
-        CaptionPlacer placer(set_up.picture_m);
+        typography::CaptionPlacer placer(set_up.picture_m);
         placer.set_shapes(set_up.captions_m);
-        std::vector<TableRectangle> obstacles;
+        std::vector<typography::TableRectangle> obstacles;
         for (const TablePlace& place : layout.places) {
             obstacles.push_back(place.whole());
         }
         placer.set_obstacles(obstacles);
-        const RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
-        const std::optional<TablePolygon> shadow = hidden_by_prop(set_up.prop, home, set_up.lens_m);
+        const geometry::RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
+        const std::optional<typography::TablePolygon> shadow =
+            typography::hidden_by_prop(set_up.prop, home, set_up.lens_m);
         for (const int ms : {0, 500}) {
             placer.update(MonotonicTime{} + std::chrono::milliseconds(ms), shadow, std::nullopt,
                           set_up.home_m, side);
         }
-        const CaptionPlace caption = placer.at(MonotonicTime{} + std::chrono::milliseconds(500));
+        const typography::CaptionPlace caption = placer.at(MonotonicTime{} + std::chrono::milliseconds(500));
         EXPECT_EQ(caption.opacity, 1.0) << k;
-        for (const TableRectangle& obstacle : obstacles) {
-            EXPECT_GE(clearance(caption.rectangle.corners(), obstacle.corners()), 0.008 - 1e-9) << k;
+        for (const typography::TableRectangle& obstacle : obstacles) {
+            EXPECT_GE(typography::clearance(caption.rectangle.corners(), obstacle.corners()), 0.008 - 1e-9)
+                << k;
         }
     }
     EXPECT_GT(tried, 80);
@@ -47,7 +49,7 @@ TEST(TableInUse, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
     TableSetUp set_up;
     set_up.artifacts = 12;
     set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
-    set_up.prop = make_frustum(shipped_frustum);
+    set_up.prop = geometry::make_frustum(geometry::shipped_frustum);
     set_up.lens_m = {0.0, 0.0, 1.5};
     const TableLayout layout = lay_out_table(set_up, 0);
     ASSERT_EQ(layout.places.size(), 12U);
@@ -59,26 +61,28 @@ TEST(TableInUse, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
         const int steps = 600;
         for (int step = 0; step <= steps; ++step) {
             const glm::dvec2 at = goal.picture.centre_m * (static_cast<double>(step) / steps);
-            const std::optional<TablePolygon> shadow =
-                hidden_by_prop(set_up.prop, standing(at, yaw), set_up.lens_m);
+            const std::optional<typography::TablePolygon> shadow =
+                typography::hidden_by_prop(set_up.prop, standing(at, yaw), set_up.lens_m);
             ASSERT_TRUE(shadow);
             // The shadow moves with the prop; that of its top 1.5 / (1.5 - 0.155) times as far.
             const double moved = 1.12 * glm::length(goal.picture.centre_m) / steps;
             for (std::size_t k = 0; k < layout.places.size(); ++k) {
                 const double now = place_brightness(layout.places[k], shadow);
                 EXPECT_LE(std::abs(now - before[k]), 1.5 * moved / 0.012 + 1e-9);
-                const double clear = clearance(layout.places[k].whole().corners(), shadow->corners());
+                const double clear =
+                    typography::clearance(layout.places[k].whole().corners(), shadow->corners());
                 EXPECT_EQ(now >= 1.0, clear >= 0.012);
                 EXPECT_EQ(now <= 0.0, clear <= 0.0);
                 before[k] = now;
             }
         }
-        EXPECT_EQ(place_brightness(
-                      goal, hidden_by_prop(set_up.prop, standing(goal.picture.centre_m, yaw), set_up.lens_m)),
+        EXPECT_EQ(place_brightness(goal, typography::hidden_by_prop(set_up.prop,
+                                                                    standing(goal.picture.centre_m, yaw),
+                                                                    set_up.lens_m)),
                   0.0);
     }
     EXPECT_EQ(place_brightness(layout.places.front(), std::nullopt), 0.0);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 double distance_inside(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point) {
@@ -24,14 +24,14 @@ double distance_inside(const std::vector<glm::dvec2>& polygon, const glm::dvec2&
     return least;
 }
 
-double distance_between(const TableRectangle& a, const TableRectangle& b) {
-    return clearance(a.corners(), b.corners());
+double distance_between(const typography::TableRectangle& a, const typography::TableRectangle& b) {
+    return typography::clearance(a.corners(), b.corners());
 }
 
 void expect_apart_and_inside(const TableSetUp& set_up, const TableLayout& layout) {
     for (std::size_t k = 0; k < layout.places.size(); ++k) {
         const TablePlace& place = layout.places[k];
-        for (const TableRectangle& part : {place.picture, place.title}) {
+        for (const typography::TableRectangle& part : {place.picture, place.title}) {
             for (const glm::dvec2& corner : part.corners()) {
                 EXPECT_GE(distance_inside(set_up.picture_m, corner), 0.008 - 1e-9);
             }
@@ -48,16 +48,17 @@ void expect_apart_and_inside(const TableSetUp& set_up, const TableLayout& layout
 
 void expect_clear_of_home(const TableSetUp& set_up, const TableLayout& layout, std::mt19937_64& random) {
     for (int k = 0; k < 12; ++k) {
-        const RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
-        const std::optional<TablePolygon> shadow = hidden_by_prop(set_up.prop, home, set_up.lens_m);
+        const geometry::RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
+        const std::optional<typography::TablePolygon> shadow =
+            typography::hidden_by_prop(set_up.prop, home, set_up.lens_m);
         ASSERT_TRUE(shadow);
         for (const TablePlace& place : layout.places) {
             EXPECT_EQ(place_brightness(place, shadow), 1.0);
-            EXPECT_GE(clearance(place.picture.corners(), shadow->corners()), 0.015 - 1e-9);
-            EXPECT_GE(clearance(place.title.corners(), shadow->corners()), 0.015 - 1e-9);
+            EXPECT_GE(typography::clearance(place.picture.corners(), shadow->corners()), 0.015 - 1e-9);
+            EXPECT_GE(typography::clearance(place.title.corners(), shadow->corners()), 0.015 - 1e-9);
         }
         if (layout.caption) {
-            EXPECT_GE(clearance(layout.caption->corners(), shadow->corners()), 0.02);
+            EXPECT_GE(typography::clearance(layout.caption->corners(), shadow->corners()), 0.02);
         }
     }
 }
@@ -102,7 +103,7 @@ TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
             EXPECT_LE(place.picture.size_m.x, max_table_picture_m + 1e-12);
             EXPECT_EQ(place.picture.size_m, layout.places.front().picture.size_m);
             // For the reader the title lies below the picture.
-            const glm::dvec2 down = turned(place.title.centre_m - place.picture.centre_m, -side);
+            const glm::dvec2 down = typography::turned(place.title.centre_m - place.picture.centre_m, -side);
             EXPECT_LT(down.y, 0.0);
             EXPECT_NEAR(down.x, 0.0, 1e-12);
         }
@@ -121,7 +122,7 @@ TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
     EXPECT_GT(with_caption, tables * 5 / 24);
 }
 
-bool equal(const TableRectangle& a, const TableRectangle& b) {
+bool equal(const typography::TableRectangle& a, const typography::TableRectangle& b) {
     return a.centre_m == b.centre_m && a.size_m == b.size_m && a.quarter_turns == b.quarter_turns;
 }
 
@@ -145,7 +146,7 @@ TEST(TableLayout, ReadersOnOppositeSidesSeeTheSame) {
     TableSetUp set_up;
     set_up.artifacts = 9;
     set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
-    set_up.prop = make_frustum(shipped_frustum);
+    set_up.prop = geometry::make_frustum(geometry::shipped_frustum);
     set_up.lens_m = {0.0, 0.0, 1.5};
     for (const int side : {0, 1}) {
         const TableLayout here = lay_out_table(set_up, side);
@@ -160,26 +161,28 @@ TEST(TableLayout, ReadersOnOppositeSidesSeeTheSame) {
 }
 
 TableSetUp shipped_table(const char* name, std::size_t artifacts) {
-    const Result<CheckedSettings> settings =
-        load_settings(std::filesystem::path(source_dir() + "/config") / (std::string(name) + ".toml"));
+    const Result<settings::CheckedSettings> settings = settings::load_settings(
+        std::filesystem::path(source_dir() + "/config") / (std::string(name) + ".toml"));
     TableSetUp set_up;
     if (!settings) {
         ADD_FAILURE() << settings.error().message;
         return set_up;
     }
     set_up.artifacts = artifacts;
-    set_up.picture_m = picture_on_table(**settings, 0.0);
-    set_up.prop = make_prop((*settings)->prop);
+    set_up.picture_m = settings::picture_on_table(**settings, 0.0);
+    set_up.prop = settings::make_prop((*settings)->prop);
     set_up.lens_m = (*settings)->projector.table_from_projector.translation;
-    set_up.home_m = lit_rectangle(**settings).centre_m;
+    set_up.home_m = settings::lit_rectangle(**settings).centre_m;
     set_up.captions_m = {{0.30, 0.06}, {0.16, 0.10}, {0.075, 0.20}};
     return set_up;
 }
 
 /// Number of places without a mirror image about the line on which the reader sees the prop.
 std::size_t places_without_image(const TableSetUp& set_up, const TableLayout& layout, int side) {
-    const double line = turned(set_up.home_m, -side).x;
-    const auto as_seen = [&](const TablePlace& place) { return turned(place.picture.centre_m, -side); };
+    const double line = typography::turned(set_up.home_m, -side).x;
+    const auto as_seen = [&](const TablePlace& place) {
+        return typography::turned(place.picture.centre_m, -side);
+    };
     return static_cast<std::size_t>(
         std::count_if(layout.places.begin(), layout.places.end(), [&](const TablePlace& place) {
             const glm::dvec2 image(2.0 * line - as_seen(place).x, as_seen(place).y);
@@ -274,7 +277,7 @@ TEST(TableLayout, SaysHowManyFitOnTheTablesThatAreShipped) {
 TEST(TableLayout, ATableWithoutRoomHasNoPlaces) {
     TableSetUp set_up;
     set_up.artifacts = 5;
-    set_up.prop = make_frustum(shipped_frustum);
+    set_up.prop = geometry::make_frustum(geometry::shipped_frustum);
     set_up.lens_m = {0.0, 0.0, 1.5};
     EXPECT_TRUE(lay_out_table(set_up, 0).places.empty()); // no picture at all
     set_up.picture_m = {{-0.17, -0.17}, {0.17, -0.17}, {0.17, 0.17}, {-0.17, 0.17}};
@@ -290,4 +293,4 @@ TEST(TableLayout, ATableWithoutRoomHasNoPlaces) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

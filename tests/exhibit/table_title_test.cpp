@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 constexpr double texels_per_m = 2400.0;
@@ -14,8 +14,8 @@ constexpr std::uint16_t space = 1;
 
 /// Letters are squares of half the type size, and as far apart.
 struct Squares {
-    GlyphRuns runs;
-    DistanceAtlas atlas{12, 12, 255};
+    pack::GlyphRuns runs;
+    pack::DistanceAtlas atlas{12, 12, 255};
 
     Squares() {
         runs.texels_per_em = 8;
@@ -24,21 +24,22 @@ struct Squares {
         runs.boxes = {{2, 2, 4, 4, 0, 4}, {}};
     }
     /// A title on one line, with a letter wherever `text` has one.
-    static GlyphText title(std::string_view text, TextDirection direction = TextDirection::LeftToRight) {
-        GlyphSetting setting;
-        setting.limit = 36 * em_units;
-        setting.height = em_units;
+    static pack::GlyphText title(std::string_view text,
+                                 pack::TextDirection direction = pack::TextDirection::LeftToRight) {
+        pack::GlyphSetting setting;
+        setting.limit = 36 * pack::em_units;
+        setting.height = pack::em_units;
         for (const char c : text) {
             setting.glyphs.push_back({c == ' ' ? space : letter, 0, setting.width});
-            setting.width += em_units;
+            setting.width += pack::em_units;
         }
-        setting.lines = {{em_units, static_cast<std::uint32_t>(setting.glyphs.size())}};
+        setting.lines = {{pack::em_units, static_cast<std::uint32_t>(setting.glyphs.size())}};
         return {"title", direction, {setting}};
     }
 };
 
 /// The number of letters in each of the two lines: separate columns of light.
-std::array<int, 2> letters_in(const CaptionImage& title) {
+std::array<int, 2> letters_in(const typography::CaptionImage& title) {
     std::array<int, 2> letters{};
     for (int line = 0; line < 2; ++line) {
         bool within = false;
@@ -57,34 +58,35 @@ std::array<int, 2> letters_in(const CaptionImage& title) {
 
 TEST(TableTitle, StaysOnOneLineThatFits) {
     const Squares squares;
-    const CaptionImage title =
-        make_table_title(squares.runs, squares.atlas, Squares::title("abc de"), texels_per_m);
-    EXPECT_NEAR(title.size_m.x, 5.5 * min_caption_em_m, 2.0 / texels_per_m);
+    const typography::CaptionImage title =
+        typography::make_table_title(squares.runs, squares.atlas, Squares::title("abc de"), texels_per_m);
+    EXPECT_NEAR(title.size_m.x, 5.5 * typography::min_caption_em_m, 2.0 / texels_per_m);
     EXPECT_EQ(letters_in(title)[0], 5);
     EXPECT_LE(title.size_m.y, 0.022);
 }
 
 TEST(TableTitle, IsBrokenWhereItsLinesAreAboutEqual) {
     const Squares squares;
-    const CaptionImage title =
-        make_table_title(squares.runs, squares.atlas, Squares::title("abc de fghij k"), texels_per_m);
+    const typography::CaptionImage title = typography::make_table_title(
+        squares.runs, squares.atlas, Squares::title("abc de fghij k"), texels_per_m);
     EXPECT_EQ(letters_in(title), (std::array<int, 2>{5, 6}));
     EXPECT_LE(title.size_m.y, 0.022 + 0.5 / texels_per_m);
-    EXPECT_LE(title.size_m.x, table_title_width_m);
+    EXPECT_LE(title.size_m.x, typography::table_title_width_m);
     // In right-to-left text the first word is at the right end, so the right part is the first line.
-    const CaptionImage arabic =
-        make_table_title(squares.runs, squares.atlas,
-                         Squares::title("abc de fghij k", TextDirection::RightToLeft), texels_per_m);
+    const typography::CaptionImage arabic = typography::make_table_title(
+        squares.runs, squares.atlas, Squares::title("abc de fghij k", pack::TextDirection::RightToLeft),
+        texels_per_m);
     EXPECT_EQ(letters_in(arabic), (std::array<int, 2>{6, 5}));
 }
 
 TEST(TableTitle, IsCutOffSoftlyWhereItDoesNotFit) {
     const Squares squares;
-    for (const TextDirection direction : {TextDirection::LeftToRight, TextDirection::RightToLeft}) {
-        const CaptionImage title = make_table_title(
+    for (const pack::TextDirection direction :
+         {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
+        const typography::CaptionImage title = typography::make_table_title(
             squares.runs, squares.atlas, Squares::title("abcdefghijklmnop", direction), texels_per_m);
-        EXPECT_LE(title.size_m.x, table_title_width_m);
-        EXPECT_GT(title.size_m.x, table_title_width_m - 2.0 / texels_per_m);
+        EXPECT_LE(title.size_m.x, typography::table_title_width_m);
+        EXPECT_GT(title.size_m.x, typography::table_title_width_m - 2.0 / texels_per_m);
         int first = 0;
         int last = 0;
         for (int y = 0; y < title.coverage.height; ++y) {
@@ -93,23 +95,23 @@ TEST(TableTitle, IsCutOffSoftlyWhereItDoesNotFit) {
                 last = std::max<int>(last, title.coverage.at(title.coverage.width - 1 - x, y));
             }
         }
-        const bool to_the_left = direction == TextDirection::RightToLeft;
+        const bool to_the_left = direction == pack::TextDirection::RightToLeft;
         EXPECT_LT(to_the_left ? first : last, 130);
     }
 }
 
 TEST(TableTitle, OfAPackWithoutGlyphRunsHasTwoLinesToo) {
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter) << typesetter.error().message;
-    const CaptionImage title = make_table_title(
+    const typography::CaptionImage title = typography::make_table_title(
         *typesetter, "A title of many words that never ends and goes on and on", texels_per_m);
-    EXPECT_LE(title.size_m.x, table_title_width_m + 2.0 / texels_per_m);
+    EXPECT_LE(title.size_m.x, typography::table_title_width_m + 2.0 / texels_per_m);
     EXPECT_LE(title.size_m.y, 0.0225);
 }
 
 TEST(TableMarks, AreAnOutlineAndThreeDots) {
-    const Image<std::uint8_t> square = outlined_square(200);
-    const Image<std::uint8_t> more = more_mark(200);
+    const image::Image<std::uint8_t> square = typography::outlined_square(200);
+    const image::Image<std::uint8_t> more = typography::more_mark(200);
     EXPECT_EQ(square.at(100, 100), 0);
     EXPECT_EQ(square.at(100, 3), 255);
     for (const int x : {58, 100, 142}) {
@@ -120,4 +122,4 @@ TEST(TableMarks, AreAnOutlineAndThreeDots) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

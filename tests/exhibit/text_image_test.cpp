@@ -4,26 +4,26 @@
 
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
-long ink(const Image<std::uint8_t>& image) {
+long ink(const image::Image<std::uint8_t>& image) {
     return std::accumulate(image.texels.begin(), image.texels.end(), 0L);
 }
 
 class Text : public testing::Test {
 protected:
     void SetUp() override {
-        Result<Typesetter> opened = Typesetter::open();
+        Result<typography::Typesetter> opened = typography::Typesetter::open();
         ASSERT_TRUE(opened) << opened.error().message;
         typesetter.emplace(std::move(*opened));
     }
-    std::optional<Typesetter> typesetter;
+    std::optional<typography::Typesetter> typesetter;
 };
 
 TEST_F(Text, ALineGrowsWithItsLettersAndItsSize) {
-    const Image<std::uint8_t> one = typesetter->line("n", 40.0);
-    const Image<std::uint8_t> three = typesetter->line("nnn", 40.0);
+    const image::Image<std::uint8_t> one = typesetter->line("n", 40.0);
+    const image::Image<std::uint8_t> three = typesetter->line("nnn", 40.0);
     EXPECT_NEAR(three.width - one.width, 2.0 * 0.634 * 40.0, 2.0); // an n is 0.634 em wide
     EXPECT_NEAR(static_cast<double>(ink(three)), 3.0 * static_cast<double>(ink(one)),
                 0.03 * static_cast<double>(ink(three)));
@@ -32,7 +32,7 @@ TEST_F(Text, ALineGrowsWithItsLettersAndItsSize) {
 }
 
 TEST_F(Text, LettersOfSeveralScriptsAreNotTheMissingGlyph) {
-    const Image<std::uint8_t> missing = typesetter->line("\U0010FFFD", 40.0);
+    const image::Image<std::uint8_t> missing = typesetter->line("\U0010FFFD", 40.0);
     for (const char* letter : {"\u00e9", "\u0416", "\u03a9", "\u0141", "\u1eb7"}) {
         EXPECT_NE(typesetter->line(letter, 40.0).texels, missing.texels) << letter;
         EXPECT_GT(ink(typesetter->line(letter, 40.0)), 0);
@@ -40,7 +40,7 @@ TEST_F(Text, LettersOfSeveralScriptsAreNotTheMissingGlyph) {
 }
 
 TEST_F(Text, DamagedUtf8ShowsReplacementsAndNothingWorse) {
-    const Image<std::uint8_t> replacement = typesetter->line("\uFFFD", 30.0);
+    const image::Image<std::uint8_t> replacement = typesetter->line("\uFFFD", 30.0);
     EXPECT_EQ(typesetter->line("\xFF", 30.0).texels, replacement.texels);
     EXPECT_EQ(typesetter->line("\xC3", 30.0).texels, replacement.texels);
     EXPECT_EQ(typesetter->line("\xED\xA0\x80", 30.0).width,
@@ -49,10 +49,10 @@ TEST_F(Text, DamagedUtf8ShowsReplacementsAndNothingWorse) {
 }
 
 TEST_F(Text, LinesAreBrokenAtSpacesWithinTheWidth) {
-    const Paragraph words{"alpha beta gamma delta epsilon zeta", 20.0};
-    const Image<std::uint8_t> image = typesetter->set(std::span(&words, 1), 120.0);
+    const typography::Paragraph words{"alpha beta gamma delta epsilon zeta", 20.0};
+    const image::Image<std::uint8_t> image = typesetter->set(std::span(&words, 1), 120.0);
     EXPECT_LE(image.width, 124);
-    const Image<std::uint8_t> flat = typesetter->set(std::span(&words, 1), 1e9);
+    const image::Image<std::uint8_t> flat = typesetter->set(std::span(&words, 1), 1e9);
     EXPECT_GT(image.height, 2 * flat.height);
     // No letter is missing.
     EXPECT_NEAR(static_cast<double>(ink(image)), static_cast<double>(ink(flat)),
@@ -60,13 +60,13 @@ TEST_F(Text, LinesAreBrokenAtSpacesWithinTheWidth) {
 }
 
 TEST_F(Text, AWordLongerThanTheLineIsBrokenAndALineBreakBreaks) {
-    const Paragraph word{"Donaudampfschifffahrtsgesellschaft", 20.0};
+    const typography::Paragraph word{"Donaudampfschifffahrtsgesellschaft", 20.0};
     EXPECT_LE(typesetter->set(std::span(&word, 1), 100.0).width, 104);
-    const Paragraph two{"a\nb", 20.0};
-    const Paragraph one{"a b", 20.0};
+    const typography::Paragraph two{"a\nb", 20.0};
+    const typography::Paragraph one{"a b", 20.0};
     EXPECT_GT(typesetter->set(std::span(&two, 1), 1000.0).height,
               typesetter->set(std::span(&one, 1), 1000.0).height);
-    const Paragraph thin{"abc", 20.0};
+    const typography::Paragraph thin{"abc", 20.0};
     EXPECT_GT(typesetter->set(std::span(&thin, 1), 1.0).height, 60); // one letter a line, and it terminates
 }
 
@@ -76,11 +76,11 @@ TEST_F(Text, NothingIsAnEmptyPicture) {
 }
 
 TEST(TextFiles, AMissingTypefaceIsOneLineThatSaysWhatToDo) {
-    const Result<Typesetter> typesetter = Typesetter::open("/nonexistent");
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open("/nonexistent");
     ASSERT_FALSE(typesetter);
     EXPECT_EQ(typesetter.error().id, "typeface.missing") << typesetter.error().message;
     EXPECT_EQ(typesetter.error().message.find('\n'), std::string::npos);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

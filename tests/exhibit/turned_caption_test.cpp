@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -18,13 +18,14 @@ const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec
 const std::array sizes{glm::dvec2(0.16, 0.05)};
 
 struct Reader {
-    CaptionPlacer placer{room};
+    typography::CaptionPlacer placer{room};
     MonotonicTime now{};
 
     Reader() { placer.set_shapes(sizes); }
-    CaptionPlace step(int quarter_turns, milliseconds later = milliseconds(16)) {
+    typography::CaptionPlace step(int quarter_turns, milliseconds later = milliseconds(16)) {
         now += later;
-        placer.update(now, polygon_of({{0.0, 0.0}, {0.16, 0.16}}), std::nullopt, {0.0, 0.0}, quarter_turns);
+        placer.update(now, typography::polygon_of({{0.0, 0.0}, {0.16, 0.16}}), std::nullopt, {0.0, 0.0},
+                      quarter_turns);
         return placer.at(now);
     }
 };
@@ -40,7 +41,7 @@ TEST(TurnedCaption, StandsUprightForTheReaderBetweenThemAndTheProp) {
     for (int quarter = 0; quarter < 4; ++quarter) {
         Reader reader;
         reader.step(quarter);
-        const CaptionPlace place = reader.step(quarter, milliseconds(400));
+        const typography::CaptionPlace place = reader.step(quarter, milliseconds(400));
         ASSERT_EQ(place.opacity, 1.0) << quarter;
         const Side& side = sides.at(static_cast<std::size_t>(quarter));
         EXPECT_GT(glm::dot(place.rectangle.centre_m, side.near), 0.08) << quarter;
@@ -57,10 +58,10 @@ TEST(TurnedCaption, StandsUprightForTheReaderBetweenThemAndTheProp) {
 TEST(TurnedCaption, FadesOutAndInAgainWhenTheReaderGoesAround) {
     Reader reader;
     reader.step(0);
-    CaptionPlace before = reader.step(0, milliseconds(400));
+    typography::CaptionPlace before = reader.step(0, milliseconds(400));
     bool dark = false;
     for (int k = 0; k < 60; ++k) {
-        const CaptionPlace place = reader.step(2);
+        const typography::CaptionPlace place = reader.step(2);
         const bool turned = place.rectangle.quarter_turns != before.rectangle.quarter_turns;
         const double jump =
             turned ? place.opacity + before.opacity : std::abs(place.opacity - before.opacity);
@@ -81,10 +82,10 @@ TEST(TurnedCaption, AReaderWhoComesBackAtOnceLosesNothing) {
     for (int k = 0; k < 60; ++k) {
         reader.step(0);
     }
-    const CaptionPlace place = reader.step(0);
+    const typography::CaptionPlace place = reader.step(0);
     EXPECT_EQ(place.rectangle.quarter_turns, 0);
     EXPECT_EQ(place.opacity, 1.0);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

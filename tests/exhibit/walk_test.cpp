@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
 using std::chrono::milliseconds;
@@ -44,11 +44,11 @@ const std::vector<std::string> keys{"attract_line",
                                     "fault.no_artifact"};
 
 ExhibitPlace walked_place() {
-    const Settings shipped;
+    const settings::Settings shipped;
     ExhibitPlace place;
-    place.prop = make_prop(shipped.prop);
+    place.prop = settings::make_prop(shipped.prop);
     place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = picture_on_table(shipped, 0.0);
+    place.picture_m = settings::picture_on_table(shipped, 0.0);
     place.guidance = guidance_setup(shipped);
     for (const std::string& language : languages) {
         AdviceLanguage words{language, {}};
@@ -58,7 +58,7 @@ ExhibitPlace walked_place() {
         place.words.push_back(words);
     }
     place.table_pictures = true;
-    place.buttons = button_commands.size();
+    place.buttons = settings::button_commands.size();
     place.rest = seconds(20);
     return place;
 }
@@ -95,7 +95,7 @@ class Narrator {
 public:
     static constexpr Nanoseconds portion = seconds(4);
 
-    void step(MonotonicTime now, const Presentation& shown, Seeded& random) {
+    void step(MonotonicTime now, const Presentation& shown, bench::Seeded& random) {
         if (shown.tells && shown.tells != told_) {
             const double dice = random.between(0.0, 1.0);
             silent_ = dice < 0.2;
@@ -147,9 +147,10 @@ public:
         commands_.clear();
         const double dice = random_.between(0.0, 1.0);
         if (dice < 0.02) {
-            commands_.push_back(button_commands.at(static_cast<std::size_t>(random_.between(0.0, 4.999))));
+            commands_.push_back(
+                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 4.999))));
         } else if (dice < 0.022) {
-            commands_.push_back(Command::StaffMode);
+            commands_.push_back(settings::Command::StaffMode);
         } else if (dice < 0.03) {
             move_prop();
         } else if (dice < 0.045) {
@@ -161,9 +162,9 @@ public:
         } else if (dice < 0.068) {
             look_from_elsewhere();
         } else if (dice < 0.069) {
-            tracked_state_.tracker = random_.happens(0.6)   ? TrackerHealth::Well
-                                     : random_.happens(0.5) ? TrackerHealth::MetalNear
-                                                            : TrackerHealth::Away;
+            tracked_state_.tracker = random_.happens(0.6)   ? tracker::TrackerHealth::Well
+                                     : random_.happens(0.5) ? tracker::TrackerHealth::MetalNear
+                                                            : tracker::TrackerHealth::Away;
         } else if (dice < 0.07) {
             change_packs();
         }
@@ -201,9 +202,9 @@ private:
     /// Moves the prop to some place on the table, onto a picture, or sometimes to an odd pose.
     void move_prop() {
         moved_ = true;
-        RigidTransform& pose = tracked_state_.table_from_prop;
+        geometry::RigidTransform& pose = tracked_state_.table_from_prop;
         if (random_.happens(0.025)) {
-            pose = seeded_situation(*walked_.guidance, random_).table_from_prop;
+            pose = bench::seeded_situation(*walked_.guidance, random_).table_from_prop;
         } else if (random_.happens(0.5) && shown_.table != nullptr && shown_.table->count > 0) {
             const auto which = static_cast<std::size_t>(
                 random_.between(0.0, static_cast<double>(shown_.table->count) - 0.001));
@@ -359,11 +360,11 @@ private:
 
     ExhibitPlace walked_ = walked_place();
     Exhibit exhibit_ = walked_exhibit();
-    Seeded random_;
-    TrackedState tracked_state_;
+    bench::Seeded random_;
+    tracking::TrackedState tracked_state_;
     MonotonicTime now_ = sample::start;
     std::optional<MonotonicTime> lost_;
-    std::vector<Command> commands_;
+    std::vector<settings::Command> commands_;
     Presentation shown_;
     std::optional<WordIndex> sounds_;
     MonotonicTime sound_ends_;
@@ -396,4 +397,4 @@ TEST(Walk, EventsFindNothingThatMustNotBe) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

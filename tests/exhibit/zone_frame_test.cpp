@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::exhibit {
 namespace {
 
-const Rectangle axis{{0.02, -0.01}, {0.2, 0.05}};
+const settings::Rectangle axis{{0.02, -0.01}, {0.2, 0.05}};
 const glm::dvec2 table(0.8, 0.5);
 constexpr double half_bottom = 0.15;
 
-RigidTransform at(double x, double y, double z = 0.0, double tilt = 0.0) {
+geometry::RigidTransform at(double x, double y, double z = 0.0, double tilt = 0.0) {
     return {glm::angleAxis(tilt, glm::dvec3(1, 0, 0)), {x, y, z}};
 }
 
@@ -48,7 +48,7 @@ TEST(ZoneFrame, HoldsThePropsBottomAndStaysOnTheTable) {
         const ZoneFrame frame(axis, half, table);
         glm::dvec2 low(1e9);
         glm::dvec2 high(-1e9);
-        for (const TableRectangle& side : frame.sides()) {
+        for (const typography::TableRectangle& side : frame.sides()) {
             for (const glm::dvec2& corner : side.corners()) {
                 low = glm::min(low, corner);
                 high = glm::max(high, corner);
@@ -67,4 +67,4 @@ TEST(ZoneFrame, NoZoneNoFrame) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::exhibit

@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace frustumscreen;
+using namespace frustumscreen::folder;
 
 namespace {
 
@@ -70,12 +71,13 @@ TEST(ArtifactFile, has_all_that_is_written) {
     EXPECT_EQ(read->scale, 1.5);
     EXPECT_EQ(read->lift, 0.25);
     ASSERT_EQ(read->texts.size(), 2U);
-    EXPECT_TRUE(read->texts[0] == (PackCaption{"el", "Αγγείο", "Πρώτη γραμμή.\nΔεύτερη.", "540 π.Χ.", "Αθήνα",
-                                               "άγνωστος", "Δωρεά", ""}));
+    EXPECT_TRUE(read->texts[0] == (pack::PackCaption{"el", "Αγγείο", "Πρώτη γραμμή.\nΔεύτερη.", "540 π.Χ.",
+                                                     "Αθήνα", "άγνωστος", "Δωρεά", ""}));
     EXPECT_EQ(read->texts[1].title, "Αγγείο") << "the first one's, where it is left out";
     ASSERT_EQ(read->hotspots.size(), 1U);
     EXPECT_EQ(read->hotspots[0].point_file, glm::dvec3(1, -2.5, 300));
-    EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"el", "Η λαβή"}, {"en", "The handle"}}));
+    EXPECT_EQ(read->hotspots[0].labels,
+              (std::vector<pack::PackLabel>{{"el", "Η λαβή"}, {"en", "The handle"}}));
     EXPECT_EQ(read->hotspots[0].place, "vase/artifact.toml:30: hotspots[0].point");
 }
 
@@ -117,7 +119,7 @@ TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
     EXPECT_EQ(read->texts[0].language, "en");
     EXPECT_EQ(read->texts[1].language, "zh-Hant-TW");
     EXPECT_TRUE(read->recordings.contains("zh-Hant-TW"));
-    EXPECT_EQ(read->hotspots[0].labels, (std::vector<PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
+    EXPECT_EQ(read->hotspots[0].labels, (std::vector<pack::PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
 }
 
 TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {

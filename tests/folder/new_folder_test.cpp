@@ -10,6 +10,7 @@
 #include <string>
 
 using namespace frustumscreen;
+using namespace frustumscreen::folder;
 namespace fs = std::filesystem;
 
 namespace {

@@ -9,8 +9,8 @@ using namespace frustumscreen;
 
 namespace {
 
-void require_clean(const std::string& text, TextShape shape) {
-    fuzz::require(!fault_of_text(text, shape), "a text is clean", text);
+void require_clean(const std::string& text, pack::TextShape shape) {
+    fuzz::require(!pack::fault_of_text(text, shape), "a text is clean", text);
 }
 
 void require_inside(const std::filesystem::path& path) {
@@ -20,7 +20,7 @@ void require_inside(const std::filesystem::path& path) {
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto file = parse_artifact_file(fuzz::text_of(data, size), "vase/artifact.toml");
+    const auto file = folder::parse_artifact_file(fuzz::text_of(data, size), "vase/artifact.toml");
     if (!file) {
         const std::string& message = file.error().message;
         fuzz::require(message.starts_with("vase/artifact.toml:"), "a message names the file", message);
@@ -31,20 +31,20 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (!file->texture.empty()) {
         require_inside(file->texture);
     }
-    fuzz::require(file->id.empty() || is_artifact_id(file->id), "the id is one");
-    fuzz::require(file->scale >= pack_format::min_scale && file->scale <= pack_format::max_scale,
+    fuzz::require(file->id.empty() || pack::is_artifact_id(file->id), "the id is one");
+    fuzz::require(file->scale >= pack::min_scale && file->scale <= pack::max_scale,
                   "the scale is one that a pack may have");
-    for (const PackCaption& caption : file->texts) {
-        fuzz::require(has_language_form(caption.language), "a language has its form", caption.language);
+    for (const pack::PackCaption& caption : file->texts) {
+        fuzz::require(pack::has_language_form(caption.language), "a language has its form", caption.language);
         for (const std::string* line :
              {&caption.title, &caption.period, &caption.place, &caption.maker, &caption.credit}) {
-            require_clean(*line, TextShape::Line);
+            require_clean(*line, pack::TextShape::Line);
         }
-        require_clean(caption.text, TextShape::Lines);
-        require_clean(caption.description, TextShape::Lines);
+        require_clean(caption.text, pack::TextShape::Lines);
+        require_clean(caption.description, pack::TextShape::Lines);
     }
-    fuzz::require(file->hotspots.size() <= pack_format::max_hotspots, "hotspots are few");
-    for (const ArtifactHotspot& hotspot : file->hotspots) {
+    fuzz::require(file->hotspots.size() <= pack::max_hotspots, "hotspots are few");
+    for (const folder::ArtifactHotspot& hotspot : file->hotspots) {
         fuzz::require(fuzz::is_finite(hotspot.point_file) && !hotspot.labels.empty(),
                       "a hotspot has a place and a label");
     }

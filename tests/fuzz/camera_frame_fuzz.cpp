@@ -7,9 +7,9 @@ namespace {
 
 using namespace frustumscreen;
 
-bool read(const FrameFormat& format, std::span<const std::byte> bytes, std::uint8_t before,
+bool read(const camera::FrameFormat& format, std::span<const std::byte> bytes, std::uint8_t before,
           std::vector<std::uint8_t>& luma) {
-    static LumaReader reader; // shared by all frames, as in a camera
+    static camera::LumaReader reader; // shared by all frames, as in a camera
     luma.assign(static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height), before);
     return reader.read(format, bytes, luma);
 }
@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size < head) {
         return 0;
     }
-    const FrameFormat format{static_cast<PixelFormat>(data[0] % 3), data[1] + 1, data[2] + 1, data[3] * 4U};
+    const camera::FrameFormat format{static_cast<camera::PixelFormat>(data[0] % 3), data[1] + 1, data[2] + 1,
+                                     data[3] * 4U};
     // A copy of exactly this length: reads beyond it are detected.
     const std::vector<std::uint8_t> exact(data + head, data + size);
     const auto bytes = std::as_bytes(std::span(exact));

@@ -6,12 +6,12 @@
 using namespace frustumscreen;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const Result<DayCounts> counts = parse_day_counts(fuzz::text_of(data, size));
+    const Result<counts::DayCounts> counts = counts::parse_day_counts(fuzz::text_of(data, size));
     if (!counts) {
         fuzz::require_one_line(counts.error().message);
         return 0;
     }
-    const Result<DayCounts> again = parse_day_counts(write_day_counts(*counts));
+    const Result<counts::DayCounts> again = counts::parse_day_counts(counts::write_day_counts(*counts));
     fuzz::require(again.has_value(), "what is written is taken", again ? "" : again.error().message);
     fuzz::require(*again == *counts, "it is taken as it was");
     std::uint64_t ms = 0;
@@ -19,8 +19,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         ms += tally.ms;
     }
     fuzz::require(ms == counts->all().ms, "artifacts add up to the hours");
-    const std::string plot = counts_plot({*counts});
+    const std::string plot = counts::counts_plot({*counts});
     fuzz::require(plot.find("nan") == std::string::npos, "each number of the picture is one");
-    fuzz::require(!counts_csv({{*counts}, {}, {}}).empty(), "there is a table");
+    fuzz::require(!counts::counts_csv({{*counts}, {}, {}}).empty(), "there is a table");
     return 0;
 }

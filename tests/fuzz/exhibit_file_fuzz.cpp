@@ -15,14 +15,14 @@ namespace {
 void require_ids(const std::vector<std::string>& ids) {
     std::set<std::string> seen;
     for (const std::string& id : ids) {
-        fuzz::require(is_artifact_id(id) && seen.insert(id).second, "ids are ids, each once", id);
+        fuzz::require(pack::is_artifact_id(id) && seen.insert(id).second, "ids are ids, each once", id);
     }
 }
 
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto file = parse_exhibit_file(fuzz::text_of(data, size));
+    const auto file = library::parse_exhibit_file(fuzz::text_of(data, size));
     if (!file) {
         fuzz::require(file.error().message.starts_with("exhibit.toml:"), "a message names the file",
                       file.error().message);
@@ -32,13 +32,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     require_ids(file->order);
     require_ids(file->remove);
     fuzz::require(!file->only || !file->order.empty(), "something is left");
-    for (const AttractText& text : file->attract.value_or(std::vector<AttractText>())) {
-        fuzz::require(has_language_form(text.language), "a language has its form", text.language);
-        fuzz::require(!text.text.empty() && !fault_of_text(text.text, TextShape::Line), "a text is clean",
-                      text.text);
+    for (const library::AttractText& text : file->attract.value_or(std::vector<library::AttractText>())) {
+        fuzz::require(pack::has_language_form(text.language), "a language has its form", text.language);
+        fuzz::require(!text.text.empty() && !pack::fault_of_text(text.text, pack::TextShape::Line),
+                      "a text is clean", text.text);
     }
-    for (const CarriedKey& key : file->keys) {
-        fuzz::require(parse_public_key(key.public_key).has_value(), "a key is one", key.public_key);
+    for (const library::CarriedKey& key : file->keys) {
+        fuzz::require(pack::parse_public_key(key.public_key).has_value(), "a key is one", key.public_key);
         fuzz::require(key.until.empty() || parse_day(key.until), "a day is one", key.until);
         fuzz::require(!key.name.empty(), "a key has a name");
     }

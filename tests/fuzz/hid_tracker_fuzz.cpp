@@ -11,15 +11,15 @@ namespace {
 enum class Word : std::uint8_t { Wait, Raw, Checked, Agree, Pose, Count };
 
 Bytes checked(Bytes report) {
-    append(report, crc16_arc(report));
+    append(report, tracker::crc16_arc(report));
     return report;
 }
 
 /// Version 1, 10 um, 100 Hz, the script's number of stations; one spare byte.
 Bytes information(std::uint8_t stations) {
     Bytes report;
-    append(report, hid_tracker_info_report);
-    append(report, static_cast<std::uint8_t>(hid_tracker_version));
+    append(report, tracker::hid_tracker_info_report);
+    append(report, static_cast<std::uint8_t>(tracker::hid_tracker_version));
     append(report, std::uint16_t{10});
     append(report, std::uint16_t{100});
     append(report, stations);
@@ -45,8 +45,8 @@ Bytes pose_report(const fuzz::ScriptedPose& pose, std::uint32_t counter, std::ui
 }
 
 void check_codec(std::span<const std::byte> report) {
-    const HidTrackerMessage message = parse_hid_tracker(report);
-    if (const auto* pose = std::get_if<HidTrackerPose>(&message)) {
+    const tracker::HidTrackerMessage message = tracker::parse_hid_tracker(report);
+    if (const auto* pose = std::get_if<tracker::HidTrackerPose>(&message)) {
         fuzz::require_sound(pose->frame);
         fuzz::require(!pose->frame.sensors[0].usable || !(pose->frame.fault || pose->starting),
                       "a pose that the device disowns is not usable");
@@ -56,7 +56,7 @@ void check_codec(std::span<const std::byte> report) {
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    HidTrackerSession session;
+    tracker::HidTrackerSession session;
     fuzz::SessionTalk talk(session);
     std::uint32_t counter = 0;
     const auto deliver = [&](const Bytes& report) {

@@ -8,7 +8,7 @@
 
 namespace frustumscreen::fuzz {
 
-inline void require_sound(const SourceMesh& mesh) {
+inline void require_sound(const bake::SourceMesh& mesh) {
     const std::size_t vertices = mesh.positions.size();
     require(!mesh.triangles.empty() && !mesh.materials.empty(), "a mesh has triangles and a material");
     require(mesh.triangle_materials.size() == mesh.triangles.size(), "a triangle has a material");
@@ -30,7 +30,7 @@ inline void require_sound(const SourceMesh& mesh) {
     for (const std::uint32_t material : mesh.triangle_materials) {
         require(material < mesh.materials.size(), "every triangle's material is there");
     }
-    for (const SourceMaterial& material : mesh.materials) {
+    for (const bake::SourceMaterial& material : mesh.materials) {
         require(material.texture < static_cast<int>(mesh.textures.size()),
                 "every material's texture is there");
         require(is_finite(material.base_colour) && std::isfinite(material.alpha_cutoff),
@@ -42,7 +42,7 @@ inline void require_sound(const SourceMesh& mesh) {
 
 /// Loads the bytes as a file without other files next to it.
 inline int check_mesh(const std::uint8_t* data, std::size_t size, const char* name) {
-    const auto mesh = load_mesh_bytes(bytes_of(data, size), std::filesystem::path("nowhere") / name);
+    const auto mesh = bake::load_mesh_bytes(bytes_of(data, size), std::filesystem::path("nowhere") / name);
     if (mesh) {
         require_sound(*mesh);
     } else {

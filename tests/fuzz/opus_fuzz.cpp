@@ -10,20 +10,21 @@ using namespace frustumscreen;
 
 namespace {
 
-constexpr OpusLimits limits{std::chrono::seconds(1)}; ///< keeps the fuzzer quick
+constexpr sound::OpusLimits limits{std::chrono::seconds(1)}; ///< keeps the fuzzer quick
 
 void check(std::span<const std::byte> bytes) {
-    const Result<Prompt> prompt = read_opus(bytes, limits);
+    const Result<sound::Prompt> prompt = sound::read_opus(bytes, limits);
     if (!prompt) {
         fuzz::require_one_line(prompt.error().message);
         return;
     }
-    fuzz::require(!prompt->samples.empty() && prompt->samples.size() <= samples_in(limits.longest),
+    fuzz::require(!prompt->samples.empty() && prompt->samples.size() <= sound::samples_in(limits.longest),
                   "a recording has samples, no more than allowed");
     std::uint32_t last = 0;
-    for (const Mark& mark : find_pauses(prompt->samples)) {
+    for (const sound::Mark& mark : sound::find_pauses(prompt->samples)) {
         fuzz::require(mark.begin >= last && mark.begin <= mark.end, "marks ascend");
-        fuzz::require(mark.end + Mixer::fade_samples <= prompt->samples.size(), "a fade fits behind a mark");
+        fuzz::require(mark.end + sound::Mixer::fade_samples <= prompt->samples.size(),
+                      "a fade fits behind a mark");
         last = mark.end;
     }
 }

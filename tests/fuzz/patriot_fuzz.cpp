@@ -41,16 +41,16 @@ std::string_view agreement(const Bytes& command) {
 }
 
 void check_units_answer(std::string_view text) {
-    const auto answer = patriot_units_answer(text);
+    const auto answer = tracker::patriot_units_answer(text);
     fuzz::require(!answer || *answer == 0 || *answer == 1, "units are inches or centimetres");
-    fuzz::require(!answer || patriot_units_answer(std::string(text) + "1U0\r\n") == answer,
+    fuzz::require(!answer || tracker::patriot_units_answer(std::string(text) + "1U0\r\n") == answer,
                   "what comes later changes no answer");
 }
 
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    PatriotSession session(UsbTrackerSetUp{});
+    tracker::PatriotSession session(tracker::UsbTrackerSetUp{});
     fuzz::SessionTalk talk(session);
     std::uint32_t counter = 0;
     ByteReader script(fuzz::bytes_of(data, size));
@@ -90,6 +90,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         }
     }
     check_units_answer(as_text(talk.wire()));
-    fuzz::check_stream(talk.wire(), parse_patriot);
+    fuzz::check_stream(talk.wire(), tracker::parse_patriot);
     return 0;
 }

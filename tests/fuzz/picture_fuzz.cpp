@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t max_texels = 1 << 18; ///< keeps the fuzzer's memory small
 
-template <typename Texel> void check(const Result<Image<Texel>>& image) {
+template <typename Texel> void check(const Result<image::Image<Texel>>& image) {
     if (!image) {
         fuzz::require_one_line(image.error().message);
         return;
@@ -19,19 +19,19 @@ template <typename Texel> void check(const Result<Image<Texel>>& image) {
                           static_cast<std::int64_t>(image->width) * image->height &&
                       static_cast<std::int64_t>(image->texels.size()) <= max_texels,
                   "a picture has its texels, no more than allowed");
-    const Bytes png = encode_png(*image);
-    Result<Image<Texel>> again;
+    const Bytes png = image::encode_png(*image);
+    Result<image::Image<Texel>> again;
     if constexpr (std::is_same_v<Texel, std::uint16_t>) {
-        again = decode_png16(png);
+        again = image::decode_png16(png);
     } else {
-        again = decode_png8(png);
+        again = image::decode_png8(png);
     }
     fuzz::require(again && again->width == image->width && again->height == image->height &&
                       again->texels == image->texels,
                   "a picture written again is the same", again ? std::string() : again.error().message);
     if constexpr (std::is_same_v<Texel, glm::u8vec4>) {
-        const Bytes webp = encode_webp(*image);
-        const Result<Image8> same = decode_webp8(webp);
+        const Bytes webp = image::encode_webp(*image);
+        const Result<image::Image8> same = image::decode_webp8(webp);
         fuzz::require(webp.empty() || (same && same->width == image->width && same->texels == image->texels),
                       "a picture written as WebP is the same");
     }
@@ -41,12 +41,12 @@ template <typename Texel> void check(const Result<Image<Texel>>& image) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::byte> bytes = fuzz::bytes_of(data, size);
-    check(decode_png8(bytes, max_texels));
-    check(decode_png16(bytes, max_texels));
-    check(decode_webp8(bytes, max_texels));
-    check(decode_image(bytes, max_texels));
-    const Result<ShrunkImage> shrunk = decode_shrunk(bytes, max_texels / 16, max_texels);
-    check(shrunk ? Result<Image8>(shrunk->image) : tl::unexpected<Error>(shrunk.error()));
+    check(image::decode_png8(bytes, max_texels));
+    check(image::decode_png16(bytes, max_texels));
+    check(image::decode_webp8(bytes, max_texels));
+    check(bake::decode_image(bytes, max_texels));
+    const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(bytes, max_texels / 16, max_texels);
+    check(shrunk ? Result<image::Image8>(shrunk->image) : tl::unexpected<Error>(shrunk.error()));
     fuzz::require(!shrunk || shrunk->image.texels.size() <= max_texels / 16, "a shrunk picture is small");
     return 0;
 }

@@ -16,60 +16,62 @@ template <typename Value> bool is_taken(const Result<Value>& points) {
     return points.has_value();
 }
 
-void require_sound(const RigidTransform& reported, const glm::dvec2& pixel) {
+void require_sound(const geometry::RigidTransform& reported, const glm::dvec2& pixel) {
     fuzz::require(fuzz::is_finite(reported.translation), "a place is finite");
     fuzz::require(fuzz::is_unit(reported.rotation), "a rotation has length 1");
     fuzz::require(std::isfinite(pixel.x) && std::isfinite(pixel.y), "a pixel is finite");
 }
 
 void check_touches(std::string_view text) {
-    const Result<Touches> touches = parse_touches(text, name);
+    const Result<calibration::Touches> touches = calibration::parse_touches(text, name);
     if (!is_taken(touches)) {
         return;
     }
-    for (const Touch& touch : *touches) {
+    for (const calibration::Touch& touch : *touches) {
         require_sound(touch.tracker_from_sensor, touch.pixel);
         fuzz::require(std::isfinite(touch.block_m), "a height is finite");
     }
-    const Result<Touches> again = parse_touches(touches_text(*touches), name);
+    const Result<calibration::Touches> again =
+        calibration::parse_touches(calibration::touches_text(*touches), name);
     fuzz::require(again && again->size() == touches->size(), "what was written is read",
                   again ? "" : again.error().message);
 }
 
 void check_rests(std::string_view text) {
-    const Result<Rests> rests = parse_rests(text, name);
+    const Result<calibration::Rests> rests = calibration::parse_rests(text, name);
     if (!is_taken(rests)) {
         return;
     }
-    for (const Rest& rest : *rests) {
+    for (const calibration::Rest& rest : *rests) {
         fuzz::require(!rest.points.empty(), "a rest has points");
         for (const auto& point : rest.points) {
             require_sound(rest.tracker_from_sensor, point.pixel);
         }
     }
-    const Result<Rests> again = parse_rests(rests_text(*rests), name);
+    const Result<calibration::Rests> again = calibration::parse_rests(calibration::rests_text(*rests), name);
     fuzz::require(again && again->size() == rests->size(), "what was written is read",
                   again ? "" : again.error().message);
 }
 
 void check_sights(std::string_view text) {
-    const Result<ReportedSights> sights = parse_sights(text, name);
+    const Result<calibration::ReportedSights> sights = calibration::parse_sights(text, name);
     if (!is_taken(sights)) {
         return;
     }
-    for (const ReportedSight& sight : *sights) {
+    for (const calibration::ReportedSight& sight : *sights) {
         require_sound(sight.tracker_from_sensor, sight.pixel);
         fuzz::require(fuzz::is_finite(sight.tip_m), "a tip is finite");
     }
-    const Result<ReportedSights> again = parse_sights(sights_text(*sights), name);
+    const Result<calibration::ReportedSights> again =
+        calibration::parse_sights(calibration::sights_text(*sights), name);
     fuzz::require(again && again->size() == sights->size(), "what was written is read",
                   again ? "" : again.error().message);
 }
 
 void check_corners(std::string_view text) {
-    const Result<std::vector<MeasuredCorner>> corners = parse_corners(text, name);
+    const Result<std::vector<calibration::MeasuredCorner>> corners = calibration::parse_corners(text, name);
     if (is_taken(corners)) {
-        for (const MeasuredCorner& corner : *corners) {
+        for (const calibration::MeasuredCorner& corner : *corners) {
             fuzz::require(fuzz::is_finite(corner.place_m), "a corner is finite");
         }
     }

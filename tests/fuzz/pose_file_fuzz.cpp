@@ -8,14 +8,15 @@ using namespace frustumscreen;
 
 namespace {
 
-void require_sound(const PoseSample& sample) {
-    fuzz::require(sample.station >= prop_station && sample.station <= torch_station, "a station is known");
+void require_sound(const tracker::PoseSample& sample) {
+    fuzz::require(sample.station >= tracker::prop_station && sample.station <= tracker::torch_station,
+                  "a station is known");
     fuzz::require(fuzz::is_finite(sample.position_m) && glm::length(sample.position_m) < 2000.0,
                   "a position is finite and near");
     fuzz::require(fuzz::is_unit(sample.rotation), "a rotation has length 1");
 }
 
-void require_same(const PoseSample& a, const PoseSample& b) {
+void require_same(const tracker::PoseSample& a, const tracker::PoseSample& b) {
     fuzz::require(a.time == b.time && a.station == b.station && a.ok == b.ok && a.position_m == b.position_m,
                   "a row written again reads the same");
     // Reading normalises a quaternion again: the last digit may differ.
@@ -25,14 +26,14 @@ void require_same(const PoseSample& a, const PoseSample& b) {
 }
 
 /// Several rounds; `speed`: the slowest or the fastest that settings allow.
-void check_replay(const std::vector<PoseSample>& poses, double speed) {
+void check_replay(const std::vector<tracker::PoseSample>& poses, double speed) {
     MonotonicTime now = from_microseconds(1'000'000);
     MonotonicTime latest = now;
-    ReplayTracker tracker(poses, now, true, speed);
+    tracker::ReplayTracker tracker(poses, now, true, speed);
     for (int k = 0; k < 24; ++k, now += std::chrono::milliseconds(1 << k % 12)) {
-        std::vector<PoseSample> samples;
+        std::vector<tracker::PoseSample> samples;
         fuzz::require(tracker.poll(now, samples).has_value(), "a replay has no errors");
-        for (const PoseSample& sample : samples) {
+        for (const tracker::PoseSample& sample : samples) {
             fuzz::require(sample.time >= latest && sample.time <= now, "a replay's times ascend up to now");
             latest = sample.time;
         }
@@ -43,8 +44,8 @@ void check_replay(const std::vector<PoseSample>& poses, double speed) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::text_of(data, size);
-    const auto poses = parse_poses(text, "poses.csv");
-    const auto ascending = parse_poses(text, "poses.csv", PoseOrder::PropAscends);
+    const auto poses = tracker::parse_poses(text, "poses.csv");
+    const auto ascending = tracker::parse_poses(text, "poses.csv", tracker::PoseOrder::PropAscends);
     if (!ascending) {
         fuzz::require_one_line(ascending.error().message);
     }
@@ -53,8 +54,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require(!ascending, "the stricter order takes no more");
         return 0;
     }
-    const auto again = parse_poses(write_poses(*poses), "again.csv",
-                                   ascending ? PoseOrder::PropAscends : PoseOrder::AsWritten);
+    const auto again =
+        tracker::parse_poses(tracker::write_poses(*poses), "again.csv",
+                             ascending ? tracker::PoseOrder::PropAscends : tracker::PoseOrder::AsWritten);
     fuzz::require(again && again->size() == poses->size(), "what was written is read",
                   again ? std::string() : again.error().message);
     for (std::size_t k = 0; k < poses->size(); ++k) {

@@ -7,10 +7,10 @@ using namespace frustumscreen;
 
 namespace {
 
-void require_sound(const ConvertedRecording& recording, const RecordingOptions& options) {
+void require_sound(const tracker::ConvertedRecording& recording, const tracker::RecordingOptions& options) {
     const glm::dvec2 most = options.half_extent_m + glm::dvec2(1e-9);
     std::optional<MonotonicTime> before;
-    for (const PoseSample& sample : recording.samples) {
+    for (const tracker::PoseSample& sample : recording.samples) {
         fuzz::require(sample.ok && sample.station == options.station, "a sample is good and of its station");
         fuzz::require(!before || *before < sample.time, "times ascend");
         before = sample.time;
@@ -26,15 +26,16 @@ void require_sound(const ConvertedRecording& recording, const RecordingOptions& 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::text_of(data, size);
     for (const bool flat : {false, true}) {
-        RecordingOptions options;
+        tracker::RecordingOptions options;
         options.flat = flat;
-        const auto recording = convert_recording(text, "recording.txt", options);
+        const auto recording = tracker::convert_recording(text, "recording.txt", options);
         if (!recording) {
             fuzz::require_one_line(recording.error().message);
             continue;
         }
         require_sound(*recording, options);
-        const auto poses = parse_poses(write_poses(recording->samples), "poses.csv", PoseOrder::PropAscends);
+        const auto poses = tracker::parse_poses(tracker::write_poses(recording->samples), "poses.csv",
+                                                tracker::PoseOrder::PropAscends);
         fuzz::require(poses && poses->size() == recording->samples.size(), "a recording is a pose file",
                       poses ? std::string() : poses.error().message);
     }

@@ -12,10 +12,10 @@ namespace frustumscreen::fuzz {
 
 class SessionTalk {
 public:
-    using Check = void (*)(const PoseSample&);
+    using Check = void (*)(const tracker::PoseSample&);
     /// `check` is also called for every sample.
     explicit SessionTalk(
-        DeviceSession& session, Check check = [](const PoseSample&) {})
+        tracker::DeviceSession& session, Check check = [](const tracker::PoseSample&) {})
         : session_(session), check_(check) {
         ask();
     }
@@ -53,34 +53,34 @@ private:
             require(!session_.failed(), "a session that failed sends nothing");
             command_.assign(due.begin(), due.end());
         }
-        require(!sentence_of(session_.state(now_)).empty(), "a state has a sentence");
+        require(!tracker::sentence_of(session_.state(now_)).empty(), "a state has a sentence");
     }
 
     void check_samples() {
-        for (const PoseSample& sample : samples_) {
+        for (const tracker::PoseSample& sample : samples_) {
             // Two frames of one arrival are set apart by a microsecond.
             early_ += std::chrono::microseconds(1);
             require(sample.time <= now_ + early_, "a sample is not from the future");
             require(!latest_ || *latest_ <= sample.time, "a sample's time does not go back");
             latest_ = sample.time;
             require(is_finite(sample.position_m) && is_unit(sample.rotation), "a pose is finite");
-            require(is_pose(sample.position_m, sample.rotation), "a pose is near and a rotation");
+            require(tracker::is_pose(sample.position_m, sample.rotation), "a pose is near and a rotation");
             require(sample.station >= 1 && sample.station <= 128, "a station is numbered from 1");
             check_(sample);
         }
-        const TrackerCounts counts = session_.intake().counts();
+        const tracker::TrackerCounts counts = session_.intake().counts();
         require(counts.frames >= frames_ && counts.broken >= broken_, "counts do not go back");
         frames_ = counts.frames;
         broken_ = counts.broken;
     }
 
-    DeviceSession& session_;
+    tracker::DeviceSession& session_;
     Check check_;
     MonotonicTime now_ = from_microseconds(1'000'000'000);
     std::size_t piece_ = 0;
     Bytes command_;
     Bytes wire_;
-    std::vector<PoseSample> samples_;
+    std::vector<tracker::PoseSample> samples_;
     std::optional<MonotonicTime> latest_;
     Nanoseconds early_{0};
     std::uint64_t frames_ = 0;

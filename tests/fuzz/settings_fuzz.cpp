@@ -23,7 +23,7 @@ void require_no_null(const nlohmann::json& value, const std::string& report) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::text_of(data, size);
-    const auto settings = parse_settings(text, "set/kiosk.toml");
+    const auto settings = settings::parse_settings(text, "set/kiosk.toml");
     if (!settings) {
         const std::string& message = settings.error().message;
         fuzz::require(settings.error().kind == ErrorKind::BadConfiguration, "the operator acts", message);
@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size % 16 != 0) {
         return 0;
     }
-    const std::string report = config_json(*settings);
+    const std::string report = settings::config_json(*settings);
     require_no_null(nlohmann::json::parse(report), report);
     return 0;
 }

@@ -10,15 +10,15 @@ namespace {
 /// Uses a folder that does not exist.
 void check_name(std::string_view name) {
     const std::string folder = "nowhere/at/all";
-    LoadNotes notes;
-    Sidecars sidecars(folder, notes);
+    bake::LoadNotes notes;
+    bake::Sidecars sidecars(folder, notes);
     try {
         fuzz::require(!sidecars.exists(name) && !sidecars.like(name), "nothing is where nothing is", name);
         sidecars.mention(name);
         fuzz::require(sidecars.files().empty(), "nothing is read where nothing is", name);
         static_cast<void>(sidecars.read(name, "images[0]"));
         fuzz::require(false, "nothing is read where nothing is");
-    } catch (const Refusal& refusal) {
+    } catch (const bake::Refusal& refusal) {
         fuzz::require(refusal.error.message.ends_with(" (images[0])"), "a refusal says where",
                       refusal.error.message);
         fuzz::require_one_line(refusal.error.message);
@@ -40,12 +40,12 @@ std::string encoded(std::string_view plain) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::text_of(data, size);
     check_name(text);
-    fuzz::require(percent_decoded(encoded(text), "uri") == text, "what is encoded is decoded");
+    fuzz::require(bake::percent_decoded(encoded(text), "uri") == text, "what is encoded is decoded");
     try {
-        const std::string plain = percent_decoded(text, "uri");
+        const std::string plain = bake::percent_decoded(text, "uri");
         fuzz::require(plain.size() <= text.size(), "decoding adds nothing");
         check_name(plain);
-    } catch (const Refusal& refusal) {
+    } catch (const bake::Refusal& refusal) {
         fuzz::require(refusal.error.message.find("(uri: ") != std::string::npos, "a refusal says where",
                       refusal.error.message);
     }

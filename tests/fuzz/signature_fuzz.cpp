@@ -9,15 +9,16 @@ using namespace frustumscreen;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::text_of(data, size);
-    const Result<SignatureClaim> claim = read_signature_claim(text);
+    const Result<pack::SignatureClaim> claim = pack::read_signature_claim(text);
     if (!claim) {
         fuzz::require_one_line(claim.error().message);
     } else {
         fuzz::require(claim->serial > 0, "a serial is 1 or more");
         fuzz::require(claim->trusted_comment.find('\n') == std::string::npos, "a comment is one line");
     }
-    const std::vector<TrustedKey> keys{{"House", *parse_public_key(vectors::open_public), std::nullopt}};
-    const auto checked = check_signature(as_bytes(vectors::signed_text), text, keys, std::nullopt);
+    const std::vector<pack::TrustedKey> keys{
+        {"House", *pack::parse_public_key(vectors::open_public), std::nullopt}};
+    const auto checked = pack::check_signature(as_bytes(vectors::signed_text), text, keys, std::nullopt);
     if (!checked) {
         fuzz::require_one_line(checked.error().error.message);
         return 0;

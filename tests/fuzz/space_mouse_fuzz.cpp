@@ -8,10 +8,10 @@ namespace {
 
 constexpr glm::dvec2 table_half_m{0.4, 0.25};
 
-void require_on_table(const PoseSample& sample) {
+void require_on_table(const tracker::PoseSample& sample) {
     const glm::dvec3& p = sample.position_m;
     fuzz::require(std::abs(p.x) <= table_half_m.x && std::abs(p.y) <= table_half_m.y && p.z >= 0.0 &&
-                      p.z <= SpaceMouseSession::highest_m,
+                      p.z <= tracker::SpaceMouseSession::highest_m,
                   "the prop stays on and above the table");
 }
 
@@ -19,7 +19,7 @@ void require_on_table(const PoseSample& sample) {
 
 /// Input: u16 milliseconds, u8 length, the report; repeated.
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    SpaceMouseSession session(table_half_m);
+    tracker::SpaceMouseSession session(table_half_m);
     fuzz::SessionTalk talk(session, require_on_table);
     ByteReader script(fuzz::bytes_of(data, size));
     while (script.left() > 0 && !talk.over()) {

@@ -9,15 +9,15 @@ using namespace frustumscreen;
 
 namespace {
 
-Result<Recording> checked(std::span<const std::byte> bytes, RecordingSource source) {
-    Result<Recording> recording = read_recording(bytes, source);
+Result<texts::Recording> checked(std::span<const std::byte> bytes, texts::RecordingSource source) {
+    Result<texts::Recording> recording = texts::read_recording(bytes, source);
     if (!recording) {
         fuzz::require_one_line(recording.error().message);
         return recording;
     }
     const std::vector<float>& samples = recording->samples;
     fuzz::require(recording->rate_hz >= 8000 && recording->rate_hz <= 96000, "its rate is one of speech");
-    fuzz::require(!samples.empty() && samples.size() <= static_cast<std::size_t>(longest_recording_s) *
+    fuzz::require(!samples.empty() && samples.size() <= static_cast<std::size_t>(texts::longest_recording_s) *
                                                             static_cast<std::size_t>(recording->rate_hz),
                   "a recording has samples, no more than allowed");
     fuzz::require(std::all_of(samples.begin(), samples.end(), [](float s) { return std::isfinite(s); }),
@@ -29,8 +29,8 @@ Result<Recording> checked(std::span<const std::byte> bytes, RecordingSource sour
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::byte> bytes = fuzz::bytes_of(data, size);
-    const Result<Recording> file = checked(bytes, RecordingSource::File);
-    const Result<Recording> stream = checked(bytes, RecordingSource::Stream);
+    const Result<texts::Recording> file = checked(bytes, texts::RecordingSource::File);
+    const Result<texts::Recording> stream = checked(bytes, texts::RecordingSource::Stream);
     fuzz::require(!file || (stream && stream->samples == file->samples),
                   "what a file gives, a stream does too");
     return 0;

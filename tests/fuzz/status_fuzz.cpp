@@ -25,17 +25,18 @@ void require_printable_lines(std::string_view text) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(fuzz::text_of(data, size));
-    const StatusClock clock{MonotonicTime(std::chrono::seconds(1000)), "boot"};
-    const StatusDocument document = parse_status(text, clock);
-    KnownExhibit known{document,
-                       {document, parse_service_ends(text), text.size(), {}, 1000.0, {}, "system", {}, {}}};
-    if (std::optional<Crash> crash = parse_crash(text)) {
+    const status::StatusClock clock{MonotonicTime(std::chrono::seconds(1000)), "boot"};
+    const status::StatusDocument document = status::parse_status(text, clock);
+    status::KnownExhibit known{
+        document, {document, watch::parse_service_ends(text), text.size(), {}, 1000.0, {}, "system", {}, {}}};
+    if (std::optional<watch::Crash> crash = watch::parse_crash(text)) {
         known.environment.crashes.push_back(*std::move(crash));
     }
     fuzz::require(document.fields.is_null() != document.why.empty(), "something is known, or why not");
-    fuzz::require(verdict_of(known).runs || !verdict_of(known).well, "what does not run is not well");
-    require_printable_lines(status_text(known, 1'800'000'000));
-    require_printable_lines(prometheus_text(known));
-    fuzz::require(nlohmann::json::accept(status_document(known)), "it is JSON");
+    fuzz::require(status::verdict_of(known).runs || !status::verdict_of(known).well,
+                  "what does not run is not well");
+    require_printable_lines(status::status_text(known, 1'800'000'000));
+    require_printable_lines(status::prometheus_text(known));
+    fuzz::require(nlohmann::json::accept(status::status_document(known)), "it is JSON");
     return 0;
 }

@@ -56,8 +56,8 @@ void require_pack(const std::string& path) {
     fuzz::require(path.find('/', slash == std::string::npos ? 0 : slash + 1) == std::string::npos,
                   "packs lie one folder down at most", path);
     const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-    fuzz::require(!is_passed_over(name) &&
-                      (slash == std::string::npos || !is_passed_over(path.substr(0, slash))),
+    fuzz::require(!library::is_passed_over(name) &&
+                      (slash == std::string::npos || !library::is_passed_over(path.substr(0, slash))),
                   "nothing of a bin is found", path);
     fuzz::require(name.size() >= 7 && (name[name.size() - 7] == '.'), "packs are called so", path);
 }
@@ -66,12 +66,12 @@ void require_pack(const std::string& path) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     DecodedTree tree(fuzz::text_of(data, size));
-    ImportLimits limits;
+    library::ImportLimits limits;
     limits.max_entries = 40;
     limits.max_folders = 8;
     limits.max_packs = 12;
     int asked = 0;
-    const auto found = walk_stick(tree, limits, [&] { return ++asked > 60; });
+    const auto found = library::walk_stick(tree, limits, [&] { return ++asked > 60; });
     if (!found) {
         fuzz::require(found.error().whole, "a stick is refused as a whole");
         fuzz::require_one_line(found.error().reason);
@@ -83,7 +83,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (const std::string& path : found->packs) {
         require_pack(path);
     }
-    for (const ImportedPack& line : found->refused) {
+    for (const library::ImportedPack& line : found->refused) {
         fuzz::require_one_line(line.reason);
         fuzz::require_one_line(line.file);
     }

@@ -16,7 +16,7 @@ Bytes framed(std::string_view preamble, const Bytes& body) {
     frame.insert(frame.end(), as_bytes(preamble).begin(), as_bytes(preamble).end());
     append(frame, static_cast<std::uint32_t>(body.size() + 4));
     frame.insert(frame.end(), body.begin(), body.end());
-    append(frame, static_cast<std::uint32_t>(crc16_arc(frame)));
+    append(frame, static_cast<std::uint32_t>(tracker::crc16_arc(frame)));
     return frame;
 }
 
@@ -41,7 +41,8 @@ public:
         if (command.size() > 32) {
             payloads_[name % payloads_.size()].assign(command.begin() + 28, command.end() - 4);
         }
-        return reply(name, static_cast<std::uint32_t>(ViperAction::Ack), payloads_[name % payloads_.size()]);
+        return reply(name, static_cast<std::uint32_t>(tracker::ViperAction::Ack),
+                     payloads_[name % payloads_.size()]);
     }
 
 private:
@@ -53,7 +54,7 @@ Bytes pose_body(const fuzz::ScriptedPose& pose, std::uint32_t counter) {
     for (const std::uint32_t word : {7U, counter, 0U, 1U}) {
         append(body, word);
     }
-    append(body, pose.sensor | viper_metres << 8U | viper_quaternion << 10U |
+    append(body, pose.sensor | tracker::viper_metres << 8U | tracker::viper_quaternion << 10U |
                      static_cast<std::uint32_t>(pose.distortion) << 14U);
     append(body, pose.position);
     append(body, pose.quaternion);
@@ -61,16 +62,16 @@ Bytes pose_body(const fuzz::ScriptedPose& pose, std::uint32_t counter) {
 }
 
 void require_command(const Bytes& command) {
-    const ViperStep step = parse_viper(command);
-    fuzz::require(command.empty() ||
-                      (step.consumed == command.size() && std::holds_alternative<ViperReply>(step.message)),
+    const tracker::ViperStep step = tracker::parse_viper(command);
+    fuzz::require(command.empty() || (step.consumed == command.size() &&
+                                      std::holds_alternative<tracker::ViperReply>(step.message)),
                   "what is sent is one whole command");
 }
 
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    ViperSession session(UsbTrackerSetUp{});
+    tracker::ViperSession session(tracker::UsbTrackerSetUp{});
     fuzz::SessionTalk talk(session);
     ObedientDevice device;
     std::uint32_t counter = 0;
@@ -107,6 +108,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         }
         require_command(talk.command());
     }
-    fuzz::check_stream(talk.wire(), parse_viper);
+    fuzz::check_stream(talk.wire(), tracker::parse_viper);
     return 0;
 }

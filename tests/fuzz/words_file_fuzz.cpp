@@ -8,36 +8,36 @@
 #include "tests/fuzz/words_file.h"
 
 using namespace frustumscreen;
-using namespace frustumscreen::pack_format;
+using namespace frustumscreen::pack;
 
 namespace {
 
-bool equal(const LanguageWords& a, const LanguageWords& b) {
+bool equal(const pack::LanguageWords& a, const pack::LanguageWords& b) {
     return a.language == b.language && a.name == b.name && a.words == b.words && a.runs == b.runs &&
            a.atlas.texels == b.atlas.texels && a.sounds == b.sounds;
 }
 
 void check_language(std::span<const std::byte> file, const std::string& language) {
-    const Result<LanguageWords> words = read_words(file, language);
+    const Result<pack::LanguageWords> words = pack::read_words(file, language);
     if (!words) {
         fuzz::require_one_line(words.error().message);
         return;
     }
-    for (const PlainWord& word : words->words) {
+    for (const pack::PlainWord& word : words->words) {
         fuzz::require(words->runs.find(word.key) != nullptr, "a word can be set", word.key);
     }
-    const Result<Bytes> written = write_words(std::span(&*words, 1));
-    const Result<LanguageWords> again = read_words(written.value_or(Bytes()), language);
+    const Result<Bytes> written = pack::write_words(std::span(&*words, 1));
+    const Result<pack::LanguageWords> again = pack::read_words(written.value_or(Bytes()), language);
     fuzz::require(again && equal(*again, *words), "what was read is written and read again as it was");
 }
 
 void check(std::span<const std::byte> file) {
-    const Result<std::vector<WordsLanguage>> languages = list_words(file);
+    const Result<std::vector<pack::WordsLanguage>> languages = pack::list_words(file);
     if (!languages) {
         fuzz::require_one_line(languages.error().message);
         return;
     }
-    for (const WordsLanguage& each : *languages) {
+    for (const pack::WordsLanguage& each : *languages) {
         check_language(file, each.language);
     }
 }

@@ -6,14 +6,16 @@
 using namespace frustumscreen;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto words = parse_words(fuzz::text_of(data, size), "words/xx.toml");
+    const auto words = texts::parse_words(fuzz::text_of(data, size), "words/xx.toml");
     if (!words) {
         fuzz::require_one_line(words.error().message);
         return 0;
     }
     for (const auto& [key, text] : *words) {
-        fuzz::require(parse_words(key + " = \"a\"", "words/xx.toml").has_value(), "a key is known", key);
-        fuzz::require(!text.empty() && check_shaped_text(text).has_value(), "a text can be shaped", text);
+        fuzz::require(texts::parse_words(key + " = \"a\"", "words/xx.toml").has_value(), "a key is known",
+                      key);
+        fuzz::require(!text.empty() && texts::check_shaped_text(text).has_value(), "a text can be shaped",
+                      text);
     }
     return 0;
 }

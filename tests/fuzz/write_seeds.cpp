@@ -187,7 +187,7 @@ void glyph_runs(const Seeds& seeds) {
 }
 
 void relief_blocks(const Seeds& seeds) {
-    const Bytes small = pack_format::encode_blocks(samples::block_relief(32));
+    const Bytes small = pack::encode_blocks(samples::block_relief(32));
     seeds.add("relief_blocks", "hill", as_text(small));
     seeds.add("relief_blocks", "cut", as_text(small).substr(0, 500));
     Bytes not_finite = small;
@@ -198,7 +198,7 @@ void relief_blocks(const Seeds& seeds) {
 void words_files(const Seeds& seeds) {
     const Bytes file = fuzz::small_words_file();
     seeds.add("words_file", "two", as_text(file));
-    Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(file);
+    Result<pack::ZipReader> zip = pack::ZipReader::open(file);
     const Result<Bytes> manifest = zip->read(*zip->find("manifest.json"));
     seeds.add("words_file", "manifest", as_text(*manifest)); // its second language lacks its parts
     nlohmann::json one = nlohmann::json::parse(as_text(*manifest));

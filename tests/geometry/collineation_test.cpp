@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 using Real = long double;
@@ -314,4 +314,4 @@ TEST(Collineation, APointOfTheFaceItselfIsDrawnWhereTheProjectorSeesIt) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

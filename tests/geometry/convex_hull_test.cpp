@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 double reach(const std::vector<glm::dvec3>& points, const glm::dvec3& along) {
@@ -91,4 +91,4 @@ TEST(ConvexHull, SheetsLinesAndPoints) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

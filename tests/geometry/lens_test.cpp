@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 /// The formula of OpenCV's manual, in a different precision and order of sums.
@@ -124,4 +124,4 @@ TEST(Lens, WithoutDistortionItIsThePinholesOwn) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 Pinhole random_pinhole(Random& random) {
@@ -72,4 +72,4 @@ TEST(Pinhole, AnotherPictureSizeKeepsTheView) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

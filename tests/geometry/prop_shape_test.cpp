@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 /// Half the side of the prop's square section at height z.
@@ -208,4 +208,4 @@ TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 
 class Random {
 public:
@@ -45,4 +45,4 @@ private:
     std::mt19937 engine_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

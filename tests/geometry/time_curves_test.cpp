@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -49,4 +49,4 @@ TEST(Ease, IsSymmetricAndBeginsAndEndsAtRest) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

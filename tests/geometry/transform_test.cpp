@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 /// Rotation by the matrix of a unit quaternion, written out (Hamilton).
@@ -127,4 +127,4 @@ TEST(Transform, AnyFiniteQuaternionButZeroIsMadeUnit) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::geometry {
 namespace {
 
 struct Soup {
@@ -131,4 +131,4 @@ TEST(TriangleTree, OfNothingAndOfTrianglesWithoutAreaMeetsNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::geometry

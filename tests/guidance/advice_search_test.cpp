@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ std::optional<Advice> searched(const FaceReader& reader, const GuidedState& trac
 class SearchOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {
 protected:
     const FaceReader reader{GetParam()()};
-    Seeded seeded{23};
+    bench::Seeded seeded{23};
 };
 INSTANTIATE_TEST_SUITE_P(EveryProp, SearchOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
 
@@ -108,7 +108,7 @@ TEST_P(SearchOf, TheEasiestSingleMoveOfAllIsFound) {
     int single = 0;
     const int situations = reader.setup().in_hand ? 25 : 60; // in the hand there are far more moves
     for (int k = 0; k < situations; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = searched(reader, tracked_state);
         ASSERT_EQ(advice.has_value(), !reader.valid(tracked_state));
         if (!advice) {
@@ -129,7 +129,7 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
     int single = 0;
     const int situations = reader.setup().in_hand ? 20 : 40;
     for (int k = 0; k < situations; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> before = searched(reader, tracked_state);
         if (!before || before->steps != 1) {
             continue;
@@ -152,7 +152,7 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
 TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
     int several = 0;
     for (int k = 0; k < 4000 && several < 8; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = searched(reader, tracked_state);
         if (!advice || advice->steps != 2) {
             continue;
@@ -174,7 +174,7 @@ TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
 TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
     int several = 0;
     for (int k = 0; k < 400 && several < 4; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = searched(reader, tracked_state);
         if (advice && advice->steps > 1) {
             ++several;
@@ -193,9 +193,9 @@ TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
     dark.projector.width = 1; // its picture is empty
     dark.projector.height = 1;
     const FaceReader nothing_lit(dark);
-    GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+    GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
     while (nothing_lit.read(tracked_state).seen == 0) {
-        tracked_state = seeded_situation(reader.setup(), seeded);
+        tracked_state = bench::seeded_situation(reader.setup(), seeded);
     }
     const std::optional<Advice> advice = searched(nothing_lit, tracked_state);
     ASSERT_TRUE(advice);
@@ -207,7 +207,7 @@ TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
 TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
     int longer = 0;
     for (int k = 0; k < 400 && longer < 3; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = searched(reader, tracked_state);
         if (advice && advice->steps > 2) {
             ++longer;
@@ -222,9 +222,9 @@ TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
     AdviceSearch search;
     int sought = 0;
     for (int k = 0; k < 12; ++k) {
-        search.begin(reader, seeded_situation(reader.setup(), seeded), {});
+        search.begin(reader, bench::seeded_situation(reader.setup(), seeded), {});
         static_cast<void>(search.advance(reader, 500)); // abandoned
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         search.begin(reader, tracked_state, {});
         EXPECT_EQ(search.tracked_state().table_from_prop.translation,
                   tracked_state.table_from_prop.translation);
@@ -253,4 +253,4 @@ TEST(AdviceSearch, BeforeItsBeginningItIsOverAndHasFoundNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

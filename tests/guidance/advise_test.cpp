@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 namespace {
 
 class AdviceOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {};
@@ -12,11 +12,11 @@ INSTANTIATE_TEST_SUITE_P(EveryProp, AdviceOf, ::testing::Values(&frustum_setup, 
 
 TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
     const FaceReader reader(GetParam()());
-    Seeded seeded(11);
+    bench::Seeded seeded(11);
     int single = 0;
     int several = 0;
     for (int k = 0; k < 400 || (several <= 20 && k < 4000); ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> advice = advise(reader, tracked_state);
         EXPECT_EQ(advice.has_value(), !reader.read(tracked_state).valid());
         if (!advice) {
@@ -28,7 +28,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
             continue;
         }
         for (int person_k = 0; person_k < 20; ++person_k) {
-            const Execution execution = seeded_person(advice->move, reader.setup(), seeded);
+            const Execution execution = bench::seeded_person(advice->move, reader.setup(), seeded);
             const GuidedState next = after(advice->move, reader.setup(), tracked_state, execution);
             EXPECT_TRUE(reader.valid(next) || reader.unlit_px(next) < reader.unlit_px(tracked_state))
                 << "situation " << k << ": " << name_of(advice->move.action);
@@ -40,11 +40,11 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
 
 TEST_P(AdviceOf, IsTheSameInPieces) {
     const FaceReader reader(GetParam()());
-    Seeded seeded(17);
+    bench::Seeded seeded(17);
     std::optional<GivenAdvice> standing;
     int max_pieces = 0;
     for (int k = 0; k < 100; ++k) {
-        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const std::optional<Advice> whole = advise(reader, tracked_state, standing);
         AdviceSearch search;
         search.begin(reader, tracked_state, standing);
@@ -68,12 +68,12 @@ TEST_P(AdviceOf, IsTheSameInPieces) {
 
 TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
     const FaceReader reader(GetParam()());
-    Seeded seeded(12);
+    bench::Seeded seeded(12);
     int left = 0;
     constexpr int situations = 150;
     constexpr int max_moves = 12; // with sloppy executions; carried out well, at most four are needed
     for (int k = 0; k < situations; ++k) {
-        GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         Advisor advisor(reader.setup());
         for (int moves = 0; moves < max_moves; ++moves) {
             const std::optional<Advice> advice = advisor.advise(tracked_state);
@@ -81,7 +81,7 @@ TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
                 break;
             }
             tracked_state = after(advice->move, reader.setup(), tracked_state,
-                                  seeded_person(advice->move, reader.setup(), seeded));
+                                  bench::seeded_person(advice->move, reader.setup(), seeded));
         }
         left += reader.valid(tracked_state) ? 0 : 1;
     }
@@ -92,11 +92,11 @@ TEST_P(AdviceOf, LeadsToAWholePictureInAFewMoves) {
 /// return to the previous one within the next steps.
 TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
     const FaceReader reader(GetParam()());
-    Seeded seeded(13);
+    bench::Seeded seeded(13);
     int changes = 0;
     const int walks = reader.setup().in_hand ? 4 : 12; // in the hand an advice takes longer to find
     for (int walk = 0; walk < walks; ++walk) {
-        GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
         const glm::dquat turn = glm::angleAxis(0.1 * std::numbers::pi / 180.0, glm::dvec3(0, 0, 1));
         const double azimuth = seeded.between(-3.0, 3.0);
         const glm::dvec3 step = 0.3e-3 * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -127,12 +127,12 @@ TEST_P(AdviceOf, DoesNotFlipBetweenNeighbours) {
 TEST_P(AdviceOf, IsRarelyLongerThanADenseSearchFinds) {
     const FaceReader reader(GetParam()());
     const GuidanceSetup& setup = reader.setup();
-    Seeded seeded(14);
+    bench::Seeded seeded(14);
     int several = 0;
     int missed = 0;
     const int situations = setup.in_hand ? 100 : 1000; // few upright props need several
     for (int k = 0; k < situations; ++k) {
-        const GuidedState tracked_state = seeded_situation(setup, seeded);
+        const GuidedState tracked_state = bench::seeded_situation(setup, seeded);
         const std::optional<Advice> advice = advise(reader, tracked_state);
         const bool stands = setup.in_hand || (tilt_rad(tracked_state.table_from_prop) < upright_within_rad &&
                                               tracked_state.table_from_prop.translation.z < 0.004);
@@ -180,4 +180,4 @@ TEST(Advice, NamesTheObviousMove) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

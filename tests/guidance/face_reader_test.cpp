@@ -5,13 +5,14 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 namespace {
 
 constexpr double hair = 1e-9;
 
 /// The least sine of a point's elevation over a face, over all corners; table coordinates.
-double min_sine_over(const GuidedState& tracked_state, const PropFace& face, const glm::dvec3& point) {
+double min_sine_over(const GuidedState& tracked_state, const geometry::PropFace& face,
+                     const glm::dvec3& point) {
     std::array<glm::dvec3, 4> corners{};
     std::transform(face.corners.begin(), face.corners.end(), corners.begin(),
                    [&](const glm::dvec3& corner) { return tracked_state.table_from_prop.point(corner); });
@@ -23,8 +24,9 @@ double min_sine_over(const GuidedState& tracked_state, const PropFace& face, con
     return least;
 }
 
-bool in_picture(const GuidanceSetup& setup, const GuidedState& tracked_state, const PropFace& face) {
-    const RigidTransform projector_from_table = setup.table_from_projector.inverse();
+bool in_picture(const GuidanceSetup& setup, const GuidedState& tracked_state,
+                const geometry::PropFace& face) {
+    const geometry::RigidTransform projector_from_table = setup.table_from_projector.inverse();
     return std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
         const glm::dvec3 p = projector_from_table.point(tracked_state.table_from_prop.point(corner));
         const double u = setup.projector.fx * p.x / p.z + setup.projector.cx;
@@ -39,15 +41,15 @@ INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf, ::testing::Values(&frustum_setup, &
 TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
     const FaceReader reader(GetParam()());
     const GuidanceSetup& setup = reader.setup();
-    Seeded seeded(3);
+    bench::Seeded seeded(3);
     int lit = 0;
     int dark = 0;
     for (int k = 0; k < 5000; ++k) {
-        const GuidedState tracked_state = seeded_situation(setup, seeded);
+        const GuidedState tracked_state = bench::seeded_situation(setup, seeded);
         const FaceSets sets = reader.read(tracked_state);
         EXPECT_EQ(sets.valid(), reader.valid(tracked_state));
         for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
-            const PropFace& face = setup.prop.faces[f];
+            const geometry::PropFace& face = setup.prop.faces[f];
             const double eye =
                 min_sine_over(tracked_state, face, tracked_state.eye_m) - FaceReader::min_sine_of_sight;
             const double lens = min_sine_over(tracked_state, face, setup.table_from_projector.translation) -
@@ -67,7 +69,7 @@ TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
 
 /// Counts the pixels of a pinhole at the eye whose rays enter the prop through one of the faces.
 double traced_px(const GuidanceSetup& setup, const GuidedState& tracked_state, std::uint32_t faces) {
-    const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+    const geometry::RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
     const glm::dvec3 eye = prop_from_table.point(tracked_state.eye_m);
     const glm::dvec3 forward = glm::normalize(setup.prop.middle - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, prop_from_table.direction({0.0, 0.0, 1.0})));
@@ -77,10 +79,10 @@ double traced_px(const GuidanceSetup& setup, const GuidedState& tracked_state, s
     int count = 0;
     for (int v = -half; v < half; v += step) {
         for (int u = -half; u < half; u += step) {
-            PropHit hit;
+            geometry::PropHit hit;
             const glm::dvec3 ray =
                 forward + (right * (u + 0.5) + down * (v + 0.5)) / FaceReader::pixels_per_radian;
-            if (intersect(setup.prop, eye, ray, hit) && (faces >> hit.face & 1U) != 0) {
+            if (geometry::intersect(setup.prop, eye, ray, hit) && (faces >> hit.face & 1U) != 0) {
                 ++count;
             }
         }
@@ -99,9 +101,9 @@ TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
         setup.prop.bounds.push_back({glm::dvec3(0.0, 0.0, -1.0), 0.0});
     }
     const FaceReader reader(setup);
-    Seeded seeded(5);
+    bench::Seeded seeded(5);
     for (int k = 0; k < 12; ++k) {
-        const GuidedState tracked_state = seeded_situation(setup, seeded);
+        const GuidedState tracked_state = bench::seeded_situation(setup, seeded);
         const std::uint32_t seen = reader.read(tracked_state).seen;
         const double traced = traced_px(setup, tracked_state, seen);
         const double area = reader.area_px(tracked_state, seen);
@@ -117,4 +119,4 @@ TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

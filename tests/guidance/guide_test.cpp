@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 namespace {
 
 using std::chrono::milliseconds;
@@ -199,4 +199,4 @@ TEST(AdviceWords, AreInTheVisitorsDirections) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

@@ -6,20 +6,20 @@
 
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 
 inline GuidanceSetup frustum_setup() {
-    return guidance_setup(Settings{});
+    return exhibit::guidance_setup(settings::Settings{});
 }
 
 inline GuidanceSetup cube_setup() {
-    return guidance_setup(cube_in_hand());
+    return exhibit::guidance_setup(bench::cube_in_hand());
 }
 
 /// A wedge: all of its sides differ.
 inline GuidanceSetup wedge_setup() {
     GuidanceSetup setup = frustum_setup();
-    PropShape& prop = setup.prop;
+    geometry::PropShape& prop = setup.prop;
     const glm::dmat4 shear(glm::dvec4(0.6, 0.0, 0.0, 0.0), glm::dvec4(0.1, 0.7, 0.0, 0.0),
                            glm::dvec4(0.15, -0.1, 0.9, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
     const auto moved = [&](const glm::dvec3& p) { return glm::dvec3(shear * glm::dvec4(p, 1.0)); };
@@ -27,7 +27,7 @@ inline GuidanceSetup wedge_setup() {
         corner = moved(corner);
     }
     prop.middle = moved(prop.middle);
-    for (PropFace& face : prop.faces) {
+    for (geometry::PropFace& face : prop.faces) {
         for (glm::dvec3& corner : face.corners) {
             corner = moved(corner);
         }
@@ -38,4 +38,4 @@ inline GuidanceSetup wedge_setup() {
     return setup;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

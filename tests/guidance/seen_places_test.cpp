@@ -6,40 +6,40 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::guidance {
 namespace {
 
 /// A prop, and an artifact in it whose planes the ray cast uses.
 struct Shown {
     GuidanceSetup setup;
-    PropShape artifact;
+    geometry::PropShape artifact;
 };
 
 Shown in_frustum() {
-    return {frustum_setup(), make_frustum({0.10, 0.06, 0.14})};
+    return {frustum_setup(), geometry::make_frustum({0.10, 0.06, 0.14})};
 }
 Shown in_cube() {
-    return {cube_setup(), make_frustum({0.05, 0.05, 0.09})};
+    return {cube_setup(), geometry::make_frustum({0.05, 0.05, 0.09})};
 }
 /// An artifact that extends out of the prop at the top, which acts as a window on it.
 Shown beyond_frustum() {
-    return {frustum_setup(), make_frustum({0.12, 0.10, 0.16})};
+    return {frustum_setup(), geometry::make_frustum({0.12, 0.10, 0.16})};
 }
 
 /// The pixels of a pinhole at the eye through which the artifact would be seen, at places without light.
 double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
     const GuidanceSetup& setup = shown.setup;
-    const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+    const geometry::RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
     const glm::dvec3 eye = prop_from_table.point(tracked_state.eye_m);
     const glm::dvec3 lens = prop_from_table.point(setup.table_from_projector.translation);
-    const RigidTransform projector_from_prop =
+    const geometry::RigidTransform projector_from_prop =
         setup.table_from_projector.inverse() * tracked_state.table_from_prop;
     const glm::dvec3 forward = glm::normalize(setup.prop.middle - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, prop_from_table.direction({0.0, 0.0, 1.0})));
     const glm::dvec3 down = glm::cross(forward, right);
     const FaceReader reader(setup);
     const std::uint32_t seen = reader.read(tracked_state).seen;
-    const auto is_lit = [&](const glm::dvec3& place, const PropFace& face) {
+    const auto is_lit = [&](const glm::dvec3& place, const geometry::PropFace& face) {
         const glm::dvec3 p = projector_from_prop.point(place);
         const double u = setup.projector.fx * p.x / p.z + setup.projector.cx;
         const double v = setup.projector.fy * p.y / p.z + setup.projector.cy;
@@ -57,12 +57,13 @@ double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
         for (int u = -half; u < half; u += step) {
             const glm::dvec3 ray =
                 forward + (right * (u + 0.5) + down * (v + 0.5)) / FaceReader::pixels_per_radian;
-            PropHit window;
-            PropHit hit;
-            if (!intersect(setup.prop, eye, ray, window) || !enter(shown.artifact, eye, ray, hit)) {
+            geometry::PropHit window;
+            geometry::PropHit hit;
+            if (!geometry::intersect(setup.prop, eye, ray, window) ||
+                !geometry::enter(shown.artifact, eye, ray, hit)) {
                 continue;
             }
-            const PropFace& face = setup.prop.faces[static_cast<std::size_t>(window.face)];
+            const geometry::PropFace& face = setup.prop.faces[static_cast<std::size_t>(window.face)];
             const bool counts = (seen >> window.face & 1U) != 0 && !is_lit(eye + window.t * ray, face);
             count += counts ? 1 : 0;
         }
@@ -77,12 +78,12 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     Shown shown = GetParam()();
     shown.setup.hull = shown.artifact.corners;
     const FaceReader reader(shown.setup);
-    Seeded seeded(11);
+    bench::Seeded seeded(11);
     int whole = 0;
     int saved = 0; // whole, though a seen face is not entirely lit
     int lost = 0;
     for (int k = 0; k < 600; ++k) {
-        const GuidedState tracked_state = seeded_situation(shown.setup, seeded);
+        const GuidedState tracked_state = bench::seeded_situation(shown.setup, seeded);
         const double traced = traced_lost_px(shown, tracked_state);
         const double lost_px = reader.lost_px(tracked_state);
         if (reader.whole(tracked_state)) {
@@ -142,4 +143,4 @@ TEST(SeenPlaces, MeetExactlyWhereTheConesDo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::guidance

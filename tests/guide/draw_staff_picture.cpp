@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 namespace {
 
 /// The contents of a kiosk's status file (docs/status.md).
@@ -35,16 +35,17 @@ constexpr const char* watchdog = R"({
  "faults": [{"at": "2026-05-01T09:30:00Z", "awake_s": 5, "sentence": "the tracker is plugged in and says nothing",
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 
-StaffFacts facts_of(const Settings& settings) {
-    Environment around;
+show::StaffFacts facts_of(const settings::Settings& settings) {
+    status::Environment around;
     around.watchdog.fields = nlohmann::json::parse(watchdog);
     around.watchdog.age_s = 0.0;
-    RunStatus run;
-    static_cast<StatusReport&>(run) = read_status_report(nlohmann::json::parse(status));
-    run.environment = std::make_shared<const Environment>(around);
+    show::RunStatus run;
+    static_cast<status::StatusReport&>(run) = status::read_status_report(nlohmann::json::parse(status));
+    run.environment = std::make_shared<const status::Environment>(around);
     run.calibrates = true;
     constexpr std::time_t now = 1777651200; // a Friday at noon
-    StaffFacts facts = staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", State::View, now);
+    show::StaffFacts facts =
+        show::staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", exhibit::State::View, now);
     facts.speaks = true;
     facts.settings_gain_db = -3.0;
     facts.prop = {240.0, 1.0, 0.06, 0.012};
@@ -52,11 +53,11 @@ StaffFacts facts_of(const Settings& settings) {
 }
 
 /// The other pages side by side, at half size.
-Image8 contact_sheet(const std::vector<Image8>& pages) {
+image::Image8 contact_sheet(const std::vector<image::Image8>& pages) {
     constexpr int gap = 10;
     const glm::ivec2 size(pages.front().width / 2, pages.front().height / 2);
     const int rows = (static_cast<int>(pages.size()) + 1) / 2;
-    Canvas sheet(2 * size.x + gap, rows * (size.y + gap) - gap, Colour(255));
+    typography::Canvas sheet(2 * size.x + gap, rows * (size.y + gap) - gap, typography::Colour(255));
     for (std::size_t k = 0; k < pages.size(); ++k) {
         const glm::ivec2 place(static_cast<int>(k % 2), static_cast<int>(k / 2));
         sheet.picture(pages[k], {0.0, 0.0}, {pages[k].width, pages[k].height}, place * (size + gap), size);
@@ -65,51 +66,57 @@ Image8 contact_sheet(const std::vector<Image8>& pages) {
 }
 
 Result<void> draw(const std::filesystem::path& folder) {
-    TRY(const CheckedSettings checked,
-        parse_settings("[projector]\nwidth = 1280\nheight = 800\n[panel]\nkind = \"keys\"\ndevice = "
-                       "\"keyboard\"\nkeys = "
-                       "[\"KEY_1\", \"KEY_2\", \"KEY_3\"]\n",
-                       "kiosk.toml"));
-    TRY(const Typesetter typesetter, Typesetter::open());
-    Settings settings = *checked;
-    Calibration used;
+    TRY(const settings::CheckedSettings checked,
+        settings::parse_settings(
+            "[projector]\nwidth = 1280\nheight = 800\n[panel]\nkind = \"keys\"\ndevice = "
+            "\"keyboard\"\nkeys = "
+            "[\"KEY_1\", \"KEY_2\", \"KEY_3\"]\n",
+            "kiosk.toml"));
+    TRY(const typography::Typesetter typesetter, typography::Typesetter::open());
+    settings::Settings settings = *checked;
+    settings::Calibration used;
     used.made = "2026-04-12 10:12 UTC";
     used.places = 9;
     used.mean_mm = 0.52;
     used.worst_mm = 0.84;
     settings.calibration.used = used;
     settings.calibration.used_name = "calibration-0008.toml";
-    const PatternScene scene{settings.projector.pinhole,
-                             settings.projector.table_from_projector,
-                             {settings.table.width_m, settings.table.depth_m},
-                             make_prop(settings.prop)};
-    const StaffFacts facts = facts_of(settings);
-    const auto page = [&](StaffPage which, StaffLight light = StaffLight::White) {
-        StaffView view;
+    const typography::PatternScene scene{settings.projector.pinhole,
+                                         settings.projector.table_from_projector,
+                                         {settings.table.width_m, settings.table.depth_m},
+                                         settings::make_prop(settings.prop)};
+    const show::StaffFacts facts = facts_of(settings);
+    const auto page = [&](exhibit::StaffPage which, exhibit::StaffLight light = exhibit::StaffLight::White) {
+        exhibit::StaffView view;
         view.page = which;
         view.light = light;
         view.louder_db = 6;
         view.presses = {2, 1, 4, 0, 0};
-        view.pressed =
-            which == StaffPage::Buttons ? std::optional<std::uint8_t>(std::uint8_t{2}) : std::nullopt;
-        return staff_picture(view, facts, scene, staff_background(view, scene, typesetter), typesetter);
+        view.pressed = which == exhibit::StaffPage::Buttons ? std::optional<std::uint8_t>(std::uint8_t{2})
+                                                            : std::nullopt;
+        return show::staff_picture(view, facts, scene, show::staff_background(view, scene, typesetter),
+                                   typesetter);
     };
-    const RigidTransform table_from_prop{glm::angleAxis(0.35, glm::dvec3(0.0, 0.0, 1.0)), {0.12, -0.02, 0.0}};
-    TRY_VOID(write_file(folder / "staff.png", encode_png(page(StaffPage::Status))));
+    const geometry::RigidTransform table_from_prop{glm::angleAxis(0.35, glm::dvec3(0.0, 0.0, 1.0)),
+                                                   {0.12, -0.02, 0.0}};
+    TRY_VOID(write_file(folder / "staff.png", image::encode_png(page(exhibit::StaffPage::Status))));
     TRY_VOID(write_file(folder / "staff_place.png",
-                        encode_png(with_prop(page(StaffPage::Place), scene, table_from_prop, typesetter))));
+                        image::encode_png(typography::with_prop(page(exhibit::StaffPage::Place), scene,
+                                                                table_from_prop, typesetter))));
     return write_file(
         folder / "staff_pages.png",
-        encode_png(contact_sheet({page(StaffPage::Focus), page(StaffPage::Light, StaffLight::Greys),
-                                  page(StaffPage::Sound), page(StaffPage::Tracker), page(StaffPage::Buttons),
-                                  page(StaffPage::Light)})));
+        image::encode_png(contact_sheet(
+            {page(exhibit::StaffPage::Focus), page(exhibit::StaffPage::Light, exhibit::StaffLight::Greys),
+             page(exhibit::StaffPage::Sound), page(exhibit::StaffPage::Tracker),
+             page(exhibit::StaffPage::Buttons), page(exhibit::StaffPage::Light)})));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tests
 
 int main(int argc, char** argv) {
     using namespace frustumscreen;
+    using namespace frustumscreen::tests;
     if (argc != 2) {
         fmt::print(stderr, "usage: draw_staff_picture FOLDER\n");
         return 2;

@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 
 namespace {
 
@@ -59,7 +59,7 @@ std::size_t report_bytes(std::byte number) {
     return number == std::byte{1} ? 34 : 10;
 }
 
-class SocketTransport final : public UsbTransport {
+class SocketTransport final : public tracker::UsbTransport {
 public:
     SocketTransport(Descriptor connection, bool reports)
         : connection_(std::move(connection)), reports_(reports) {}
@@ -94,24 +94,24 @@ private:
     bool reports_; ///< each read returns one whole report
 };
 
-class SocketBus final : public UsbBus {
+class SocketBus final : public tracker::UsbBus {
 public:
-    SocketBus(std::string path, UsbTrackerModel model) : path_(std::move(path)), model_(model) {}
+    SocketBus(std::string path, tracker::UsbTrackerModel model) : path_(std::move(path)), model_(model) {}
 
-    [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
+    [[nodiscard]] tl::expected<tracker::FoundTracker, tracker::UsbTrackerState>
     find(std::span<const std::string> /*but_not*/) override {
         std::optional<Descriptor> connection = connect_to(path_);
         if (!connection) {
-            return tl::unexpected(UsbTrackerState::NotConnected);
+            return tl::unexpected(tracker::UsbTrackerState::NotConnected);
         }
-        return FoundTracker{
-            std::make_unique<SocketTransport>(std::move(*connection), model_ == UsbTrackerModel::Hid), model_,
-            path_};
+        return tracker::FoundTracker{std::make_unique<SocketTransport>(
+                                         std::move(*connection), model_ == tracker::UsbTrackerModel::Hid),
+                                     model_, path_};
     }
 
 private:
     std::string path_;
-    UsbTrackerModel model_;
+    tracker::UsbTrackerModel model_;
 };
 
 } // namespace
@@ -178,8 +178,8 @@ std::string MockProcess::tell(const std::string& command) const {
     return answer;
 }
 
-std::unique_ptr<UsbBus> make_socket_bus(std::string path, UsbTrackerModel model) {
+std::unique_ptr<tracker::UsbBus> make_socket_bus(std::string path, tracker::UsbTrackerModel model) {
     return std::make_unique<SocketBus>(std::move(path), model);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

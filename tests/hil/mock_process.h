@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 
 /// A new folder under the system's temporary folder, removed at the end; sockets need short paths.
 class ScratchFolder {
@@ -44,6 +44,7 @@ private:
 };
 
 /// Finds the tracker whose bytes are at the Unix socket `path`.
-[[nodiscard]] std::unique_ptr<UsbBus> make_socket_bus(std::string path, UsbTrackerModel model);
+[[nodiscard]] std::unique_ptr<tracker::UsbBus> make_socket_bus(std::string path,
+                                                               tracker::UsbTrackerModel model);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

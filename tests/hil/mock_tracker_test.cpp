@@ -13,28 +13,28 @@
 #include <sstream>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 namespace {
 
 struct Device {
     std::string name; ///< on the mock's command line
-    UsbTrackerModel model = UsbTrackerModel::Viper;
+    tracker::UsbTrackerModel model = tracker::UsbTrackerModel::Viper;
     double position_tolerance_m = 1e-6;
     double rotation_tolerance = 1e-6;
 };
 const std::vector<Device> devices{
-    {"viper", UsbTrackerModel::Viper},
-    {"patriot", UsbTrackerModel::Patriot},
-    {"liberty-hs", UsbTrackerModel::Liberty},
-    {"hid", UsbTrackerModel::Hid, 1e-5},
+    {"viper", tracker::UsbTrackerModel::Viper},
+    {"patriot", tracker::UsbTrackerModel::Patriot},
+    {"liberty-hs", tracker::UsbTrackerModel::Liberty},
+    {"hid", tracker::UsbTrackerModel::Hid, 1e-5},
 };
 
 constexpr int rows = 3600;
 constexpr double rows_per_metre = 8192.0;
 
 /// The pose of a row; each row and station has a different one.
-PoseSample row_pose(int row, int station) {
-    PoseSample pose;
+tracker::PoseSample row_pose(int row, int station) {
+    tracker::PoseSample pose;
     pose.time = from_microseconds(row * 1'000'000LL / 240);
     pose.station = station;
     pose.position_m = {row / rows_per_metre - 0.5, row % 64 / 64.0, 0.25 * station};
@@ -73,33 +73,33 @@ public:
         }
         return true;
     }
-    bool until_state(UsbTrackerState state) {
+    bool until_state(tracker::UsbTrackerState state) {
         return until([&] { return driver_.state() == state; });
     }
     /// Waits until the driver streams and new poses of both stations have come.
     bool until_streaming() {
         const std::map<int, int> before = good_;
         return until([&] {
-            return driver_.state() == UsbTrackerState::Streaming &&
-                   good_[prop_station] > before_of(before, 1) + 5 &&
-                   good_[head_station] > before_of(before, 2) + 5;
+            return driver_.state() == tracker::UsbTrackerState::Streaming &&
+                   good_[tracker::prop_station] > before_of(before, 1) + 5 &&
+                   good_[tracker::head_station] > before_of(before, 2) + 5;
         });
     }
-    [[nodiscard]] TrackerCounts counts() const { return driver_.counts(); }
-    [[nodiscard]] const std::vector<PoseSample>& samples() const { return samples_; }
+    [[nodiscard]] tracker::TrackerCounts counts() const { return driver_.counts(); }
+    [[nodiscard]] const std::vector<tracker::PoseSample>& samples() const { return samples_; }
 
     /// Checks that the mock's log has each good sample as a whole row. The mock still writes, so an incomplete last row
     /// is ignored.
     void check_against_log() const {
         std::string log = read_file(folder_.path("log"));
         log.resize(log.rfind('\n') + 1);
-        const auto sent = parse_poses(log, "log");
+        const auto sent = tracker::parse_poses(log, "log");
         ASSERT_TRUE(sent) << sent.error().message;
         std::map<std::pair<int, int>, bool> rows_sent;
-        for (const PoseSample& pose : *sent) {
+        for (const tracker::PoseSample& pose : *sent) {
             rows_sent[{pose.station, row_of(pose)}] = true;
         }
-        for (const PoseSample& sample : samples_) {
+        for (const tracker::PoseSample& sample : samples_) {
             EXPECT_TRUE(!sample.ok || rows_sent.contains({sample.station, row_of(sample)}));
         }
     }
@@ -109,16 +109,16 @@ private:
         const auto found = counts.find(station);
         return found == counts.end() ? 0 : found->second;
     }
-    static int row_of(const PoseSample& pose) {
+    static int row_of(const tracker::PoseSample& pose) {
         return static_cast<int>(std::lround((pose.position_m.x + 0.5) * rows_per_metre));
     }
     std::vector<std::string> arguments(const std::vector<std::string>& more) const {
-        std::vector<PoseSample> poses;
+        std::vector<tracker::PoseSample> poses;
         for (int row = 0; row < rows; ++row) {
-            poses.push_back(row_pose(row, prop_station));
-            poses.push_back(row_pose(row, head_station));
+            poses.push_back(row_pose(row, tracker::prop_station));
+            poses.push_back(row_pose(row, tracker::head_station));
         }
-        std::ofstream(folder_.path("poses.csv")) << write_poses(poses);
+        std::ofstream(folder_.path("poses.csv")) << tracker::write_poses(poses);
         std::vector<std::string> all{"--device",         device_.name,
                                      "--socket",         folder_.path("tracker"),
                                      "--poses",          folder_.path("poses.csv"),
@@ -137,7 +137,7 @@ private:
             std::this_thread::sleep_for(rest);
         }
     }
-    void check(PoseSample& sample) {
+    void check(tracker::PoseSample& sample) {
         MonotonicTime& last = last_time_[sample.station];
         EXPECT_LE(last, sample.time);
         last = sample.time;
@@ -147,7 +147,7 @@ private:
         ++good_[sample.station];
         sample.position_m = glm::dvec3(table_from_tracker_ * glm::dvec4(sample.position_m, 1.0));
         sample.rotation = glm::quat_cast(table_from_tracker_) * sample.rotation;
-        const PoseSample expected = row_pose(row_of(sample), sample.station);
+        const tracker::PoseSample expected = row_pose(row_of(sample), sample.station);
         EXPECT_LT(glm::distance(sample.position_m, expected.position_m), device_.position_tolerance_m);
         EXPECT_GT(std::abs(glm::dot(sample.rotation, expected.rotation)), 1.0 - device_.rotation_tolerance);
     }
@@ -156,8 +156,8 @@ private:
     glm::dmat4 table_from_tracker_;
     ScratchFolder folder_;
     MockProcess mock_;
-    UsbTrackerDriver driver_;
-    std::vector<PoseSample> samples_;
+    tracker::UsbTrackerDriver driver_;
+    std::vector<tracker::PoseSample> samples_;
     std::map<int, int> good_; ///< samples by station
     std::map<int, MonotonicTime> last_time_;
 };
@@ -199,11 +199,12 @@ TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
-        using Count = std::uint64_t TrackerCounts::*;
-        const std::vector<std::pair<std::string, Count>> faults{{"drop", &TrackerCounts::lost},
-                                                                {"corrupt", &TrackerCounts::broken},
-                                                                {"duplicate", &TrackerCounts::duplicated},
-                                                                {"reorder", &TrackerCounts::reordered}};
+        using Count = std::uint64_t tracker::TrackerCounts::*;
+        const std::vector<std::pair<std::string, Count>> faults{
+            {"drop", &tracker::TrackerCounts::lost},
+            {"corrupt", &tracker::TrackerCounts::broken},
+            {"duplicate", &tracker::TrackerCounts::duplicated},
+            {"reorder", &tracker::TrackerCounts::reordered}};
         for (const auto& [fault, count] : faults) {
             SCOPED_TRACE(fault);
             const std::uint64_t before = bench.counts().*count;
@@ -219,17 +220,19 @@ TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
 TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
     with_each(devices, [](const Device& device) {
         const bool says_that_it_boots =
-            device.model == UsbTrackerModel::Viper || device.model == UsbTrackerModel::Hid;
-        const std::vector<std::pair<std::string, UsbTrackerState>> faults{
-            {"stall", UsbTrackerState::Silent},
-            {"hang", UsbTrackerState::Silent},
-            {"unplug", UsbTrackerState::NotConnected},
+            device.model == tracker::UsbTrackerModel::Viper || device.model == tracker::UsbTrackerModel::Hid;
+        const std::vector<std::pair<std::string, tracker::UsbTrackerState>> faults{
+            {"stall", tracker::UsbTrackerState::Silent},
+            {"hang", tracker::UsbTrackerState::Silent},
+            {"unplug", tracker::UsbTrackerState::NotConnected},
             // A PATRIOT has no checksum, so this frame counts as a broken one.
-            {"nan", says_that_it_boots ? UsbTrackerState::PosesUnusable : UsbTrackerState::Silent},
-            {"sensor-missing", UsbTrackerState::SensorMissing},
-            {"distortion 200", UsbTrackerState::MetalNear},
-            {"wrong-units", UsbTrackerState::WrongUnits},
-            {"slow-boot", says_that_it_boots ? UsbTrackerState::Booting : UsbTrackerState::SetUpRefused},
+            {"nan",
+             says_that_it_boots ? tracker::UsbTrackerState::PosesUnusable : tracker::UsbTrackerState::Silent},
+            {"sensor-missing", tracker::UsbTrackerState::SensorMissing},
+            {"distortion 200", tracker::UsbTrackerState::MetalNear},
+            {"wrong-units", tracker::UsbTrackerState::WrongUnits},
+            {"slow-boot",
+             says_that_it_boots ? tracker::UsbTrackerState::Booting : tracker::UsbTrackerState::SetUpRefused},
         };
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
@@ -247,7 +250,7 @@ TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
 TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
     with_each(devices, [](const Device& device) {
         Bench bench(device, {"--at", "0s nak"});
-        EXPECT_TRUE(bench.until_state(UsbTrackerState::SetUpRefused));
+        EXPECT_TRUE(bench.until_state(tracker::UsbTrackerState::SetUpRefused));
         bench.tell("nak off");
         EXPECT_TRUE(bench.until_streaming());
     });
@@ -257,7 +260,7 @@ TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
 struct Said {
     const Device& device;
     std::string fault;
-    UsbTrackerState state;
+    tracker::UsbTrackerState state;
 };
 
 void with_each(const std::vector<Said>& which, const std::function<void(const Said&)>& test) {
@@ -273,9 +276,9 @@ void with_each(const std::vector<Said>& which, const std::function<void(const Sa
 
 TEST(MockTracker, AViperWhoseSetUpIsNotAsItShouldBeStreamsAndSaysSo) {
     const Device& viper = devices[0];
-    with_each({{viper, "filter-stays", UsbTrackerState::FilterStaysOn},
-               {viper, "warn", UsbTrackerState::SetUpDoubtful},
-               {viper, "nak-questions", UsbTrackerState::SetUpDoubtful}},
+    with_each({{viper, "filter-stays", tracker::UsbTrackerState::FilterStaysOn},
+               {viper, "warn", tracker::UsbTrackerState::SetUpDoubtful},
+               {viper, "nak-questions", tracker::UsbTrackerState::SetUpDoubtful}},
               [](const Said& said) {
                   Bench bench(said.device, {"--at", "0s " + said.fault});
                   EXPECT_TRUE(bench.until_state(said.state));
@@ -291,12 +294,12 @@ TEST(MockTracker, AWrongPaceAClockThatStandsAndAFaultOfItsOwnAreSaidAndPass) {
     const Device& viper = devices[0];
     const Device& patriot = devices[1];
     const Device& hid = devices[3];
-    with_each({{viper, "rate 30", UsbTrackerState::PosesLate},
-               {viper, "rate 8000", UsbTrackerState::PosesLate},
-               {viper, "built-in-test", UsbTrackerState::DeviceFault},
-               {patriot, "clock-stands", UsbTrackerState::PosesLate},
-               {hid, "clock-stands", UsbTrackerState::PosesLate},
-               {hid, "built-in-test", UsbTrackerState::DeviceFault}},
+    with_each({{viper, "rate 30", tracker::UsbTrackerState::PosesLate},
+               {viper, "rate 8000", tracker::UsbTrackerState::PosesLate},
+               {viper, "built-in-test", tracker::UsbTrackerState::DeviceFault},
+               {patriot, "clock-stands", tracker::UsbTrackerState::PosesLate},
+               {hid, "clock-stands", tracker::UsbTrackerState::PosesLate},
+               {hid, "built-in-test", tracker::UsbTrackerState::DeviceFault}},
               [](const Said& said) {
                   Bench bench(said.device);
                   ASSERT_TRUE(bench.until_streaming());
@@ -313,11 +316,12 @@ TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
         bench.tell("replug 33 3s"); // about a hundred replugs
-        EXPECT_TRUE(bench.until_state(UsbTrackerState::NotConnected));
+        EXPECT_TRUE(bench.until_state(tracker::UsbTrackerState::NotConnected));
         EXPECT_TRUE(bench.until_streaming());
-        using Count = std::uint64_t TrackerCounts::*;
-        const std::vector<std::pair<std::string, Count>> storms{{"burst 64", &TrackerCounts::duplicated},
-                                                                {"false-preambles", &TrackerCounts::broken}};
+        using Count = std::uint64_t tracker::TrackerCounts::*;
+        const std::vector<std::pair<std::string, Count>> storms{
+            {"burst 64", &tracker::TrackerCounts::duplicated},
+            {"false-preambles", &tracker::TrackerCounts::broken}};
         for (const auto& [storm, count] : storms) {
             SCOPED_TRACE(storm);
             const std::uint64_t before = bench.counts().*count;
@@ -335,7 +339,7 @@ TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
-        const TrackerCounts before = bench.counts();
+        const tracker::TrackerCounts before = bench.counts();
         bench.tell("nan");
         EXPECT_TRUE(bench.until([&] {
             return bench.counts().unusable > before.unusable + 5 || bench.counts().broken > before.broken + 5;
@@ -347,4 +351,4 @@ TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

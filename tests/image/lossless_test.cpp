@@ -8,6 +8,7 @@
 #include <string>
 
 using namespace frustumscreen;
+using namespace frustumscreen::image;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 namespace {
 
 TEST(HalfSize, IsTheMeanOfLightAndNotOfCodes) {
@@ -39,4 +39,4 @@ TEST(HalfSize, GivesEachTexelOfAnOddPictureItsShare) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::image

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::image {
 
 /// Noise; with alpha, texels of alpha 0 have colours too.
 inline Image8 noise(int width, int height, bool with_alpha) {
@@ -31,4 +31,4 @@ inline Image8 smooth(int width, int height) {
     return image;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::image

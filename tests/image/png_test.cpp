@@ -7,6 +7,7 @@
 #include <string>
 
 using namespace frustumscreen;
+using namespace frustumscreen::image;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <random>
 
 using namespace frustumscreen;
+using namespace frustumscreen::image;
 
 TEST(Srgb, every_code_comes_back_from_linear_light) {
     for (int code = 0; code < 256; ++code) {

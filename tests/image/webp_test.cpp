@@ -8,6 +8,7 @@
 #include <string>
 
 using namespace frustumscreen;
+using namespace frustumscreen::image;
 
 TEST(WebP, its_bytes_begin_as_webp) {
     EXPECT_TRUE(begins_as_webp(encode_webp(noise(61, 37, true))));

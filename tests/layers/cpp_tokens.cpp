@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 namespace {
 
 bool is_word(char c) {
@@ -115,4 +115,4 @@ std::vector<std::string> cpp_tokens(std::string_view text) {
     return Reader(text).tokens();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 
 [[nodiscard]] std::vector<std::string> cpp_tokens(std::string_view text);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

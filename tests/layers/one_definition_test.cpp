@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST(OneDefinition, NothingElseIsTakenForOne) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 namespace {
 
 using Tokens = std::span<const std::string>;
@@ -187,4 +187,4 @@ std::vector<std::string> OneDefinition::violations() const {
     return sentences;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

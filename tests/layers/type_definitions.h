@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tests {
 
 struct TypeDefinition {
     std::string name; ///< with its namespaces; of a specialisation with its arguments: "a::Box<int>"
@@ -34,4 +34,4 @@ private:
     std::map<std::string, DefinitionsByFile> names_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tests

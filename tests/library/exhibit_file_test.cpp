@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 std::string refusal_of(std::string_view text) {
@@ -73,4 +73,4 @@ TEST(ExhibitFile, SaysWhichLineIsWrongAndWhatIsNearest) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

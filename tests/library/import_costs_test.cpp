@@ -1,7 +1,7 @@
 // Limits on the cost of a stick: entries, time, work, copies in vain.
 #include "tests/library/stick_fixture.h"
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
@@ -129,4 +129,4 @@ TEST_F(ImportCosts, FiveHundredPacks) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 ImportReport at(const char* id, ImportStage stage) {
@@ -95,4 +95,4 @@ TEST(ImportEnd, AReportThatIsOverStandsForAWhile) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -5,27 +5,27 @@
 #include "firmware_host/base/calendar_day.h"
 #include "tests/library/stick_fixture.h"
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
 
 class ImportKeys : public StickTest {
 protected:
-    static std::string key_text(const SecretKey& key, std::string_view until = "") {
+    static std::string key_text(const pack::SecretKey& key, std::string_view until = "") {
         return fmt::format("[[key]]\nname = \"new\"\npublic_key = \"{}\"\n{}",
-                           public_key_line(key.public_key()),
+                           pack::public_key_line(key.public_key()),
                            until.empty() ? "" : fmt::format("until = \"{}\"\n", until));
     }
     /// Imports a stick that has only a set file with this text.
-    ImportReport bring(const std::string& text, const SecretKey& signer, std::uint64_t serial) {
+    ImportReport bring(const std::string& text, const pack::SecretKey& signer, std::uint64_t serial) {
         VolatileDisk other;
         other.put("exhibit.toml", text);
         other.put("exhibit.toml.minisig", signer.sign(as_bytes(text), fmt::format("serial:{}", serial)));
         return import_quietly(other, kiosk, request);
     }
     /// True if a new pack signed with this key is taken.
-    bool is_believed(const SecretKey& key, std::uint64_t serial = 0) {
+    bool is_believed(const pack::SecretKey& key, std::uint64_t serial = 0) {
         const std::string id = fmt::format("p{}", ++packs_);
         VolatileDisk other;
         other.put("p.fspack", Museum::signed_by(key, Museum::unsigned_pack(id, id), serial > 0 ? serial : 1));
@@ -34,18 +34,18 @@ protected:
     }
     static std::chrono::sys_days day(std::string_view text) { return parse_day(text).value(); }
 
-    const SecretKey next = SecretKey::make();
-    const SecretKey third = SecretKey::make();
+    const pack::SecretKey next = pack::SecretKey::make();
+    const pack::SecretKey third = pack::SecretKey::make();
 
 private:
     int packs_ = 0;
 };
 
 TEST_F(ImportKeys, NewKeysComeSignedByOldOnes) {
-    const SecretKey next = SecretKey::make();
+    const pack::SecretKey next = pack::SecretKey::make();
     const std::string text =
         fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2040-12-31\"\n",
-                    public_key_line(next.public_key()));
+                    pack::public_key_line(next.public_key()));
     stick.put("a.fspack", Museum::signed_by(next, Museum::unsigned_pack("a", "a"), 1));
     stick.put("exhibit.toml", text);
     stick.put("exhibit.toml.minisig", next.sign(as_bytes(text), "serial:1"));
@@ -65,7 +65,7 @@ TEST_F(ImportKeys, AKeyAloneIsNoNewSet) {
     import();
     museum.put_exhibit(stick,
                        fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\n",
-                                   public_key_line(SecretKey::make().public_key())),
+                                   pack::public_key_line(pack::SecretKey::make().public_key())),
                        1);
     const ImportReport report = import();
     EXPECT_EQ(line_of(report, "exhibit.toml").outcome, ImportOutcome::Taken);
@@ -86,7 +86,7 @@ TEST_F(ImportKeys, PacksOfAKeyThatIsTakenBackStayAndAreNamed) {
     EXPECT_NE(reason.find("stay: Bowl, vase;"), std::string::npos) << reason;
     const SetFile file = *read_set_file(kiosk);
     ASSERT_EQ(file.choice.set.packs.size(), 3U) << "they are shown as before";
-    const std::vector<TrustedKey> counting = trusted_keys(request.keys, file.keys);
+    const std::vector<pack::TrustedKey> counting = trusted_keys(request.keys, file.keys);
     const auto ended = [&](std::string_view today) {
         return packs_of_ended_keys(kiosk, file.choice.set, counting, day(today));
     };
@@ -94,7 +94,7 @@ TEST_F(ImportKeys, PacksOfAKeyThatIsTakenBackStayAndAreNamed) {
     EXPECT_TRUE(ended("2026-11-01").empty()) << "its last day";
     EXPECT_TRUE(packs_of_ended_keys(kiosk, file.choice.set, counting, std::nullopt).empty())
         << "without a clock";
-    EXPECT_EQ(signing_key(kiosk, file.choice.set.packs[0]), text_of_key_id(museum.key.public_key().id));
+    EXPECT_EQ(signing_key(kiosk, file.choice.set.packs[0]), pack::text_of_key_id(museum.key.public_key().id));
     InstalledPack gone = file.choice.set.packs[1];
     gone.file = "packs/gone.fspack";
     EXPECT_FALSE(signing_key(kiosk, gone));
@@ -114,7 +114,7 @@ TEST_F(ImportKeys, AKeyGoesWithTheOneThatSignedForIt) {
     ASSERT_EQ(bring(key_text(third), next, 2).stage, ImportStage::Done);
     EXPECT_TRUE(is_believed(next));
     EXPECT_TRUE(is_believed(third));
-    request.keys = {{"another", SecretKey::make().public_key(), std::nullopt}};
+    request.keys = {{"another", pack::SecretKey::make().public_key(), std::nullopt}};
     EXPECT_FALSE(is_believed(next));
     EXPECT_FALSE(is_believed(third));
     request.keys = {{"next", next.public_key(), std::nullopt}};
@@ -182,4 +182,4 @@ TEST_F(ImportKeys, WhatWasSignedLaterSaysThatItIsLater) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -16,19 +16,19 @@
 #include <fstream>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using nlohmann::json;
 using testing_disk::Museum;
 
-class ImportProgram : public ProgramFolder {
+class ImportProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
+        programs::ProgramFolder::SetUp();
         std::filesystem::create_directories(folder / "stick/more");
         std::filesystem::create_directories(folder / "keys");
-        put("keys/museum.pub", as_bytes(write_public_key(museum.key.public_key())));
+        put("keys/museum.pub", as_bytes(pack::write_public_key(museum.key.public_key())));
     }
     void put(const std::string& file, std::span<const std::byte> bytes) const {
         ASSERT_TRUE(write_file(folder / file, bytes));
@@ -54,7 +54,7 @@ protected:
         for (const json& pack : set["packs"]) {
             const Result<Bytes> bytes = read_file(folder / "library" / pack["file"].get<std::string>());
             ASSERT_TRUE(bytes) << pack;
-            EXPECT_EQ(sha256_hex(*bytes), pack["sha256"].get<std::string>());
+            EXPECT_EQ(pack::sha256_hex(*bytes), pack["sha256"].get<std::string>());
         }
     }
     /// Names, sizes and times of all entries of the stick.
@@ -99,35 +99,35 @@ TEST_F(ImportProgram, TakesListsAndSaysWhatItDid) {
 }
 
 TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
-    const SecretKey next = SecretKey::make();
+    const pack::SecretKey next = pack::SecretKey::make();
     const std::string set =
         fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2035-12-31\"\n",
-                    public_key_line(next.public_key()));
+                    pack::public_key_line(next.public_key()));
     put("stick/exhibit.toml", as_bytes(set));
     put("stick/exhibit.toml.minisig", as_bytes(museum.key.sign(as_bytes(set), "serial:1")));
     ASSERT_EQ(import(), 0) << text("err.txt");
     const json alone = listed()["keys"];
     ASSERT_EQ(alone.size(), 1U);
     EXPECT_EQ(alone[0]["name"], "2031");
-    EXPECT_EQ(alone[0]["id"], text_of_key_id(next.public_key().id));
-    EXPECT_EQ(alone[0]["from"], text_of_key_id(museum.key.public_key().id));
+    EXPECT_EQ(alone[0]["id"], pack::text_of_key_id(next.public_key().id));
+    EXPECT_EQ(alone[0]["from"], pack::text_of_key_id(museum.key.public_key().id));
     EXPECT_TRUE(alone[0]["counts"].is_null()) << "without the settings nobody knows";
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys --json"), 0);
     const json both = json::parse(text("out.txt"))["keys"];
     ASSERT_EQ(both.size(), 2U);
     EXPECT_EQ(both[0]["name"], "museum");
     EXPECT_EQ(both[1]["counts"], true);
-    put("keys/museum.pub", as_bytes(write_public_key(SecretKey::make().public_key())));
+    put("keys/museum.pub", as_bytes(pack::write_public_key(pack::SecretKey::make().public_key())));
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
     EXPECT_NE(text("out.txt").find("until 2035-12-31"), std::string::npos) << text("out.txt");
     EXPECT_NE(text("out.txt").find("is no longer trusted"), std::string::npos) << text("out.txt");
 }
 
 TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
-    const SecretKey second = SecretKey::make();
+    const pack::SecretKey second = pack::SecretKey::make();
     const auto bring_key = [&](const std::string& until, int serial) {
         const std::string set = fmt::format("[[key]]\nname = \"second\"\npublic_key = \"{}\"\n{}",
-                                            public_key_line(second.public_key()), until);
+                                            pack::public_key_line(second.public_key()), until);
         put("stick/exhibit.toml", as_bytes(set));
         put("stick/exhibit.toml.minisig",
             as_bytes(museum.key.sign(as_bytes(set), fmt::format("serial:{}", serial))));
@@ -145,7 +145,7 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     EXPECT_TRUE(listed_line("cup").ends_with("signed by second")) << text("out.txt");
     EXPECT_TRUE(listed_line("vase").ends_with("signed by museum")) << text("out.txt");
     const json without = listed()["packs"];
-    EXPECT_EQ(without[0]["signed_by"]["id"], text_of_key_id(second.public_key().id));
+    EXPECT_EQ(without[0]["signed_by"]["id"], pack::text_of_key_id(second.public_key().id));
     EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "without the settings nobody knows";
 
     bring_key("until = \"2020-01-01\"\n", 2);
@@ -299,10 +299,10 @@ TEST_F(ImportProgram, NeedsLittleMemoryForALargePart) {
         samples::Entries entries = samples::take_apart(small);
         entries.part("padding.bin") = Bytes(100 * mib);
         samples::right_hashes(entries);
-        pack_format::ZipWriter zip;
-        zip.add("manifest.json", as_bytes(entries.manifest.dump()), pack_format::Packing::Deflated);
+        pack::ZipWriter zip;
+        zip.add("manifest.json", as_bytes(entries.manifest.dump()), pack::Packing::Deflated);
         for (const auto& [name, bytes] : entries.parts) {
-            zip.add(name, bytes, pack_format::Packing::Deflated);
+            zip.add(name, bytes, pack::Packing::Deflated);
         }
         put("stick/large.fspack", Museum::signed_by(museum.key, zip.finish().value(), 1));
     }
@@ -358,4 +358,4 @@ TEST_F(ImportProgram, MayBeKilledAtAnyMoment) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

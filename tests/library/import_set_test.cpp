@@ -3,7 +3,7 @@
 
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
@@ -122,4 +122,4 @@ TEST_F(ImportSet, WhereNothingIsTakenNoLineSaysOtherwise) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
@@ -45,7 +45,7 @@ TEST_F(ImportStick, TheSameStickTwiceChangesNothing) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("plain.fspack", Museum::unsigned_pack("", "no id"));
     museum.put_exhibit(stick, "order = [\"a\"]\n", 3);
-    request.unsigned_packs = UnsignedPacks::Allow;
+    request.unsigned_packs = pack::UnsignedPacks::Allow;
     EXPECT_EQ(line_of(import(), "plain.fspack").outcome, ImportOutcome::Taken);
     const std::string text(as_text(**kiosk.content("set.txt")));
     const ImportReport again = import();
@@ -101,7 +101,7 @@ TEST_F(ImportStick, RefusesWhatIsNotTheMuseums) {
     const Bytes plain = Museum::unsigned_pack("a", "a");
     stick.put("a.fspack", plain);
     expect_refused("a.fspack", ImportRefusal::Unsigned, "not signed");
-    stick.put("a.fspack", Museum::signed_by(SecretKey::make(), plain, 1));
+    stick.put("a.fspack", Museum::signed_by(pack::SecretKey::make(), plain, 1));
     expect_refused("a.fspack", ImportRefusal::WrongKey, "not one of those known");
     request.keys[0].until = std::chrono::sys_days(std::chrono::year(2030) / 12 / 31);
     request.today = std::chrono::sys_days(std::chrono::year(2100) / 1 / 1);
@@ -153,7 +153,7 @@ TEST_F(ImportStick, NeverTakesALowerSerialThanOnceTaken) {
     stick.take_away("exhibit.toml");
     stick.put("a.fspack", museum.pack("a", 4));
     expect_refused("a.fspack", ImportRefusal::Older, "serial 5");
-    request.unsigned_packs = UnsignedPacks::Allow;
+    request.unsigned_packs = pack::UnsignedPacks::Allow;
     stick.put("a.fspack", Museum::unsigned_pack("a", "a"));
     expect_refused("a.fspack", ImportRefusal::Older, "unsigned");
     stick.put("a.fspack", museum.pack("a", 6));
@@ -288,4 +288,4 @@ TEST_F(ImportStick, ASetFileOfAnotherNameIsTold) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

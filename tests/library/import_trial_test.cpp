@@ -2,7 +2,7 @@
 // removed.
 #include "tests/library/museum.h"
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
@@ -119,4 +119,4 @@ TEST_F(ImportTrial, OlderSetsMakeRoomOnceTheSetIsGood) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

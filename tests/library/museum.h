@@ -22,16 +22,16 @@
 namespace frustumscreen::testing_disk {
 
 struct Museum {
-    SecretKey key = SecretKey::make();
+    pack::SecretKey key = pack::SecretKey::make();
 
-    [[nodiscard]] std::vector<TrustedKey> keys() const {
+    [[nodiscard]] std::vector<pack::TrustedKey> keys() const {
         return {{"museum", key.public_key(), std::nullopt}};
     }
 
     /// A small pack, with `padding` bytes in a further part of its own.
     [[nodiscard]] static Bytes unsigned_pack(const std::string& id, const std::string& title,
                                              std::size_t padding = 0) {
-        Pack pack = samples::pack();
+        pack::Pack pack = samples::pack();
         pack.id = id;
         pack.title = title;
         pack.textures = {samples::texture(2, 2, 1, true)};
@@ -48,10 +48,11 @@ struct Museum {
         }
         return samples::bytes_of(pack);
     }
-    [[nodiscard]] static Bytes signed_by(const SecretKey& key, const Bytes& pack, std::uint64_t serial) {
-        Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
+    [[nodiscard]] static Bytes signed_by(const pack::SecretKey& key, const Bytes& pack,
+                                         std::uint64_t serial) {
+        Result<pack::ZipReader> zip = pack::ZipReader::open(pack);
         const Bytes manifest = zip->read(zip->entries().front()).value();
-        return with_signature(pack, key.sign(manifest, fmt::format("serial:{}", serial))).value();
+        return pack::with_signature(pack, key.sign(manifest, fmt::format("serial:{}", serial))).value();
     }
     [[nodiscard]] Bytes pack(const std::string& id, std::uint64_t serial, std::size_t padding = 0) const {
         return signed_by(key, unsigned_pack(id, fmt::format("{} {}", id, serial), padding), serial);
@@ -64,20 +65,20 @@ struct Museum {
 
 /// The pack with one byte of the padding changed, and a valid checksum in the container.
 inline Bytes with_another_part(const Bytes& pack) {
-    Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
-    pack_format::ZipWriter other;
-    for (const pack_format::ZipEntry& entry : zip->entries()) {
+    Result<pack::ZipReader> zip = pack::ZipReader::open(pack);
+    pack::ZipWriter other;
+    for (const pack::ZipEntry& entry : zip->entries()) {
         Bytes part = zip->read(entry).value();
         if (entry.name == "padding.bin") {
             part[0] ^= std::byte{1};
         }
-        other.add(entry.name, part, pack_format::Packing::Stored);
+        other.add(entry.name, part, pack::Packing::Stored);
     }
     return other.finish().value();
 }
 
-inline ImportRequest request_of(const Museum& museum) {
-    ImportRequest request;
+inline library::ImportRequest request_of(const Museum& museum) {
+    library::ImportRequest request;
     request.import_id = "1";
     request.keys = museum.keys();
     request.limits.step_bytes = 2048;
@@ -85,29 +86,31 @@ inline ImportRequest request_of(const Museum& museum) {
 }
 
 /// The clock stands still.
-inline ImportEnvironment quiet_environment() {
-    return {[] { return MonotonicTime(); }, [] { return Nanoseconds(0); }, [](const ImportReport&) {}};
+inline library::ImportEnvironment quiet_environment() {
+    return {[] { return MonotonicTime(); }, [] { return Nanoseconds(0); },
+            [](const library::ImportReport&) {}};
 }
 
-inline ImportReport import_quietly(FileTree& stick, WritableTree& library, const ImportRequest& request) {
-    return import_stick(stick, library, request, quiet_environment());
+inline library::ImportReport import_quietly(FileTree& stick, WritableTree& library,
+                                            const library::ImportRequest& request) {
+    return library::import_stick(stick, library, request, quiet_environment());
 }
 
-inline const ImportedPack& line_of(const ImportReport& report, const std::string& file) {
-    for (const ImportedPack& pack : report.packs) {
+inline const library::ImportedPack& line_of(const library::ImportReport& report, const std::string& file) {
+    for (const library::ImportedPack& pack : report.packs) {
         if (pack.file == file) {
             return pack;
         }
     }
     ADD_FAILURE() << file << " is not in the report";
-    static const ImportedPack none;
+    static const library::ImportedPack none;
     return none;
 }
 
 /// Id and serial of each pack in the set, in order; "-" if it has no id.
-inline std::vector<std::string> ids_of(const InstalledSet& set) {
+inline std::vector<std::string> ids_of(const library::InstalledSet& set) {
     std::vector<std::string> ids;
-    for (const InstalledPack& pack : set.packs) {
+    for (const library::InstalledPack& pack : set.packs) {
         ids.push_back(fmt::format("{} {}", pack.id.empty() ? "-" : pack.id, pack.serial));
     }
     return ids;
@@ -118,12 +121,12 @@ inline std::vector<std::string> ids_of(const InstalledSet& set) {
 class Inspector {
 public:
     [[nodiscard]] std::string fault_of(VolatileDisk& disk) {
-        const tl::expected<SetFile, ImportFailure> file = read_set_file(disk);
+        const tl::expected<library::SetFile, library::ImportFailure> file = library::read_set_file(disk);
         if (!file) {
             return file.error().reason;
         }
         std::string fault = fault_of(disk, file->choice.set);
-        for (const std::optional<InstalledSet>& set : {file->choice.last_good, file->before}) {
+        for (const std::optional<library::InstalledSet>& set : {file->choice.last_good, file->before}) {
             if (set && fault.empty()) {
                 fault = fault_of(disk, *set);
             }
@@ -132,15 +135,15 @@ public:
     }
 
 private:
-    std::string fault_of(const VolatileDisk& disk, const InstalledSet& set) {
-        for (const InstalledPack& pack : set.packs) {
+    std::string fault_of(const VolatileDisk& disk, const library::InstalledSet& set) {
+        for (const library::InstalledPack& pack : set.packs) {
             const std::optional<Content> content = disk.content(pack.file);
             if (!content) {
                 return pack.file + " is missing";
             }
             const auto [known, is_new] = hashes_.try_emplace(*content);
             if (is_new) {
-                known->second = sha256_hex(**content);
+                known->second = pack::sha256_hex(**content);
             }
             if (known->second != pack.sha256 || (*content)->size() != pack.bytes) {
                 return pack.file + " has other bytes";
@@ -151,15 +154,17 @@ private:
     std::map<Content, std::string> hashes_;
 };
 
-inline InstalledSet installed(VolatileDisk& disk) {
-    const tl::expected<SetFile, ImportFailure> file = read_set_file(disk);
+inline library::InstalledSet installed(VolatileDisk& disk) {
+    const tl::expected<library::SetFile, library::ImportFailure> file = library::read_set_file(disk);
     EXPECT_TRUE(file) << (file ? "" : file.error().reason);
-    return file ? set_to_show(file->choice, read_verdict(disk).value_or(std::nullopt)) : InstalledSet();
+    return file ? library::set_to_show(file->choice, library::read_verdict(disk).value_or(std::nullopt))
+                : library::InstalledSet();
 }
 
-inline void judge(VolatileDisk& disk, TrialState verdict, int starts = 1) {
-    const SetFile file = read_set_file(disk).value_or(SetFile());
-    disk.put(std::string(verdict_file_name), write_verdict({file.choice.set.number, verdict, starts, ""}));
+inline void judge(VolatileDisk& disk, library::TrialState verdict, int starts = 1) {
+    const library::SetFile file = library::read_set_file(disk).value_or(library::SetFile());
+    disk.put(std::string(library::verdict_file_name),
+             library::write_verdict({file.choice.set.number, verdict, starts, ""}));
 }
 
 } // namespace frustumscreen::testing_disk

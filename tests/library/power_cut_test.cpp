@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using namespace testing_disk;
@@ -248,7 +248,8 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
     const Bytes right = **stick.content("a.fspack");
     Bytes altered = right;
     altered[altered.size() / 2] ^= std::byte{1};
-    const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 4", 5000), 4);
+    const Bytes stranger =
+        Museum::signed_by(pack::SecretKey::make(), Museum::unsigned_pack("a", "a 4", 5000), 4);
     // As long as the right one, and older than the installed one.
     const Bytes older = Museum::signed_by(museum.key, Museum::unsigned_pack("a", "a 3", 5000), 1);
     ASSERT_EQ(older.size(), right.size());
@@ -273,16 +274,16 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
             EXPECT_EQ(inspector.fault_of(*disk), "");
             for (const InstalledPack& pack : installed(*disk).packs) {
                 const Content content = *disk->content(pack.file);
-                const auto opened = open_signed_pack(std::span(*content),
-                                                     {request.keys, std::nullopt, UnsignedPacks::Refuse});
+                const auto opened = pack::open_signed_pack(
+                    std::span(*content), {request.keys, std::nullopt, pack::UnsignedPacks::Refuse});
                 ASSERT_TRUE(opened) << opened.error().error.message;
                 EXPECT_EQ(opened->serial(), pack.serial);
                 EXPECT_TRUE(pack.id != "a" || pack.serial >= 2) << pack.serial;
-                EXPECT_TRUE(verify_pack(*content));
+                EXPECT_TRUE(pack::verify_pack(*content));
             }
         }
     }
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 InstalledSet a_set(std::uint64_t number) {
@@ -118,4 +118,4 @@ TEST(StickWalk, KnowsWhatSystemsLeaveOnSticks) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -6,13 +6,13 @@
 
 #include <sys/stat.h>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
-class SettingsProgram : public ProgramFolder {
+class SettingsProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
+        programs::ProgramFolder::SetUp();
         for (const char* name : {"stick", "settings", "report"}) {
             std::filesystem::create_directories(folder / name);
         }
@@ -21,13 +21,13 @@ protected:
     void put(const std::string& file, std::string_view content) const {
         ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
-    [[nodiscard]] static std::string naming(const SecretKey& key, const std::string& more = "") {
+    [[nodiscard]] static std::string naming(const pack::SecretKey& key, const std::string& more = "") {
         return fmt::format("[exhibit]\nlanguage = \"de\"\n[[exhibit.keys]]\nname = \"Museum\"\n"
                            "public_key = \"{}\"\n{}",
-                           public_key_line(key.public_key()), more);
+                           pack::public_key_line(key.public_key()), more);
     }
     /// `serial` 0: unsigned.
-    void fill(const std::string& content, const SecretKey& key, std::uint64_t serial) const {
+    void fill(const std::string& content, const pack::SecretKey& key, std::uint64_t serial) const {
         std::filesystem::remove_all(folder / "stick");
         std::filesystem::create_directory(folder / "stick");
         put("stick/kiosk.toml", content);
@@ -62,7 +62,7 @@ protected:
     }
 
     const std::string shipped = "[table]\nwidth_m = 0.9\n";
-    SecretKey key = SecretKey::make(), other = SecretKey::make();
+    pack::SecretKey key = pack::SecretKey::make(), other = pack::SecretKey::make();
 };
 
 TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
@@ -80,7 +80,7 @@ TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
     fill(shipped, key, 0);
     expect_refused(ImportRefusal::Unsigned, "frustumscreen-pack sign");
     fill(shipped, other, 9);
-    expect_refused(ImportRefusal::WrongKey, text_of_key_id(other.public_key().id));
+    expect_refused(ImportRefusal::WrongKey, pack::text_of_key_id(other.public_key().id));
     fill(shipped, key, 9);
     put("stick/kiosk.toml", shipped + "#");
     expect_refused(ImportRefusal::Altered, "altered");
@@ -249,9 +249,9 @@ TEST_F(SettingsProgram, SignsThemUnlessThereIsAMistake) {
     ASSERT_EQ(run("frustumscreen-pack sign stick/kiosk.toml --key museum.key --serial 3"), 0)
         << text("err.txt");
     const std::string line = text("museum.pub");
-    const Result<PublicKey> public_key = parse_public_key(line);
-    put("settings/kiosk.toml",
-        fmt::format("[[exhibit.keys]]\nname = \"M\"\npublic_key = \"{}\"\n", public_key_line(*public_key)));
+    const Result<pack::PublicKey> public_key = pack::parse_public_key(line);
+    put("settings/kiosk.toml", fmt::format("[[exhibit.keys]]\nname = \"M\"\npublic_key = \"{}\"\n",
+                                           pack::public_key_line(*public_key)));
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
     put("stick/kiosk.toml", "[table]\nwidht_m = 1\n");
     EXPECT_EQ(run("frustumscreen-pack sign stick/kiosk.toml --key museum.key"), 1);
@@ -259,4 +259,4 @@ TEST_F(SettingsProgram, SignsThemUnlessThereIsAMistake) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library

@@ -10,8 +10,8 @@ namespace frustumscreen::testing_disk {
 
 class StickTest : public ::testing::Test {
 protected:
-    ImportReport import() {
-        ImportReport report = import_quietly(stick, kiosk, request);
+    library::ImportReport import() {
+        library::ImportReport report = import_quietly(stick, kiosk, request);
         EXPECT_EQ(inspector.fault_of(kiosk), "");
         return report;
     }
@@ -24,18 +24,18 @@ protected:
         }));
         return count;
     }
-    void expect_refused(const std::string& file, ImportRefusal refusal, const std::string& words) {
-        const ImportReport report = import();
-        const ImportedPack& line = line_of(report, file);
-        EXPECT_EQ(line.outcome, ImportOutcome::Refused);
+    void expect_refused(const std::string& file, library::ImportRefusal refusal, const std::string& words) {
+        const library::ImportReport report = import();
+        const library::ImportedPack& line = line_of(report, file);
+        EXPECT_EQ(line.outcome, library::ImportOutcome::Refused);
         EXPECT_EQ(line.refusal, refusal);
         EXPECT_NE(line.reason.find(words), std::string::npos) << line.reason;
         EXPECT_TRUE(samples::is_one_line(line.reason)) << line.reason;
-        EXPECT_EQ(line.title, refusal == ImportRefusal::Older ? line.title : "");
+        EXPECT_EQ(line.title, refusal == library::ImportRefusal::Older ? line.title : "");
     }
 
     Museum museum;
-    ImportRequest request = request_of(museum);
+    library::ImportRequest request = request_of(museum);
     VolatileDisk stick, kiosk;
     Inspector inspector;
 };

@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::library {
 namespace {
 
 using testing_disk::Museum;
@@ -144,7 +144,7 @@ int measure(std::size_t megabytes, int packs) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::library
 
 int main(int argc, char** argv) {
     return frustumscreen::measure(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100,

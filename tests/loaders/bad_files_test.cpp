@@ -57,7 +57,7 @@ TEST(BadFiles, EachIsRefusedInOneLineThatSaysWhyOrIsUsable) {
     for (const BadFile& file : bad_files) {
         SCOPED_TRACE(file.path);
         const std::filesystem::path path = shared_data() / "bad" / file.path;
-        const Result<SourceMesh> mesh = load_mesh(path);
+        const Result<bake::SourceMesh> mesh = bake::load_mesh(path);
         if (file.says == nullptr) {
             ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
             expect_sound(*mesh);

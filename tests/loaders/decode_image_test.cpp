@@ -11,7 +11,7 @@
 namespace frustumscreen::testing {
 namespace {
 
-int largest_difference(const Image8& a, const Image8& b) {
+int largest_difference(const image::Image8& a, const image::Image8& b) {
     int largest = 0;
     for (std::size_t i = 0; i < a.texels.size(); ++i) {
         for (int k = 0; k < 4; ++k) {
@@ -22,11 +22,11 @@ int largest_difference(const Image8& a, const Image8& b) {
 }
 
 TEST(DecodeImage, PngJpegAndWebpGiveTheSamePicture) {
-    const Image8 truth = smooth_picture(32, 16);
+    const image::Image8 truth = smooth_picture(32, 16);
     const std::vector<std::pair<std::string, int>> forms = {
         {png_of(truth), 0}, {webp_of(truth), 0}, {jpeg_of(truth), 8}};
     for (const auto& [bytes, tolerance] : forms) {
-        const Result<Image8> picture = decode_image(as_bytes(bytes));
+        const Result<image::Image8> picture = bake::decode_image(as_bytes(bytes));
         ASSERT_TRUE(picture.has_value()) << picture.error().message;
         ASSERT_EQ(picture->width, 32);
         ASSERT_EQ(picture->height, 16);
@@ -35,13 +35,13 @@ TEST(DecodeImage, PngJpegAndWebpGiveTheSamePicture) {
 }
 
 TEST(DecodeImage, BmpTgaAndTiffGiveTheSamePicture) {
-    Image8 truth = smooth_picture(33, 16); // rows of a BMP end in padding bytes
+    image::Image8 truth = smooth_picture(33, 16); // rows of a BMP end in padding bytes
     for (int x = 4; x < 9; ++x) {
         truth.at(x, 3) = glm::u8vec4(1, 2, 3, 255); // a run of equal texels
     }
     for (const std::string& bytes : {bmp_of(truth), bmp_of(truth, true), tga_of(truth), tga_of(truth, true),
                                      tiff_of(truth), tiff_of(truth, TiffAlpha::None, true)}) {
-        const Result<Image8> picture = decode_image(as_bytes(bytes));
+        const Result<image::Image8> picture = bake::decode_image(as_bytes(bytes));
         ASSERT_TRUE(picture.has_value()) << picture.error().message;
         ASSERT_EQ(picture->width, 33);
         ASSERT_EQ(picture->height, 16);
@@ -50,14 +50,15 @@ TEST(DecodeImage, BmpTgaAndTiffGiveTheSamePicture) {
 }
 
 TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
-    Image8 truth = smooth_picture(32, 16);
+    image::Image8 truth = smooth_picture(32, 16);
     for (std::size_t k = 0; k < truth.texels.size(); ++k) {
         truth.texels[k].a = static_cast<std::uint8_t>(k % 256);
     }
-    const Result<Image8> apart = decode_image(as_bytes(tiff_of(truth, TiffAlpha::Apart)));
+    const Result<image::Image8> apart = bake::decode_image(as_bytes(tiff_of(truth, TiffAlpha::Apart)));
     ASSERT_TRUE(apart.has_value()) << apart.error().message;
     EXPECT_EQ(largest_difference(*apart, truth), 0);
-    const Result<Image8> multiplied = decode_image(as_bytes(tiff_of(truth, TiffAlpha::Multiplied)));
+    const Result<image::Image8> multiplied =
+        bake::decode_image(as_bytes(tiff_of(truth, TiffAlpha::Multiplied)));
     ASSERT_TRUE(multiplied.has_value()) << multiplied.error().message;
     for (std::size_t k = 0; k < truth.texels.size(); ++k) {
         const int alpha = truth.texels[k].a;
@@ -69,7 +70,7 @@ TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
 }
 
 TEST(DecodeImage, SizesThatTheBytesDoNotHoldAreRefused) {
-    const Image8 truth = smooth_picture(64, 64);
+    const image::Image8 truth = smooth_picture(64, 64);
     const auto altered = [](std::string bytes, std::size_t place, const std::string& with) {
         return bytes.replace(place, with.size(), with);
     };
@@ -82,7 +83,7 @@ TEST(DecodeImage, SizesThatTheBytesDoNotHoldAreRefused) {
           altered(bmp_of(truth), 30, "\x1"), altered(tga_of(truth), 12, "\xff\xff"),
           altered(tga_of(truth), 14, std::string(2, '\0')), altered(tga_of(truth), 0, "\xff"),
           altered(tga_of(truth, true), 14, "\xff\xff"), altered(tiff_of(truth), 4, most)}) {
-        const Result<Image8> picture = decode_image(as_bytes(bytes));
+        const Result<image::Image8> picture = bake::decode_image(as_bytes(bytes));
         EXPECT_FALSE(picture.has_value()) << bytes.substr(0, 40);
     }
 }
@@ -91,7 +92,7 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
     for (const int depth : {1, 2, 4, 8, 16}) {
         for (const bool gamma : {false, true}) {
             const std::string png = grey_ramp_png(depth, gamma);
-            const Result<Image8> picture = decode_image(as_bytes(png));
+            const Result<image::Image8> picture = bake::decode_image(as_bytes(png));
             ASSERT_TRUE(picture.has_value()) << picture.error().message;
             const int codes = 1 << std::min(depth, 8);
             for (int x = 0; x < picture->width; ++x) {
@@ -105,58 +106,58 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
 }
 
 TEST(DecodeImage, TruncatedPicturesAreDamaged) {
-    const Image8 truth = smooth_picture(64, 64);
+    const image::Image8 truth = smooth_picture(64, 64);
     for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
                                      bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
         for (const std::size_t length :
              {std::size_t{12}, std::size_t{30}, whole.size() / 2, whole.size() - 20}) {
-            EXPECT_FALSE(decode_image(as_bytes(std::string_view(whole).substr(0, length))).has_value())
+            EXPECT_FALSE(bake::decode_image(as_bytes(std::string_view(whole).substr(0, length))).has_value())
                 << length << " of " << whole.size();
         }
     }
 }
 
 TEST(DecodeImage, APictureBeyondTheLimitIsRefusedBeforeItIsUnpacked) {
-    const Image8 truth = smooth_picture(64, 64);
+    const image::Image8 truth = smooth_picture(64, 64);
     for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
                                      bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
-        const Result<Image8> picture = decode_image(as_bytes(whole), 64 * 64 - 1);
+        const Result<image::Image8> picture = bake::decode_image(as_bytes(whole), 64 * 64 - 1);
         ASSERT_FALSE(picture.has_value());
         EXPECT_NE(picture.error().message.find("64 x 64"), std::string::npos);
     }
 }
 
 TEST(DecodeImage, ALargePictureIsHalvedUntilItFits) {
-    const Image8 truth = smooth_picture(64, 32);
-    const Image8 quarter = half_size(half_size(truth));
+    const image::Image8 truth = smooth_picture(64, 32);
+    const image::Image8 quarter = image::half_size(image::half_size(truth));
     for (const std::string& whole :
          {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth), bmp_of(truth), tga_of(truth)}) {
-        const Result<ShrunkImage> shrunk = decode_shrunk(as_bytes(whole), 16 * 8);
+        const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(as_bytes(whole), 16 * 8);
         ASSERT_TRUE(shrunk) << shrunk.error().message;
         EXPECT_EQ(shrunk->file_size, glm::ivec2(64, 32));
         ASSERT_EQ(glm::ivec2(shrunk->image.width, shrunk->image.height), glm::ivec2(16, 8));
         EXPECT_LE(largest_difference(shrunk->image, quarter), whole.starts_with("\xff\xd8") ? 8 : 1);
-        const Result<ShrunkImage> least = decode_shrunk(as_bytes(whole), 1);
+        const Result<bake::ShrunkImage> least = bake::decode_shrunk(as_bytes(whole), 1);
         ASSERT_TRUE(least) << least.error().message;
         EXPECT_EQ(least->image.texels.size(), 1U);
-        const Result<ShrunkImage> kept = decode_shrunk(as_bytes(whole), 64 * 32);
+        const Result<bake::ShrunkImage> kept = bake::decode_shrunk(as_bytes(whole), 64 * 32);
         ASSERT_TRUE(kept) << kept.error().message;
-        EXPECT_EQ(kept->image.texels, decode_image(as_bytes(whole))->texels);
+        EXPECT_EQ(kept->image.texels, bake::decode_image(as_bytes(whole))->texels);
     }
 }
 
 TEST(DecodeImage, AJpegIsShrunkWhileItIsDecoded) {
-    const Image8 truth = smooth_picture(64, 32);
+    const image::Image8 truth = smooth_picture(64, 32);
     const std::int64_t memory = 16 * 8; // of the whole picture there is no room
-    EXPECT_TRUE(decode_shrunk(as_bytes(jpeg_of(truth)), 16 * 8, memory));
-    const Result<ShrunkImage> png = decode_shrunk(as_bytes(png_of(truth)), 16 * 8, memory);
+    EXPECT_TRUE(bake::decode_shrunk(as_bytes(jpeg_of(truth)), 16 * 8, memory));
+    const Result<bake::ShrunkImage> png = bake::decode_shrunk(as_bytes(png_of(truth)), 16 * 8, memory);
     ASSERT_FALSE(png);
     EXPECT_EQ(png.error().id, "picture.too_large");
 }
 
 TEST(DecodeImage, OtherFormsAreNamedAsUnreadable) {
     for (const std::string_view bytes : {"", "GIF89a", "RIFF1234WAVE", "\xff"}) {
-        EXPECT_FALSE(decode_image(as_bytes(bytes)).has_value());
+        EXPECT_FALSE(bake::decode_image(as_bytes(bytes)).has_value());
     }
 }
 

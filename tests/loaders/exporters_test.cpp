@@ -15,7 +15,7 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
 const std::string textured_face = "f 1/1 2/1 3/1\n";
 const glm::u8vec4 wood_code(10, 20, 30, 255);
 
-SourceMesh loaded(const Result<SourceMesh>& mesh) {
+bake::SourceMesh loaded(const Result<bake::SourceMesh>& mesh) {
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
     if (!mesh) {
         return {};
@@ -25,33 +25,33 @@ SourceMesh loaded(const Result<SourceMesh>& mesh) {
 }
 
 /// An OBJ with a .mtl, and a picture wood.png of one texel.
-SourceMesh obj_with(std::string_view mtl, const std::string& rest,
-                    const std::string& first = "mtllib model.mtl\n") {
+bake::SourceMesh obj_with(std::string_view mtl, const std::string& rest,
+                          const std::string& first = "mtllib model.mtl\n") {
     const TemporaryFolder folder;
     folder.write("model.mtl", mtl);
-    folder.write("wood.png", png_of(Image8(1, 1, wood_code)));
-    return loaded(load_mesh(folder.write("model.obj", first + triangle + rest)));
+    folder.write("wood.png", png_of(image::Image8(1, 1, wood_code)));
+    return loaded(bake::load_mesh(folder.write("model.obj", first + triangle + rest)));
 }
 
-glm::vec4 base_colour(const SourceMesh& mesh) {
+glm::vec4 base_colour(const bake::SourceMesh& mesh) {
     return mesh.triangle_materials.empty() ? glm::vec4(-1.0F)
                                            : mesh.materials[mesh.triangle_materials[0]].base_colour;
 }
 
-bool shows_wood(const SourceMesh& mesh) {
+bool shows_wood(const bake::SourceMesh& mesh) {
     return mesh.textures.size() == 1 && mesh.textures[0].image->at(0, 0) == wood_code &&
            base_colour(mesh) == glm::vec4(1.0F);
 }
 
-bool notes(const SourceMesh& mesh, SourceNote::Kind kind, std::string_view words) {
-    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const SourceNote& note) {
+bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words) {
+    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const bake::SourceNote& note) {
         return note.kind == kind && note.text.find(words) != std::string::npos;
     });
 }
 
 TEST(Exporters, AMaterialWithoutKdIsWhite) {
     for (const char* mtl : {"newmtl m\nNs 10\nillum 2\n", "newmtl m\n", "newmtl m\nKd 1 1 1\n"}) {
-        const SourceMesh mesh = obj_with(mtl, "usemtl m\nf 1 2 3\n");
+        const bake::SourceMesh mesh = obj_with(mtl, "usemtl m\nf 1 2 3\n");
         EXPECT_EQ(base_colour(mesh), glm::vec4(1.0F)) << mtl;
         EXPECT_TRUE(mesh.notes.empty()) << mtl;
     }
@@ -72,16 +72,16 @@ TEST(Exporters, KeywordsOfMaterialsMayHaveAnyCaseAndAByteOrderMark) {
 }
 
 TEST(Exporters, AKeywordOfMaterialsThatNobodyKnowsIsTold) {
-    const SourceMesh mesh = obj_with("newmtl m\nmap_Kdd wood.png\nglitter 3\n", "usemtl m\nf 1 2 3\n");
-    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Lost, "glitter, map_Kdd"));
+    const bake::SourceMesh mesh = obj_with("newmtl m\nmap_Kdd wood.png\nglitter 3\n", "usemtl m\nf 1 2 3\n");
+    EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "glitter, map_Kdd"));
 }
 
 TEST(Exporters, AnObjWithoutUsemtlHasTheOnlyMaterial) {
-    const SourceMesh mesh = obj_with("newmtl m\nmap_Kd wood.png\n", textured_face);
+    const bake::SourceMesh mesh = obj_with("newmtl m\nmap_Kd wood.png\n", textured_face);
     EXPECT_TRUE(shows_wood(mesh));
-    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Guessed, "\"m\""));
-    const SourceMesh two = obj_with("newmtl m\nKd 1 0 0\nnewmtl n\nKd 0 1 0\n", "f 1 2 3\n");
-    EXPECT_TRUE(notes(two, SourceNote::Kind::Lost, "has 2")) << "which of two is not known";
+    EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Guessed, "\"m\""));
+    const bake::SourceMesh two = obj_with("newmtl m\nKd 1 0 0\nnewmtl n\nKd 0 1 0\n", "f 1 2 3\n");
+    EXPECT_TRUE(notes(two, bake::SourceNote::Kind::Lost, "has 2")) << "which of two is not known";
 }
 
 TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
@@ -89,7 +89,7 @@ TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
     folder.write("a.mtl", "newmtl red\nKd 1 0 0\n");
     folder.write("my own.mtl", "newmtl blue\nKd 0 0 1\n");
     const auto colours = [&](const std::string& line) {
-        const SourceMesh mesh = loaded(load_mesh(folder.write(
+        const bake::SourceMesh mesh = loaded(bake::load_mesh(folder.write(
             "model.obj", line + "\n" + triangle + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n")));
         EXPECT_TRUE(mesh.notes.empty()) << line;
         return std::pair(mesh.materials[0].base_colour, mesh.materials[1].base_colour);
@@ -98,17 +98,17 @@ TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
     EXPECT_EQ(colours("mtllib a.mtl my own.mtl"), expected);
     EXPECT_EQ(colours("mtllib my own.mtl a.mtl"), expected);
     EXPECT_EQ(colours("mtllib a.mtl\nmtllib my own.mtl"), expected);
-    const SourceMesh half = loaded(
-        load_mesh(folder.write("model.obj", "mtllib a.mtl none.mtl\n" + triangle + "usemtl red\nf 1 2 3\n")));
-    EXPECT_TRUE(notes(half, SourceNote::Kind::Lost, "\"none.mtl\""));
+    const bake::SourceMesh half = loaded(bake::load_mesh(
+        folder.write("model.obj", "mtllib a.mtl none.mtl\n" + triangle + "usemtl red\nf 1 2 3\n")));
+    EXPECT_TRUE(notes(half, bake::SourceNote::Kind::Lost, "\"none.mtl\""));
     EXPECT_EQ(half.materials[0].base_colour, expected.first);
 }
 
 TEST(Exporters, APictureIsAlsoLookedForBesideItsMtl) {
     const TemporaryFolder folder;
     folder.write("materials/model.mtl", "newmtl m\nmap_Kd wood.png\n");
-    folder.write("materials/wood.png", png_of(Image8(1, 1, wood_code)));
-    const SourceMesh mesh = loaded(load_mesh(
+    folder.write("materials/wood.png", png_of(image::Image8(1, 1, wood_code)));
+    const bake::SourceMesh mesh = loaded(bake::load_mesh(
         folder.write("model.obj", "mtllib materials/model.mtl\n" + triangle + "usemtl m\n" + textured_face)));
     EXPECT_TRUE(shows_wood(mesh));
     EXPECT_TRUE(mesh.notes.empty());
@@ -122,9 +122,9 @@ TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
         for (const std::string& named : {composed, decomposed, std::string("B\xC3\x9CSTE GR\xC3\x9CN.PNG"),
                                          std::string("B\xFCste Gr\xFCn.png")}) {
             const TemporaryFolder folder;
-            folder.write(on_disk, png_of(Image8(1, 1, wood_code)));
+            folder.write(on_disk, png_of(image::Image8(1, 1, wood_code)));
             folder.write("model.mtl", "newmtl m\nmap_Kd " + named + "\n");
-            EXPECT_TRUE(shows_wood(loaded(load_mesh(
+            EXPECT_TRUE(shows_wood(loaded(bake::load_mesh(
                 folder.write("model.obj", "mtllib model.mtl\n" + triangle + "usemtl m\n" + textured_face)))))
                 << on_disk << " " << named;
         }
@@ -132,9 +132,9 @@ TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
 }
 
 TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
-    const SourceMesh codes =
+    const bake::SourceMesh codes =
         loaded(load_text("model.obj", "v 0 0 0 188 0 1\nv 1 0 0 1 0 0\nv 0 1 0 255 255 255\nf 1 2 3\n"));
-    const SourceMesh shares = loaded(
+    const bake::SourceMesh shares = loaded(
         load_text("model.obj", fmt::format("v 0 0 0 {0} 0 {1}\nv 1 0 0 {1} 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n",
                                            188.0 / 255, 1.0 / 255)));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -143,9 +143,9 @@ TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
         }
     }
     EXPECT_NEAR(codes.colours[0].r, 0.5028865, 1e-5) << "sRGB of 188";
-    EXPECT_TRUE(notes(codes, SourceNote::Kind::Guessed, "0 to 255"));
+    EXPECT_TRUE(notes(codes, bake::SourceNote::Kind::Guessed, "0 to 255"));
     EXPECT_TRUE(shares.notes.empty());
-    const SourceMesh over =
+    const bake::SourceMesh over =
         loaded(load_text("model.obj", "v 0 0 0 1.002 0 0\nv 1 0 0 0.5 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n"));
     EXPECT_EQ(over.colours[0].r, 1.0F) << "a rounding above 1 makes no codes";
     EXPECT_EQ(base_colour(obj_with("newmtl m\nKd 255 51 0\n", "usemtl m\nf 1 2 3\n")),
@@ -153,22 +153,22 @@ TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
 }
 
 TEST(Exporters, ATextureCoordinateWithTheNumberZeroIsNone) {
-    const SourceMesh mesh = obj_with("newmtl m\nKd 1 0 0\n", "usemtl m\nf 1/0 2/0 3/0\n");
+    const bake::SourceMesh mesh = obj_with("newmtl m\nKd 1 0 0\n", "usemtl m\nf 1/0 2/0 3/0\n");
     EXPECT_EQ(mesh.triangles.size(), 1U);
-    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Lost, "3 corners"));
+    EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "3 corners"));
 }
 
 TEST(Exporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
-    const SourceMesh picture =
+    const bake::SourceMesh picture =
         obj_with("newmtl m\nKd 0 0 0\nmap_Ke wood.png\n", "usemtl m\n" + textured_face);
     EXPECT_TRUE(shows_wood(picture));
-    EXPECT_TRUE(notes(picture, SourceNote::Kind::Guessed, "own light"));
+    EXPECT_TRUE(notes(picture, bake::SourceNote::Kind::Guessed, "own light"));
     EXPECT_EQ(base_colour(obj_with("newmtl m\nKd 0 0 0\nKe 0.5 0.25 1\n", "usemtl m\nf 1 2 3\n")),
               glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
-    const SourceMesh both =
+    const bake::SourceMesh both =
         obj_with("newmtl m\nmap_Kd wood.png\nmap_Ke wood.png\n", "usemtl m\n" + textured_face);
     EXPECT_TRUE(shows_wood(both));
-    EXPECT_TRUE(notes(both, SourceNote::Kind::Lost, "own light of the material"));
+    EXPECT_TRUE(notes(both, bake::SourceNote::Kind::Lost, "own light of the material"));
 }
 
 TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
@@ -182,7 +182,7 @@ TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
                                                           {"Tr 0.5", "transparency"},
                                                           {"map_Kd -s 2 2 wood.png", "-o, -s"}}) {
         EXPECT_TRUE(notes(obj_with("newmtl m\nKd 1 1 1\n" + line + "\n", "usemtl m\n" + textured_face),
-                          SourceNote::Kind::Lost, words))
+                          bake::SourceNote::Kind::Lost, words))
             << line;
     }
     EXPECT_TRUE(
@@ -192,8 +192,8 @@ TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
 }
 
 TEST(Exporters, ALineThatNoObjHasIsTold) {
-    EXPECT_TRUE(
-        notes(loaded(load_text("model.obj", triangle + "f 1 2 3\nfoo 1\n")), SourceNote::Kind::Lost, "foo"));
+    EXPECT_TRUE(notes(loaded(load_text("model.obj", triangle + "f 1 2 3\nfoo 1\n")),
+                      bake::SourceNote::Kind::Lost, "foo"));
     EXPECT_TRUE(
         loaded(load_text("model.obj", "o a\ng b\ns 1\nvn 0 0 1\n" + triangle + "f 1 2 3\n")).notes.empty());
 }
@@ -219,7 +219,7 @@ TEST(Exporters, PlyColoursHaveManyNames) {
                                                  {"diffuse_red", "diffuse_green", "diffuse_blue"},
                                                  {"R", "G", "B"},
                                                  {"diffuse_r", "diffuse_g", "diffuse_b"}}) {
-        const SourceMesh mesh =
+        const bake::SourceMesh mesh =
             loaded(load_text("model.ply", ply(colours("uchar", red, green, blue), "188 0 255")));
         ASSERT_EQ(mesh.colours.size(), 3U) << red;
         EXPECT_NEAR(mesh.colours[0].r, 0.5028865, 1e-5) << red;
@@ -230,7 +230,7 @@ TEST(Exporters, PlyColoursHaveManyNames) {
 }
 
 TEST(Exporters, OfTwoPlyColoursThePlainOneCounts) {
-    const SourceMesh mesh =
+    const bake::SourceMesh mesh =
         loaded(load_text("model.ply", ply(colours("uchar", "diffuse_red", "diffuse_green", "diffuse_blue") +
                                               colours("uchar", "red", "green", "blue"),
                                           "0 0 0 255 255 255")));
@@ -238,22 +238,22 @@ TEST(Exporters, OfTwoPlyColoursThePlainOneCounts) {
 }
 
 TEST(Exporters, PlyColoursAsFloatsMayBeCodes) {
-    const SourceMesh codes =
+    const bake::SourceMesh codes =
         loaded(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "188 0 255")));
     EXPECT_NEAR(codes.colours[0].r, 0.5028865, 1e-5);
-    EXPECT_TRUE(notes(codes, SourceNote::Kind::Guessed, "0 to 255"));
+    EXPECT_TRUE(notes(codes, bake::SourceNote::Kind::Guessed, "0 to 255"));
     EXPECT_NEAR(
         loaded(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "0.5 0 1"))).colours[0].r,
         0.2140411, 1e-5);
 }
 
 TEST(Exporters, PlyColoursMayBePackedIntoOneNumber) {
-    const SourceMesh whole =
+    const bake::SourceMesh whole =
         loaded(load_text("model.ply", ply("property uint rgb\n", fmt::format("{}", (188U << 16U) | 255U))));
     ASSERT_EQ(whole.colours.size(), 3U);
     EXPECT_NEAR(whole.colours[0].r, 0.5028865, 1e-5);
     EXPECT_EQ(whole.colours[0].b, 1.0F);
-    const SourceMesh packed = loaded(
+    const bake::SourceMesh packed = loaded(
         load_text("model.ply", ply("property float rgb\n",
                                    fmt::format("{:.17g}", std::bit_cast<float>((188U << 16U) | 255U)))));
     EXPECT_NEAR(packed.colours[0].r, 0.5028865, 1e-5);
@@ -270,9 +270,9 @@ TEST(Exporters, PlyWholeNumbersMayHave64Bits) {
 
 TEST(Exporters, WhatOfAPlyIsNotUsedIsTold) {
     EXPECT_TRUE(notes(loaded(load_text("model.ply", ply("property float shininess\n", "1"))),
-                      SourceNote::Kind::Lost, "shininess"));
+                      bake::SourceNote::Kind::Lost, "shininess"));
     EXPECT_TRUE(notes(loaded(load_text("model.ply", ply("property uchar red\n", "1"))),
-                      SourceNote::Kind::Lost, "not all there"));
+                      bake::SourceNote::Kind::Lost, "not all there"));
     EXPECT_TRUE(loaded(load_text("model.ply",
                                  ply("property float nx\nproperty float quality\nproperty float scalar_C2C\n",
                                      "0 0 0")))

@@ -9,13 +9,14 @@
 namespace frustumscreen::testing {
 namespace {
 
-SourceMesh conformance_model(const std::string& name, const char* extension = ".gltf") {
-    Result<SourceMesh> mesh = load_mesh(shared_data() / "models/conformance" / name / (name + extension));
+bake::SourceMesh conformance_model(const std::string& name, const char* extension = ".gltf") {
+    Result<bake::SourceMesh> mesh =
+        bake::load_mesh(shared_data() / "models/conformance" / name / (name + extension));
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    return mesh ? *std::move(mesh) : SourceMesh{};
+    return mesh ? *std::move(mesh) : bake::SourceMesh{};
 }
 
-void expect_extent(const SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high,
+void expect_extent(const bake::SourceMesh& mesh, const glm::dvec3& low, const glm::dvec3& high,
                    double tolerance = 1e-6) {
     const Extent extent = extent_of(mesh);
     EXPECT_LT(glm::length(extent.low - low), tolerance)
@@ -24,13 +25,13 @@ void expect_extent(const SourceMesh& mesh, const glm::dvec3& low, const glm::dve
         << extent.high.x << " " << extent.high.y << " " << extent.high.z;
 }
 
-bool has_position(const SourceMesh& mesh, const glm::dvec3& position) {
+bool has_position(const bake::SourceMesh& mesh, const glm::dvec3& position) {
     return std::find(mesh.positions.begin(), mesh.positions.end(), position) != mesh.positions.end();
 }
 
 TEST(GltfConformance, ASparseAccessorMovesThreeOfFourteenVertices) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("SimpleSparseAccessor");
+    const bake::SourceMesh mesh = conformance_model("SimpleSparseAccessor");
     EXPECT_EQ(mesh.positions.size(), 14U);
     for (const glm::dvec3& moved : {glm::dvec3(1, 2, 0), glm::dvec3(3, 3, 0), glm::dvec3(5, 4, 0)}) {
         EXPECT_TRUE(has_position(mesh, moved));
@@ -46,7 +47,7 @@ TEST(GltfConformance, ASparseAccessorMovesThreeOfFourteenVertices) {
 
 TEST(GltfConformance, AStripOfFourVerticesIsTwoTrianglesOfOneOrientation) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("Mesh_PrimitiveMode_04");
+    const bake::SourceMesh mesh = conformance_model("Mesh_PrimitiveMode_04");
     ASSERT_EQ(mesh.triangles.size(), 2U);
     EXPECT_NEAR(area_of(mesh), 1.0, 1e-12);
     std::vector<double> up;
@@ -59,7 +60,7 @@ TEST(GltfConformance, AStripOfFourVerticesIsTwoTrianglesOfOneOrientation) {
 
 TEST(GltfConformance, AnInterleavedBoxIsAUnitCube) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("BoxInterleaved", ".glb");
+    const bake::SourceMesh mesh = conformance_model("BoxInterleaved", ".glb");
     expect_extent(mesh, glm::dvec3(-0.5), glm::dvec3(0.5));
     EXPECT_NEAR(area_of(mesh), 6.0, 1e-9);
     EXPECT_NEAR(volume_of(mesh), 1.0, 1e-9) << "counter-clockwise seen from outside";
@@ -67,7 +68,7 @@ TEST(GltfConformance, AnInterleavedBoxIsAUnitCube) {
 
 TEST(GltfConformance, NestedNodesMultiply) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("nested", ".glb");
+    const bake::SourceMesh mesh = conformance_model("nested", ".glb");
     // Three cubes of side 2; each node scales and shifts its children (numbers from the file).
     const auto cube = [](const glm::dvec3& scale, const glm::dvec3& centre) {
         return std::pair(centre - scale, centre + scale);
@@ -92,7 +93,7 @@ TEST(GltfConformance, NestedNodesMultiply) {
 
 TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("TextureTransformTest");
+    const bake::SourceMesh mesh = conformance_model("TextureTransformTest");
     // The model has a marker where the arrow's tip must appear. Untransformed, the tip is at the "not
     // supported" marker, at (0.2778, -0.2778) on a quad from -0.5 to 0.5 whose UVs are (x + 0.5, 0.5 - y);
     // the transform must map the "correct" marker's place to that texel.
@@ -127,14 +128,14 @@ TEST(GltfConformance, ASkinAtRestShiftsByItsBindPose) {
 
 TEST(GltfConformance, AMorphedCubeWithoutWeightsIsACubeOfSideTwo) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("AnimatedMorphCube");
+    const bake::SourceMesh mesh = conformance_model("AnimatedMorphCube");
     expect_extent(mesh, glm::dvec3(-1.0), glm::dvec3(1.0), 3e-6);
     EXPECT_NEAR(volume_of(mesh), 8.0, 1e-4);
 }
 
 TEST(GltfConformance, UnindexedTrianglesOfTheBuildingStandUpright) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("no_indices_3storybuilding", ".glb");
+    const bake::SourceMesh mesh = conformance_model("no_indices_3storybuilding", ".glb");
     // The root node rotates z up into y up.
     expect_extent(mesh, {-23.207141876220703, 0, 0}, {32.87300109863281, 9, 63.36140823364258}, 1e-5);
     EXPECT_GT(volume_of(mesh), 0.0);
@@ -142,7 +143,7 @@ TEST(GltfConformance, UnindexedTrianglesOfTheBuildingStandUpright) {
 
 TEST(GltfConformance, VertexColoursReachTheMesh) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = conformance_model("VertexColorTest");
+    const bake::SourceMesh mesh = conformance_model("VertexColorTest");
     ASSERT_EQ(mesh.colours.size(), mesh.positions.size());
     const auto coloured = std::count_if(mesh.colours.begin(), mesh.colours.end(),
                                         [](const glm::vec4& colour) { return colour != glm::vec4(1.0F); });
@@ -152,7 +153,7 @@ TEST(GltfConformance, VertexColoursReachTheMesh) {
 
 TEST(GltfConformance, AFoxInItsBindPoseStandsOnFourLegs) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const Result<SourceMesh> mesh = load_mesh(shared_data() / "models/fox_animated/Fox.glb");
+    const Result<bake::SourceMesh> mesh = bake::load_mesh(shared_data() / "models/fox_animated/Fox.glb");
     ASSERT_TRUE(mesh.has_value());
     const Extent extent = extent_of(*mesh);
     EXPECT_NEAR(extent.low.y, 0.0, 2.0);

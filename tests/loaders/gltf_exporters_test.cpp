@@ -27,8 +27,8 @@ constexpr std::string_view accessors =
     R"({"bufferView":2,"componentType":5126,"type":"VEC3","count":2},{"bufferView":3,"componentType":5126,"type":"VEC4","count":2},)"
     R"({"bufferView":4,"componentType":5126,"type":"VEC3","count":2}])";
 
-SourceMesh mesh_of(const std::string& text) {
-    Result<SourceMesh> mesh = load_text("model.gltf", text);
+bake::SourceMesh mesh_of(const std::string& text) {
+    Result<bake::SourceMesh> mesh = load_text("model.gltf", text);
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
     if (!mesh) {
         return {};
@@ -38,9 +38,10 @@ SourceMesh mesh_of(const std::string& text) {
 }
 
 /// One triangle with one material; picture 0 is `picture`.
-SourceMesh with_material(std::string_view material,
-                         const Image8& picture = Image8(1, 1, glm::u8vec4(10, 20, 30, 255)),
-                         std::string_view more = "") {
+bake::SourceMesh with_material(std::string_view material,
+                               const image::Image8& picture = image::Image8(1, 1,
+                                                                            glm::u8vec4(10, 20, 30, 255)),
+                               std::string_view more = "") {
     return mesh_of(gltf_text(
         bytes,
         fmt::format(
@@ -49,7 +50,7 @@ SourceMesh with_material(std::string_view material,
             accessors, base64(png_of(picture)), material, more)));
 }
 
-SourceMesh with_nodes(std::string_view nodes, std::string_view more = "") {
+bake::SourceMesh with_nodes(std::string_view nodes, std::string_view more = "") {
     return mesh_of(gltf_text(
         bytes,
         fmt::format(
@@ -57,12 +58,12 @@ SourceMesh with_nodes(std::string_view nodes, std::string_view more = "") {
             accessors, nodes, more)));
 }
 
-const SourceMaterial& material_of(const SourceMesh& mesh) {
+const bake::SourceMaterial& material_of(const bake::SourceMesh& mesh) {
     return mesh.materials[mesh.triangle_materials[0]];
 }
 
-bool notes(const SourceMesh& mesh, SourceNote::Kind kind, std::string_view words) {
-    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const SourceNote& note) {
+bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words) {
+    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const bake::SourceNote& note) {
         return note.kind == kind && note.text.find(words) != std::string::npos;
     });
 }
@@ -73,10 +74,10 @@ TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
         {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})",
          R"({"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})",
          R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})"}) {
-        const SourceMesh mesh = with_material(material);
+        const bake::SourceMesh mesh = with_material(material);
         EXPECT_EQ(glm::vec3(material_of(mesh).base_colour), glm::vec3(1.0F)) << material;
         EXPECT_EQ(material_of(mesh).texture, 0) << material;
-        EXPECT_TRUE(notes(mesh, SourceNote::Kind::Guessed, "own light")) << material;
+        EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Guessed, "own light")) << material;
     }
     EXPECT_EQ(
         glm::vec3(
@@ -88,10 +89,10 @@ TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
 }
 
 TEST(GltfExporters, LightBesideAColourIsTold) {
-    const SourceMesh mesh = with_material(
+    const bake::SourceMesh mesh = with_material(
         R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})");
-    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Lost, "emission"));
-    const SourceMesh none = with_material(
+    EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "emission"));
+    const bake::SourceMesh none = with_material(
         R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":0}})");
     EXPECT_TRUE(none.notes.empty()) << "without a factor the light is black";
 }
@@ -99,40 +100,40 @@ TEST(GltfExporters, LightBesideAColourIsTold) {
 TEST(GltfExporters, UnlitMaterialsAreSaidOfTheMeshAndAMixtureIsTold) {
     EXPECT_TRUE(with_material(R"({"extensions":{"KHR_materials_unlit":{}}})").is_unlit);
     EXPECT_FALSE(with_material("{}").is_unlit);
-    const SourceMesh mixed = mesh_of(gltf_text(
+    const bake::SourceMesh mixed = mesh_of(gltf_text(
         bytes,
         fmt::format(
             R"({},"materials":[{{"extensions":{{"KHR_materials_unlit":{{}}}}}},{{}}],"meshes":[{{"primitives":[)"
             R"({{"attributes":{{"POSITION":0}},"material":0}},{{"attributes":{{"POSITION":0}},"material":1}}]}}])",
             accessors)));
     EXPECT_FALSE(mixed.is_unlit);
-    EXPECT_TRUE(notes(mixed, SourceNote::Kind::Lost, "unlit"));
+    EXPECT_TRUE(notes(mixed, bake::SourceNote::Kind::Lost, "unlit"));
 }
 
 TEST(GltfExporters, ATransparencyOfAllOrNothingIsCutOut) {
     const std::string blend =
         R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
-    Image8 picture(10, 10, glm::u8vec4(10, 20, 30, 255));
+    image::Image8 picture(10, 10, glm::u8vec4(10, 20, 30, 255));
     EXPECT_FALSE(material_of(with_material(blend, picture)).alpha_mask) << "opaque everywhere";
     EXPECT_TRUE(with_material(blend, picture).notes.empty());
     picture.at(3, 3).a = 0;
-    const SourceMesh cut = with_material(blend, picture);
+    const bake::SourceMesh cut = with_material(blend, picture);
     EXPECT_TRUE(material_of(cut).alpha_mask);
     EXPECT_EQ(material_of(cut).alpha_cutoff, 0.5F);
-    EXPECT_TRUE(notes(cut, SourceNote::Kind::Guessed, "cut out"));
+    EXPECT_TRUE(notes(cut, bake::SourceNote::Kind::Guessed, "cut out"));
     for (int y = 0; y < 10; ++y) {
         picture.at(0, y).a = picture.at(1, y).a = 128;
     }
-    const SourceMesh glass = with_material(blend, picture);
+    const bake::SourceMesh glass = with_material(blend, picture);
     EXPECT_FALSE(material_of(glass).alpha_mask);
-    EXPECT_TRUE(notes(glass, SourceNote::Kind::Lost, "opaque"));
+    EXPECT_TRUE(notes(glass, bake::SourceNote::Kind::Lost, "opaque"));
     EXPECT_TRUE(notes(
         with_material(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})"),
-        SourceNote::Kind::Lost, "opaque"));
+        bake::SourceNote::Kind::Lost, "opaque"));
 }
 
 TEST(GltfExporters, InstancesStandWhereTheirRowsSay) {
-    const SourceMesh mesh = with_nodes(
+    const bake::SourceMesh mesh = with_nodes(
         R"({"mesh":0,"translation":[0,0,1],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2,"ROTATION":3,"SCALE":4}}}})",
         R"(,"extensionsUsed":["EXT_mesh_gpu_instancing"],"extensionsRequired":["EXT_mesh_gpu_instancing"])");
     ASSERT_EQ(mesh.triangles.size(), 2U);
@@ -162,24 +163,24 @@ TEST(GltfExporters, InstancesStandWhereTheirRowsSay) {
 TEST(GltfExporters, AHiddenNodeHidesAllBelowIt) {
     const std::string below =
         R"(,{"mesh":0},{"children":[3],"extensions":{"KHR_node_visibility":{"visible":false}}},{"mesh":0})";
-    const SourceMesh mesh = with_nodes(R"({"children":[1,2]})" + below);
+    const bake::SourceMesh mesh = with_nodes(R"({"children":[1,2]})" + below);
     EXPECT_EQ(mesh.triangles.size(), 1U);
-    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Guessed, "2 parts are left out"));
+    EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Guessed, "2 parts are left out"));
     EXPECT_TRUE(
         with_nodes(R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}})").notes.empty());
 }
 
 TEST(GltfExporters, AnExtensionThatIsNotReadIsTold) {
     EXPECT_TRUE(notes(with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["ACME_twist"])"),
-                      SourceNote::Kind::Lost, "ACME_twist"));
+                      bake::SourceNote::Kind::Lost, "ACME_twist"));
     EXPECT_TRUE(
         with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["KHR_materials_specular","KHR_lights_punctual"])")
             .notes.empty())
         << "shine and lamps change no colour";
-    const SourceMesh variants = with_nodes(
+    const bake::SourceMesh variants = with_nodes(
         R"({"mesh":0})",
         R"(,"extensionsUsed":["KHR_materials_variants"],"extensions":{"KHR_materials_variants":{"variants":[{"name":"gilt"},{"name":"bare"}]}})");
-    EXPECT_TRUE(notes(variants, SourceNote::Kind::Lost, "gilt, bare"));
+    EXPECT_TRUE(notes(variants, bake::SourceNote::Kind::Lost, "gilt, bare"));
 }
 
 } // namespace

@@ -20,8 +20,8 @@ std::string triangle_with(std::string_view members) {
     return gltf_text(triangle_bytes, fmt::format("{},{}{}", one_view, one_mesh, members));
 }
 
-SourceMesh mesh_of(const std::string& text) {
-    Result<SourceMesh> mesh = load_text("model.gltf", text);
+bake::SourceMesh mesh_of(const std::string& text) {
+    Result<bake::SourceMesh> mesh = load_text("model.gltf", text);
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
     if (!mesh) {
         return {};
@@ -36,7 +36,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return text.replace(place, from.size(), to);
 }
 
-glm::dvec3 normal_of(const SourceMesh& mesh, std::size_t triangle) {
+glm::dvec3 normal_of(const bake::SourceMesh& mesh, std::size_t triangle) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     return glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
 }
@@ -44,7 +44,7 @@ glm::dvec3 normal_of(const SourceMesh& mesh, std::size_t triangle) {
 TEST(Gltf, TransformsMultiplyFromTheRootDown) {
     // Root: twice as large, moved to x = 10. Child: a quarter turn about z (x to y), moved to z = 1.
     const double half = std::sqrt(0.5);
-    const SourceMesh mesh = mesh_of(triangle_with(fmt::format(
+    const bake::SourceMesh mesh = mesh_of(triangle_with(fmt::format(
         R"(,"nodes":[{{"scale":[2,2,2],"translation":[10,0,0],"children":[1]}},)"
         R"({{"rotation":[0,0,{},{}],"translation":[0,0,1],"mesh":0}}],"scenes":[{{"nodes":[0]}}])",
         half, half)));
@@ -54,8 +54,9 @@ TEST(Gltf, TransformsMultiplyFromTheRootDown) {
 }
 
 TEST(Gltf, AMirroringNodeKeepsTheOutsideOutside) {
-    const SourceMesh plain = mesh_of(triangle_with(R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}])"));
-    const SourceMesh mirrored = mesh_of(triangle_with(
+    const bake::SourceMesh plain =
+        mesh_of(triangle_with(R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}])"));
+    const bake::SourceMesh mirrored = mesh_of(triangle_with(
         R"(,"nodes":[{"mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}],"scenes":[{"nodes":[0]}])"));
     EXPECT_GT(normal_of(plain, 0).z, 0.0);
     EXPECT_GT(normal_of(mirrored, 0).z, 0.0);
@@ -81,10 +82,10 @@ TEST(Gltf, FansAndStripsAreCutAsTheStandardSays) {
                         R"("meshes":[{{"primitives":[{{"mode":{},"attributes":{{"POSITION":0}}}}]}}])",
                         mode));
     };
-    const SourceMesh fan = mesh_of(text(6));
+    const bake::SourceMesh fan = mesh_of(text(6));
     ASSERT_EQ(fan.triangles.size(), 2U);
     EXPECT_NEAR(normal_of(fan, 0).z + normal_of(fan, 1).z, 2.0, 1e-12) << "the square, counter-clockwise";
-    const SourceMesh strip = mesh_of(text(5));
+    const bake::SourceMesh strip = mesh_of(text(5));
     ASSERT_EQ(strip.triangles.size(), 2U);
     // Corners 0 1 2, then 1 3 2: the second triangle crosses the square and faces the other way.
     EXPECT_NEAR(normal_of(strip, 0).z, 1.0, 1e-12);
@@ -107,7 +108,7 @@ TEST(Gltf, NormalisedIntegersAndStridesAreFollowed) {
         R"("accessors":[{"bufferView":0,"componentType":5122,"normalized":true,"type":"VEC3","count":3},)"
         R"({"bufferView":0,"byteOffset":8,"componentType":5121,"normalized":true,"type":"VEC3","count":3}],)"
         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
-    const SourceMesh mesh = mesh_of(text);
+    const bake::SourceMesh mesh = mesh_of(text);
     EXPECT_EQ(mesh.positions[0].x, -1.0) << "-32768 is -1 too";
     EXPECT_EQ(mesh.positions[1].x, 1.0);
     EXPECT_NEAR(mesh.positions[2].y, 16384.0 / 32767.0, 1e-15);
@@ -122,7 +123,7 @@ TEST(Gltf, MorphWeightsOfTheNodeGoBeforeThoseOfTheMesh) {
         std::string(one_view) +
             R"(,"meshes":[{"weights":[1],"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":0}]}]}],)"
             R"("nodes":[{"mesh":0},{"mesh":0,"weights":[2.5]}],"scenes":[{"nodes":[0,1]}])");
-    const SourceMesh mesh = mesh_of(text);
+    const bake::SourceMesh mesh = mesh_of(text);
     EXPECT_EQ(mesh.positions[1].x, 2.0);
     EXPECT_EQ(mesh.positions[4].x, 3.5);
 }
@@ -131,7 +132,7 @@ TEST(Gltf, ASkinMixesItsJoints) {
     std::string bytes = triangle_bytes;
     bytes += bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});        // joints at 36
     bytes += bytes_of(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0}); // weights at 48
-    const SourceMesh mesh = mesh_of(gltf_text(
+    const bake::SourceMesh mesh = mesh_of(gltf_text(
         bytes,
         R"("bufferViews":[{"buffer":0,"byteLength":60}],"accessors":[)"
         R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
@@ -149,7 +150,7 @@ TEST(Gltf, DracoAndMeshoptGiveTheGridBack) {
     for (const auto& [glb, tolerance] :
          {std::pair(draco_glb(9, true), 1.0 / 4096), std::pair(draco_glb(9, false), 1.0 / 4096),
           std::pair(meshopt_glb(9), 1e-5)}) {
-        const Result<SourceMesh> mesh = load_text("grid.glb", glb);
+        const Result<bake::SourceMesh> mesh = load_text("grid.glb", glb);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         EXPECT_EQ(mesh->triangles.size(), 162U);
@@ -185,7 +186,7 @@ TEST(Gltf, ATransformedTextureTurnsCounterClockwiseWithVDownwards) {
     std::string bytes = triangle_bytes + bytes_of(std::vector<float>{0, 0, 1, 0, 0, 1});
     const std::size_t picture_at = bytes.size();
     const std::string picture = png_of(smooth_picture(2, 2));
-    const SourceMesh mesh = mesh_of(gltf_text(
+    const bake::SourceMesh mesh = mesh_of(gltf_text(
         bytes + picture,
         fmt::format(
             R"("bufferViews":[{{"buffer":0,"byteLength":60}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
@@ -211,8 +212,9 @@ TEST(Gltf, SidecarsMustLieBesideTheModel) {
     const TemporaryFolder folder;
     folder.write("parts/my data.bin", triangle_bytes);
     folder.write("short.bin", triangle_bytes.substr(0, 35));
-    EXPECT_TRUE(load_mesh(folder.write("model.gltf", with_uri("parts/my%20data.bin"))).has_value());
-    EXPECT_TRUE(load_mesh(folder.write("model.gltf", with_uri("parts/../parts/my data.bin"))).has_value());
+    EXPECT_TRUE(bake::load_mesh(folder.write("model.gltf", with_uri("parts/my%20data.bin"))).has_value());
+    EXPECT_TRUE(
+        bake::load_mesh(folder.write("model.gltf", with_uri("parts/../parts/my data.bin"))).has_value());
     for (const auto& [uri, expected] : std::vector<std::pair<std::string, std::string>>{
              {"gone.bin", "\"gone.bin\", but there is no such file beside it"},
              {"short.bin", "36 bytes are declared, but there are only 35"},
@@ -227,7 +229,7 @@ TEST(Gltf, SidecarsMustLieBesideTheModel) {
              {"", "the file \"\", but there is no such file beside it"},
              {"data:application/octet-stream,abc", "not base64"},
              {"data:application/octet-stream;base64,A*==", "damaged"}}) {
-        const std::string error = error_of(load_mesh(folder.write("model.gltf", with_uri(uri))));
+        const std::string error = error_of(bake::load_mesh(folder.write("model.gltf", with_uri(uri))));
         EXPECT_NE(error.find(expected), std::string::npos) << error;
         EXPECT_NE(error.find("buffers[0]"), std::string::npos) << error;
     }
@@ -323,11 +325,11 @@ TEST(Gltf, ADamagedOrMissingPictureIsRefusedByName) {
     const std::string text = triangle_with(
         R"(,"images":[{"uri":"torn.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
     const std::string used = replaced(text, R"("POSITION":0})", R"("POSITION":0},"material":0)");
-    EXPECT_TRUE(load_mesh(folder.write("model.gltf", text)).has_value())
+    EXPECT_TRUE(bake::load_mesh(folder.write("model.gltf", text)).has_value())
         << "nothing shows it, so it is not read";
-    EXPECT_NE(error_of(load_mesh(folder.write("model.gltf", used))).find("the PNG picture is damaged"),
+    EXPECT_NE(error_of(bake::load_mesh(folder.write("model.gltf", used))).find("the PNG picture is damaged"),
               std::string::npos);
-    EXPECT_NE(error_of(load_mesh(folder.write("model.gltf", replaced(used, "torn", "gone"))))
+    EXPECT_NE(error_of(bake::load_mesh(folder.write("model.gltf", replaced(used, "torn", "gone"))))
                   .find("\"gone.png\" is not beside it"),
               std::string::npos);
 }

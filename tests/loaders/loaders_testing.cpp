@@ -32,11 +32,11 @@ std::filesystem::path TemporaryFolder::write(const std::string& name, std::strin
     return path;
 }
 
-Result<SourceMesh> load_text(const std::string& name, std::string_view text) {
-    return load_mesh_bytes(as_bytes(text), std::filesystem::path("nowhere") / name);
+Result<bake::SourceMesh> load_text(const std::string& name, std::string_view text) {
+    return bake::load_mesh_bytes(as_bytes(text), std::filesystem::path("nowhere") / name);
 }
 
-std::string error_of(const Result<SourceMesh>& mesh) {
+std::string error_of(const Result<bake::SourceMesh>& mesh) {
     EXPECT_FALSE(mesh.has_value()) << "a load succeeded that must fail";
     return mesh ? std::string() : test::told(mesh.error());
 }
@@ -75,7 +75,7 @@ std::string glb_bytes(std::string json, std::string binary) {
     return glb;
 }
 
-Extent extent_of(const SourceMesh& mesh) {
+Extent extent_of(const bake::SourceMesh& mesh) {
     Extent extent;
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t i : triangle) {
@@ -86,7 +86,7 @@ Extent extent_of(const SourceMesh& mesh) {
     return extent;
 }
 
-double area_of(const SourceMesh& mesh) {
+double area_of(const bake::SourceMesh& mesh) {
     double area = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
         area += 0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a],
@@ -95,7 +95,7 @@ double area_of(const SourceMesh& mesh) {
     return area;
 }
 
-double volume_of(const SourceMesh& mesh) {
+double volume_of(const bake::SourceMesh& mesh) {
     double volume = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
         volume += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c])) / 6.0;
@@ -103,7 +103,7 @@ double volume_of(const SourceMesh& mesh) {
     return volume;
 }
 
-void expect_sound(const SourceMesh& mesh) {
+void expect_sound(const bake::SourceMesh& mesh) {
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_EQ(mesh.triangles.size(), mesh.triangle_materials.size());
     ASSERT_FALSE(mesh.materials.empty());
@@ -123,7 +123,7 @@ void expect_sound(const SourceMesh& mesh) {
     for (const std::uint32_t material : mesh.triangle_materials) {
         ASSERT_LT(material, mesh.materials.size());
     }
-    for (const SourceMaterial& material : mesh.materials) {
+    for (const bake::SourceMaterial& material : mesh.materials) {
         ASSERT_LT(material.texture, static_cast<int>(mesh.textures.size()));
         ASSERT_TRUE(material.texture < 0 ||
                     mesh.textures[static_cast<std::size_t>(material.texture)].image != nullptr);

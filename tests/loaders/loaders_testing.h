@@ -27,9 +27,9 @@ private:
 };
 
 /// Loads `text` as a file of that name, without other files next to it.
-Result<SourceMesh> load_text(const std::string& name, std::string_view text);
+Result<bake::SourceMesh> load_text(const std::string& name, std::string_view text);
 /// The error of a load that must fail; "" and a test failure if it does not.
-std::string error_of(const Result<SourceMesh>& mesh);
+std::string error_of(const Result<bake::SourceMesh>& mesh);
 
 std::string base64(std::string_view bytes);
 template <typename T> std::string bytes_of(const std::vector<T>& values) {
@@ -44,12 +44,12 @@ struct Extent {
     glm::dvec3 low{1e300};
     glm::dvec3 high{-1e300};
 };
-Extent extent_of(const SourceMesh& mesh);
-double area_of(const SourceMesh& mesh);
+Extent extent_of(const bake::SourceMesh& mesh);
+double area_of(const bake::SourceMesh& mesh);
 /// The signed volume: positive for a closed surface whose triangles run counter-clockwise seen from outside.
-double volume_of(const SourceMesh& mesh);
+double volume_of(const bake::SourceMesh& mesh);
 /// Checks the promises of load_mesh.
-void expect_sound(const SourceMesh& mesh);
+void expect_sound(const bake::SourceMesh& mesh);
 
 struct IndexRow {
     std::string path;

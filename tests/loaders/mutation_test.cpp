@@ -80,7 +80,7 @@ private:
 
 TEST(Mutation, ThePatternsThemselvesLoad) {
     for (const SampleModel& model : sample_models()) {
-        const Result<SourceMesh> mesh = load_text(model.name, model.bytes);
+        const Result<bake::SourceMesh> mesh = load_text(model.name, model.bytes);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
     }
@@ -96,7 +96,7 @@ TEST(Mutation, EightThousandDamagedModelsAreRefusedInOneLineOrSound) {
         const std::string bytes = mutator.mutated(model.bytes);
         SCOPED_TRACE("mutant " + std::to_string(i) + " of " + model.name);
         const auto begin = std::chrono::steady_clock::now();
-        const Result<SourceMesh> mesh = load_text(model.name, bytes);
+        const Result<bake::SourceMesh> mesh = load_text(model.name, bytes);
         EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
         if (mesh) {
             expect_sound(*mesh);

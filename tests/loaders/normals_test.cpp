@@ -13,9 +13,9 @@ void expect_near(const glm::vec3& a, const glm::vec3& b) {
 }
 
 TEST(Normals, OfAnObjSplitCornersThatHaveDifferentOnes) {
-    const Result<SourceMesh> mesh = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                                       "vn 0 0 2\nvn 0 -3 0\n"
-                                                       "f 1//1 2//1 3//1\nf 1//-1 4//-1 2//-1\n");
+    const Result<bake::SourceMesh> mesh = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                                             "vn 0 0 2\nvn 0 -3 0\n"
+                                                             "f 1//1 2//1 3//1\nf 1//-1 4//-1 2//-1\n");
     ASSERT_TRUE(mesh) << mesh.error().message;
     ASSERT_EQ(mesh->positions.size(), 6U) << "two corners of each are shared in place and not in normal";
     ASSERT_EQ(mesh->normals.size(), 6U);
@@ -28,16 +28,18 @@ TEST(Normals, OfAnObjSplitCornersThatHaveDifferentOnes) {
 }
 
 TEST(Normals, OfAnObjThatAreMissingOrNoneAreLeftOut) {
-    const Result<SourceMesh> mesh = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-                                                       "vn nan 0 1\nvn a b c\nvn 0 1\n"
-                                                       "f 1//1 2//7 3//0\nf 1/ 2//x 3//2\nf 1//3 2 3\n");
+    const Result<bake::SourceMesh> mesh =
+        load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                           "vn nan 0 1\nvn a b c\nvn 0 1\n"
+                           "f 1//1 2//7 3//0\nf 1/ 2//x 3//2\nf 1//3 2 3\n");
     ASSERT_TRUE(mesh) << mesh.error().message;
     expect_sound(*mesh);
     ASSERT_EQ(mesh->normals.size(), mesh->positions.size());
     expect_near(mesh->normals[mesh->triangles[0][0]], {0, 0, 0});
     expect_near(mesh->normals[mesh->triangles[0][1]], {0, 0, 0});
     expect_near(mesh->normals[mesh->triangles[2][0]], {0, 1, 0});
-    const Result<SourceMesh> plain = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1 2 3\n");
+    const Result<bake::SourceMesh> plain =
+        load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1 2 3\n");
     ASSERT_TRUE(plain);
     EXPECT_TRUE(plain->normals.empty()) << "no face names a normal";
 }
@@ -51,7 +53,7 @@ TEST(Normals, OfAPlyHaveTwoSpellings) {
             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
             "0 0 0 0 0 2\n1 0 0 0 0 0\n0 1 0 0 -1 0\n3 0 1 2\n",
             x, y, z);
-        const Result<SourceMesh> mesh = load_text("a.ply", text);
+        const Result<bake::SourceMesh> mesh = load_text("a.ply", text);
         ASSERT_TRUE(mesh) << mesh.error().message;
         ASSERT_EQ(mesh->normals.size(), 3U);
         expect_near(mesh->normals[0], {0, 0, 1});
@@ -77,23 +79,26 @@ std::string gltf_with_normals(const std::vector<float>& normals, const std::stri
 TEST(Normals, OfAGltfStandUprightOnAStretchedSurface) {
     // The plane x + z = 1 stretched by 2 along x is x / 2 + z = 1, with the normal (1, 0, 2).
     const std::vector<float> normals{1, 0, 1, 1, 0, 1, 1, 0, 1};
-    const Result<SourceMesh> mesh = load_text("a.gltf", gltf_with_normals(normals, R"(,"scale":[2,1,1])"));
+    const Result<bake::SourceMesh> mesh =
+        load_text("a.gltf", gltf_with_normals(normals, R"(,"scale":[2,1,1])"));
     ASSERT_TRUE(mesh) << mesh.error().message;
     ASSERT_EQ(mesh->normals.size(), 3U);
     expect_near(mesh->normals[0], glm::normalize(glm::vec3(1, 0, 2)));
-    const Result<SourceMesh> flat = load_text("a.gltf", gltf_with_normals(normals, R"(,"scale":[2,0,1])"));
+    const Result<bake::SourceMesh> flat =
+        load_text("a.gltf", gltf_with_normals(normals, R"(,"scale":[2,0,1])"));
     ASSERT_TRUE(flat) << flat.error().message;
     expect_near(flat->normals[0], {0, 0, 0});
 }
 
 TEST(Normals, OfAGltfThatAreNoneRefuseNoFile) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Result<SourceMesh> mesh = load_text("a.gltf", gltf_with_normals({nan, 0, 1, 0, 0, 1, 0, 0, 1}, ""));
+    const Result<bake::SourceMesh> mesh =
+        load_text("a.gltf", gltf_with_normals({nan, 0, 1, 0, 0, 1, 0, 0, 1}, ""));
     ASSERT_TRUE(mesh) << mesh.error().message;
     ASSERT_EQ(mesh->normals.size(), 3U);
     expect_near(mesh->normals[0], {0, 0, 0});
     expect_near(mesh->normals[1], {0, 0, 1});
-    const Result<SourceMesh> fewer = load_text("a.gltf", gltf_with_normals({0, 0, 1, 0, 0, 1}, ""));
+    const Result<bake::SourceMesh> fewer = load_text("a.gltf", gltf_with_normals({0, 0, 1, 0, 0, 1}, ""));
     ASSERT_TRUE(fewer) << fewer.error().message;
     EXPECT_TRUE(fewer->normals.empty());
 }

@@ -10,8 +10,8 @@ namespace {
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-SourceMesh mesh_of(const std::string& text) {
-    Result<SourceMesh> mesh = load_text("model.obj", text);
+bake::SourceMesh mesh_of(const std::string& text) {
+    Result<bake::SourceMesh> mesh = load_text("model.obj", text);
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
     if (!mesh) {
         return {};
@@ -21,8 +21,8 @@ SourceMesh mesh_of(const std::string& text) {
 }
 
 TEST(Obj, NegativeIndicesCountBackFromTheLastVertex) {
-    const SourceMesh forward = mesh_of(square + "f 1 2 3 4\n");
-    const SourceMesh backward = mesh_of(square + "f -4 -3 -2 -1\n");
+    const bake::SourceMesh forward = mesh_of(square + "f 1 2 3 4\n");
+    const bake::SourceMesh backward = mesh_of(square + "f -4 -3 -2 -1\n");
     EXPECT_EQ(forward.positions, backward.positions);
     EXPECT_EQ(forward.triangles, backward.triangles);
     EXPECT_NEAR(area_of(backward), 1.0, 1e-12);
@@ -39,20 +39,20 @@ TEST(Obj, EveryFormOfACornerIsRead) {
 }
 
 TEST(Obj, VerticesAreSplitWhereTextureCoordinatesDiffer) {
-    const SourceMesh mesh = mesh_of(square + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
+    const bake::SourceMesh mesh = mesh_of(square + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
     EXPECT_EQ(mesh.positions.size(), 5U); // corner 1 twice
     EXPECT_EQ(mesh.uvs[0], glm::vec2(0.0F, 1.0F)) << "v = 0 is the picture's top row";
 }
 
 TEST(Obj, ColoursAfterTheCoordinatesAreSrgb) {
-    const SourceMesh mesh = mesh_of("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
+    const bake::SourceMesh mesh = mesh_of("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
     EXPECT_NEAR(mesh.colours[0].r, 0.2140411, 1e-6);
     EXPECT_EQ(mesh.colours[0].b, 1.0F);
     EXPECT_EQ(mesh.colours[1], glm::vec4(1.0F));
 }
 
 TEST(Obj, CoordinatesKeepSixtyFourBits) {
-    const SourceMesh mesh = mesh_of("v 4500000.125 0 0\nv 4500001.25 0 0\nv 4500000 1 0\nf 1 2 3\n");
+    const bake::SourceMesh mesh = mesh_of("v 4500000.125 0 0\nv 4500001.25 0 0\nv 4500000 1 0\nf 1 2 3\n");
     EXPECT_EQ(mesh.positions[0].x, 4500000.125);
     EXPECT_EQ(mesh.positions[1].x, 4500001.25);
 }
@@ -69,17 +69,17 @@ TEST(Obj, APolygonMayHaveMoreThan255Corners) {
 }
 
 /// The note about losses of a mesh with exactly one note.
-std::string lost_of(const SourceMesh& mesh) {
+std::string lost_of(const bake::SourceMesh& mesh) {
     EXPECT_EQ(mesh.notes.size(), 1U);
     if (mesh.notes.empty()) {
         return {};
     }
-    EXPECT_EQ(mesh.notes[0].kind, SourceNote::Kind::Lost);
+    EXPECT_EQ(mesh.notes[0].kind, bake::SourceNote::Kind::Lost);
     return mesh.notes[0].text;
 }
 
 TEST(Obj, AMissingMaterialFileLeavesWhiteAndIsSaid) {
-    const SourceMesh mesh = mesh_of("mtllib nowhere.mtl\n" + square + "usemtl gold\nf 1 2 3\n");
+    const bake::SourceMesh mesh = mesh_of("mtllib nowhere.mtl\n" + square + "usemtl gold\nf 1 2 3\n");
     EXPECT_EQ(mesh.materials[mesh.triangle_materials[0]].base_colour, glm::vec4(1.0F));
     EXPECT_NE(lost_of(mesh).find("the colours: it names \"nowhere.mtl\" for them"), std::string::npos);
 }
@@ -93,8 +93,8 @@ TEST(Obj, WhatIsLostIsSaid) {
               std::string::npos);
     const TemporaryFolder folder;
     folder.write("model.mtl", "newmtl red\nKd 1 0 0\n");
-    const Result<SourceMesh> mesh =
-        load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + square + "usemtl gold\nf 1 2 3\n"));
+    const Result<bake::SourceMesh> mesh =
+        bake::load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + square + "usemtl gold\nf 1 2 3\n"));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     EXPECT_NE(lost_of(*mesh).find("material \"gold\""), std::string::npos);
 }
@@ -106,15 +106,16 @@ TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
           "Maps/wood.png", "maps\\WOOD.png", "file:///C:/wood.png", "./wood.PNG"}) {
         SCOPED_TRACE(map);
         const TemporaryFolder folder;
-        const std::string png(as_text(encode_png(Image8(1, 1, glm::u8vec4(10, 20, 30, 255)))));
+        const std::string png(as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(10, 20, 30, 255)))));
         folder.write("wood.png", png);
         folder.write("maps/wood.png", png);
         folder.write("Model.mtl", std::string("newmtl wood\nmap_Kd ") + map + "\n");
-        const Result<SourceMesh> mesh = load_mesh(folder.write("model.obj", "mtllib D:\\model.MTL\n" + text));
+        const Result<bake::SourceMesh> mesh =
+            bake::load_mesh(folder.write("model.obj", "mtllib D:\\model.MTL\n" + text));
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         ASSERT_EQ(mesh->textures.size(), 1U);
         ASSERT_FALSE(mesh->notes.empty());
-        EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Guessed);
+        EXPECT_EQ(mesh->notes[0].kind, bake::SourceNote::Kind::Guessed);
         EXPECT_NE(mesh->notes[0].text.find("Model.mtl beside it is used"), std::string::npos);
     }
 }
@@ -126,69 +127,73 @@ TEST(Obj, PicturesAreShrunkUntilAllOfThemFit) {
     std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nvt 1 0\nvt 0 1\n";
     for (std::size_t k = 0; k < sides.size(); ++k) {
         const auto code = static_cast<std::uint8_t>(50 * k);
-        folder.write(fmt::format("{}.png", k),
-                     as_text(encode_png(Image8(sides[k], sides[k], glm::u8vec4(code, 200, 100, 255)))));
+        folder.write(
+            fmt::format("{}.png", k),
+            as_text(image::encode_png(image::Image8(sides[k], sides[k], glm::u8vec4(code, 200, 100, 255)))));
         materials += fmt::format("newmtl m{0}\nmap_Kd {0}.png\n", k);
         text += fmt::format("usemtl m{}\nf 1/1 2/2 3/3\n", k);
     }
     folder.write("model.mtl", materials);
     const auto model = folder.write("model.obj", text);
-    const Result<SourceMesh> whole = load_mesh(model);
+    const Result<bake::SourceMesh> whole = bake::load_mesh(model);
     ASSERT_TRUE(whole) << whole.error().message;
     EXPECT_TRUE(whole->notes.empty());
-    LoadOptions options;
+    bake::LoadOptions options;
     options.kept_texels = 64 * 64;
-    const Result<SourceMesh> shrunk = load_mesh(model, options);
+    const Result<bake::SourceMesh> shrunk = bake::load_mesh(model, options);
     ASSERT_TRUE(shrunk) << shrunk.error().message;
     ASSERT_EQ(shrunk->textures.size(), 3U);
     for (std::size_t k = 0; k < sides.size(); ++k) {
-        const Image8& picture = *shrunk->textures[k].image;
+        const image::Image8& picture = *shrunk->textures[k].image;
         EXPECT_EQ(picture.width, std::min(sides[k], 32)) << "the two large ones alike";
         EXPECT_EQ(picture.at(0, 0), whole->textures[k].image->at(0, 0));
         EXPECT_EQ(shrunk->contents.picture_sizes[k], glm::ivec2(sides[k]));
     }
     ASSERT_EQ(shrunk->notes.size(), 1U);
-    EXPECT_EQ(shrunk->notes[0].kind, SourceNote::Kind::Guessed) << "nothing is lost that a pack could show";
+    EXPECT_EQ(shrunk->notes[0].kind, bake::SourceNote::Kind::Guessed)
+        << "nothing is lost that a pack could show";
     EXPECT_TRUE(shrunk->notes[0].text.starts_with("2 of its 3 pictures are shrunk")) << shrunk->notes[0].text;
 }
 
 TEST(Obj, TheCuratorsPictureIsForOneThatIsMissing) {
     const TemporaryFolder folder;
     const std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
-    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    const auto own =
+        folder.write("own.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
     const auto model = folder.write("model.obj", text);
-    const auto texel = [](const Result<SourceMesh>& mesh) {
+    const auto texel = [](const Result<bake::SourceMesh>& mesh) {
         EXPECT_TRUE(mesh.has_value()) << mesh.error().message;
         return mesh && mesh->textures.size() == 1 ? mesh->textures[0].image->at(0, 0) : glm::u8vec4(0);
     };
-    EXPECT_EQ(texel(load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255)) << "without the .mtl";
+    EXPECT_EQ(texel(bake::load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255)) << "without the .mtl";
     folder.write("model.mtl", "newmtl wood\nmap_Kd gone.png\n");
-    EXPECT_EQ(texel(load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255));
-    folder.write("gone.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(9, 9, 9, 255)))));
-    const Result<SourceMesh> whole = load_mesh(model, {own});
+    EXPECT_EQ(texel(bake::load_mesh(model, {own})), glm::u8vec4(1, 2, 3, 255));
+    folder.write("gone.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(9, 9, 9, 255)))));
+    const Result<bake::SourceMesh> whole = bake::load_mesh(model, {own});
     EXPECT_EQ(texel(whole), glm::u8vec4(9, 9, 9, 255)) << "the model's own goes first";
     ASSERT_EQ(whole->notes.size(), 1U);
-    EXPECT_EQ(whole->notes[0].kind, SourceNote::Kind::Guessed);
-    EXPECT_NE(error_of(load_mesh(folder.write("plain.obj", square + "f 1 2 3\n"), {own})).find("--texture"),
-              std::string::npos);
+    EXPECT_EQ(whole->notes[0].kind, bake::SourceNote::Kind::Guessed);
     EXPECT_NE(
-        error_of(load_mesh(folder.write("plain.obj", text), {folder.path() / "none.png"})).find("none.png"),
+        error_of(bake::load_mesh(folder.write("plain.obj", square + "f 1 2 3\n"), {own})).find("--texture"),
         std::string::npos);
+    EXPECT_NE(error_of(bake::load_mesh(folder.write("plain.obj", text), {folder.path() / "none.png"}))
+                  .find("none.png"),
+              std::string::npos);
 }
 
 TEST(Obj, MaterialsBringColourAndPicture) {
     const TemporaryFolder folder;
-    Image8 picture(2, 1, glm::u8vec4(10, 20, 30, 255));
-    const Bytes png = encode_png(picture);
+    image::Image8 picture(2, 1, glm::u8vec4(10, 20, 30, 255));
+    const Bytes png = image::encode_png(picture);
     folder.write("maps/my wood.png", as_text(png));
     folder.write("model.mtl", "newmtl red\nKd 1 0.5 0\nnewmtl wood\nKd 1 1 1\nmap_Kd maps\\my wood.png\n");
-    const Result<SourceMesh> mesh =
-        load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + square +
-                                                "vt 0 0\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1 3/1 4/1\n"));
+    const Result<bake::SourceMesh> mesh = bake::load_mesh(
+        folder.write("model.obj", "mtllib model.mtl\n" + square +
+                                      "vt 0 0\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1 3/1 4/1\n"));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     expect_sound(*mesh);
     EXPECT_EQ(mesh->materials[mesh->triangle_materials[0]].base_colour, glm::vec4(1.0F, 0.5F, 0.0F, 1.0F));
-    const SourceMaterial& wood = mesh->materials[mesh->triangle_materials[1]];
+    const bake::SourceMaterial& wood = mesh->materials[mesh->triangle_materials[1]];
     ASSERT_EQ(wood.texture, 0);
     EXPECT_EQ(mesh->textures[0].image->at(1, 0), glm::u8vec4(10, 20, 30, 255));
 }
@@ -210,7 +215,7 @@ TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
         const TemporaryFolder folder;
         folder.write("bad.png", "\x89PNG\r\n\x1a\n and nothing more");
         folder.write("model.mtl", "newmtl wood\nmap_Kd " + map + "\n");
-        const std::string error = error_of(load_mesh(folder.write("model.obj", text)));
+        const std::string error = error_of(bake::load_mesh(folder.write("model.obj", text)));
         EXPECT_NE(error.find(expected), std::string::npos) << error;
     }
 }

@@ -30,7 +30,7 @@ template <typename T> std::string binary(T value, bool big) {
 }
 
 TEST(Ply, AQuadBecomesTwoTriangles) {
-    const Result<SourceMesh> mesh = load_text("square.ply", square_header + square_data);
+    const Result<bake::SourceMesh> mesh = load_text("square.ply", square_header + square_data);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     expect_sound(*mesh);
     EXPECT_EQ(mesh->triangles.size(), 2U);
@@ -44,7 +44,7 @@ TEST(Ply, CarriageReturnsAndOtherLineEndsAreRead) {
         for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + end.size())) {
             text.replace(i, 1, end);
         }
-        const Result<SourceMesh> mesh = load_text("square.ply", text);
+        const Result<bake::SourceMesh> mesh = load_text("square.ply", text);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         EXPECT_EQ(mesh->triangles.size(), 2U);
     }
@@ -78,7 +78,7 @@ std::string awkward_binary(bool big) {
 
 TEST(Ply, BothByteOrdersAndUnknownPartsAreRead) {
     for (const bool big : {false, true}) {
-        const Result<SourceMesh> mesh = load_text("awkward.ply", awkward_binary(big));
+        const Result<bake::SourceMesh> mesh = load_text("awkward.ply", awkward_binary(big));
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         ASSERT_EQ(mesh->triangles.size(), 1U);
@@ -95,7 +95,7 @@ TEST(Ply, FloatColoursAreSrgbInZeroToOne) {
         replaced(square_header, "property float z\n",
                  "property float z\nproperty float red\nproperty float green\nproperty float blue\n");
     text += "0 0 0 0.5 1 0\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 2 nan -1\n4 0 1 2 3\n";
-    const Result<SourceMesh> mesh = load_text("square.ply", text);
+    const Result<bake::SourceMesh> mesh = load_text("square.ply", text);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     EXPECT_NEAR(mesh->colours[0].r, 0.2140411, 1e-6);
     expect_sound(*mesh);
@@ -104,7 +104,7 @@ TEST(Ply, FloatColoursAreSrgbInZeroToOne) {
 TEST(Ply, TriangleStripsTurnEverySecondTriangleAndStartAfresh) {
     std::string text = replaced(square_header, "element face", "element tristrips");
     text += "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 0 1 3\n";
-    const Result<SourceMesh> mesh = load_text("strip.ply", text);
+    const Result<bake::SourceMesh> mesh = load_text("strip.ply", text);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     ASSERT_EQ(mesh->triangles.size(), 3U);
     for (const auto& [a, b, c] : mesh->triangles) {
@@ -158,11 +158,13 @@ std::string meshlab_square(bool seam, const std::string& comment) {
 
 TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
     const TemporaryFolder folder;
-    folder.write("my skin.png", as_text(encode_png(Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
-    folder.write("other.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(40, 50, 60, 255)))));
+    folder.write("my skin.png",
+                 as_text(image::encode_png(image::Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
+    folder.write("other.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(40, 50, 60, 255)))));
     const std::string comments = "comment TextureFile my skin.png\ncomment TextureFile other.png\n";
     for (const bool seam : {false, true}) {
-        const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", meshlab_square(seam, comments)));
+        const Result<bake::SourceMesh> mesh =
+            bake::load_mesh(folder.write("scan.ply", meshlab_square(seam, comments)));
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         EXPECT_TRUE(mesh->notes.empty());
@@ -176,7 +178,7 @@ TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
         EXPECT_EQ(uv(1, 1), seam ? glm::vec2(0.25F, 0.75F) : glm::vec2(1.0F, 0.0F));
         EXPECT_EQ(uv(1, 2), glm::vec2(0.0F, 0.0F));
         const auto colour = [&](std::size_t triangle) {
-            const SourceMaterial& material = mesh->materials[mesh->triangle_materials[triangle]];
+            const bake::SourceMaterial& material = mesh->materials[mesh->triangle_materials[triangle]];
             return mesh->textures.at(static_cast<std::size_t>(material.texture)).image->at(0, 0);
         };
         EXPECT_EQ(colour(0), glm::u8vec4(10, 20, 30, 255));
@@ -186,7 +188,8 @@ TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
 
 TEST(Ply, MutatedTextureCoordinatesGiveASoundMeshOrAnError) {
     const TemporaryFolder folder;
-    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    const auto own =
+        folder.write("own.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
     std::mt19937 random(7);
     int loaded = 0;
     for (int round = 0; round < 600; ++round) {
@@ -196,7 +199,7 @@ TEST(Ply, MutatedTextureCoordinatesGiveASoundMeshOrAnError) {
             const std::size_t data = text.find("end_header");
             text[data + random() % (text.size() - data)] = marks[random() % marks.size()];
         }
-        const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", text), {own});
+        const Result<bake::SourceMesh> mesh = bake::load_mesh(folder.write("scan.ply", text), {own});
         if (mesh) {
             expect_sound(*mesh);
             ++loaded;
@@ -207,19 +210,19 @@ TEST(Ply, MutatedTextureCoordinatesGiveASoundMeshOrAnError) {
 
 TEST(Ply, TextureCoordinatesAtVerticesAreRead) {
     const TemporaryFolder folder;
-    folder.write("skin.png", as_text(encode_png(Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
+    folder.write("skin.png", as_text(image::encode_png(image::Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
     std::string text = replaced(square_header, "comment a square", "comment TextureFile skin.png");
     text =
         replaced(text, "property float z\n",
                  "property float z\nproperty float s\nproperty float t\nproperty uchar red\nproperty uchar "
                  "green\nproperty uchar blue\n");
     text += "0 0 0 0 0 9 9 9\n1 0 0 1 0 9 9 9\n1 1 0 1 1 9 9 9\n0 1 0 0 1 9 9 9\n4 0 1 2 3\n";
-    const Result<SourceMesh> mesh = load_mesh(folder.write("scan.ply", text));
+    const Result<bake::SourceMesh> mesh = bake::load_mesh(folder.write("scan.ply", text));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     EXPECT_EQ(mesh->uvs[2], glm::vec2(1.0F, 0.0F));
     EXPECT_TRUE(mesh->colours.empty()) << "the picture goes before the vertices' colours";
     ASSERT_EQ(mesh->notes.size(), 1U);
-    EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Guessed);
+    EXPECT_EQ(mesh->notes[0].kind, bake::SourceNote::Kind::Guessed);
 }
 
 TEST(Ply, WhatIsLostIsSaid) {
@@ -236,23 +239,24 @@ TEST(Ply, WhatIsLostIsSaid) {
              {replaced(two, "face 1", "face 2"), "1 face of fewer than three corners"},
              {replaced(square_header + square_data, "comment a square", "comment TextureFile a.png"),
               "no texture coordinates"}}) {
-        const Result<SourceMesh> mesh = load_text("scan.ply", text);
+        const Result<bake::SourceMesh> mesh = load_text("scan.ply", text);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         ASSERT_EQ(mesh->notes.size(), 1U) << expected;
-        EXPECT_EQ(mesh->notes[0].kind, SourceNote::Kind::Lost);
+        EXPECT_EQ(mesh->notes[0].kind, bake::SourceNote::Kind::Lost);
         EXPECT_NE(mesh->notes[0].text.find(expected), std::string::npos) << mesh->notes[0].text;
     }
 }
 
 TEST(Ply, TheCuratorsPictureIsForTextureCoordinatesWithoutOne) {
     const TemporaryFolder folder;
-    const auto own = folder.write("own.png", as_text(encode_png(Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
+    const auto own =
+        folder.write("own.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
     for (const std::string& comment : {std::string(), std::string("comment TextureFile gone.png\n")}) {
         std::string text = meshlab_square(true, comment);
         text = replaced(text, "6 0.5 0.5 0.25 0.25 0 1 1", "6 0.5 0.5 0.25 0.25 0 1 0");
         const auto scan = folder.write("scan.ply", text);
-        const Result<SourceMesh> mesh = load_mesh(scan, {own});
+        const Result<bake::SourceMesh> mesh = bake::load_mesh(scan, {own});
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         ASSERT_EQ(mesh->textures.size(), 1U);
@@ -260,12 +264,12 @@ TEST(Ply, TheCuratorsPictureIsForTextureCoordinatesWithoutOne) {
         EXPECT_TRUE(mesh->notes.empty());
     }
     const std::string error =
-        error_of(load_mesh(folder.write("plain.ply", square_header + square_data), {own}));
+        error_of(bake::load_mesh(folder.write("plain.ply", square_header + square_data), {own}));
     EXPECT_NE(error.find("[mesh.no_texture_coordinates]"), std::string::npos) << error;
 }
 
 TEST(Ply, AnElementWithoutPropertiesMayClaimAnyCount) {
-    const Result<SourceMesh> mesh = load_text(
+    const Result<bake::SourceMesh> mesh = load_text(
         "square.ply",
         replaced(square_header, "element face", "element empty 9000000000000\nelement face") + square_data);
     EXPECT_TRUE(mesh.has_value());

@@ -20,7 +20,7 @@ std::vector<double> signed_areas(const std::vector<glm::dvec3>& corners, const T
 
 void expect_covered(const std::vector<glm::dvec3>& corners, double area) {
     Triangles triangles;
-    triangulate_polygon(corners, triangles);
+    bake::triangulate_polygon(corners, triangles);
     ASSERT_EQ(triangles.size(), corners.size() - 2);
     double sum = 0.0;
     for (const double part : signed_areas(corners, triangles)) {
@@ -84,7 +84,7 @@ TEST(Polygon, ACombOfAThousandTeethIsCovered) {
     }
     corners.emplace_back(0, 1, 0);
     Triangles triangles;
-    triangulate_polygon(corners, triangles);
+    bake::triangulate_polygon(corners, triangles);
     double sum = 0.0;
     for (const double part : signed_areas(corners, triangles)) {
         EXPECT_GE(part, 0.0);
@@ -112,14 +112,14 @@ TEST(Polygon, APolygonThatCrossesItselfOrHasNoAreaStillGivesItsTriangles) {
     for (const std::vector<glm::dvec3>& corners :
          {std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<glm::dvec3>(6)}) {
         Triangles triangles;
-        triangulate_polygon(corners, triangles);
+        bake::triangulate_polygon(corners, triangles);
         EXPECT_EQ(triangles.size(), corners.size() - 2);
     }
 }
 
 TEST(Polygon, FewerThanThreeCornersGiveNothing) {
     Triangles triangles;
-    triangulate_polygon(std::vector<glm::dvec3>(2), triangles);
+    bake::triangulate_polygon(std::vector<glm::dvec3>(2), triangles);
     EXPECT_TRUE(triangles.empty());
 }
 

@@ -202,7 +202,7 @@ std::string rich_gltf(const std::string& picture) {
 } // namespace
 
 std::vector<SampleModel> sample_models() {
-    const Image8 picture = smooth_picture(8, 8);
+    const image::Image8 picture = smooth_picture(8, 8);
     return {
         {"png.gltf", rich_gltf(png_of(picture))},
         {"jpeg.gltf", rich_gltf(jpeg_of(picture))},

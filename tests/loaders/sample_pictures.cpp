@@ -12,7 +12,7 @@ namespace frustumscreen::testing {
 
 namespace {
 
-const unsigned char* raw(const Image8& image) {
+const unsigned char* raw(const image::Image8& image) {
     return reinterpret_cast<const unsigned char*>(image.texels.data());
 }
 
@@ -22,8 +22,8 @@ void append(png_structp png, png_bytep bytes, std::size_t size) {
 
 } // namespace
 
-Image8 smooth_picture(int width, int height) {
-    Image8 image(width, height);
+image::Image8 smooth_picture(int width, int height) {
+    image::Image8 image(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             image.at(x, y) = glm::u8vec4(60 + 120 * x / width, 200 - 100 * y / height, 90, 255);
@@ -32,12 +32,12 @@ Image8 smooth_picture(int width, int height) {
     return image;
 }
 
-std::string png_of(const Image8& image) {
-    const Bytes bytes = encode_png(image);
+std::string png_of(const image::Image8& image) {
+    const Bytes bytes = image::encode_png(image);
     return std::string(as_text(bytes));
 }
 
-std::string jpeg_of(const Image8& image) {
+std::string jpeg_of(const image::Image8& image) {
     const tjhandle handle = tjInitCompress();
     unsigned char* out = nullptr;
     unsigned long size = 0;
@@ -49,7 +49,7 @@ std::string jpeg_of(const Image8& image) {
     return bytes;
 }
 
-std::string webp_of(const Image8& image) {
+std::string webp_of(const image::Image8& image) {
     std::uint8_t* out = nullptr;
     const std::size_t size =
         WebPEncodeLosslessRGBA(raw(image), image.width, image.height, image.width * 4, &out);
@@ -75,7 +75,7 @@ std::string texel_bgr(const glm::u8vec4& texel) {
 
 } // namespace
 
-std::string bmp_of(const Image8& image, bool top_row_first) {
+std::string bmp_of(const image::Image8& image, bool top_row_first) {
     std::string texels;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
@@ -90,7 +90,7 @@ std::string bmp_of(const Image8& image, bool top_row_first) {
            std::string(24, '\0') + texels;
 }
 
-std::string tga_of(const Image8& image, bool packed) {
+std::string tga_of(const image::Image8& image, bool packed) {
     std::string file = number(0, 2) + number(packed ? 10 : 2, 1) + std::string(9, '\0') +
                        number(static_cast<std::uint32_t>(image.width), 2) +
                        number(static_cast<std::uint32_t>(image.height), 2) + number(24, 1) + number(0x20, 1);
@@ -107,7 +107,7 @@ std::string tga_of(const Image8& image, bool packed) {
     return file;
 }
 
-std::string tiff_of(const Image8& image, TiffAlpha alpha, bool big) {
+std::string tiff_of(const image::Image8& image, TiffAlpha alpha, bool big) {
     const std::uint32_t channels = alpha == TiffAlpha::None ? 3 : 4;
     std::string texels;
     for (const glm::u8vec4& texel : image.texels) {

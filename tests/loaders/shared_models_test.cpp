@@ -23,10 +23,10 @@ bool is_model(const IndexRow& row) {
     return row.path.starts_with("models/") && !row.format.starts_with("sidecar") && !row.triangles.empty();
 }
 
-SourceMesh loaded(const std::string& path) {
-    Result<SourceMesh> mesh = load_mesh(shared_data() / "models" / path);
+bake::SourceMesh loaded(const std::string& path) {
+    Result<bake::SourceMesh> mesh = bake::load_mesh(shared_data() / "models" / path);
     EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    return mesh ? *std::move(mesh) : SourceMesh{};
+    return mesh ? *std::move(mesh) : bake::SourceMesh{};
 }
 
 TEST(SharedModels, EveryModelLoadsWithTheTrianglesOfTheIndex) {
@@ -37,7 +37,7 @@ TEST(SharedModels, EveryModelLoadsWithTheTrianglesOfTheIndex) {
             continue;
         }
         SCOPED_TRACE(row.path);
-        const Result<SourceMesh> mesh = load_mesh(shared_data() / row.path);
+        const Result<bake::SourceMesh> mesh = bake::load_mesh(shared_data() / row.path);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         EXPECT_EQ(mesh->triangles.size(), triangles_drawn(row));
@@ -49,7 +49,7 @@ TEST(SharedModels, EveryModelLoadsWithTheTrianglesOfTheIndex) {
 
 TEST(SharedModels, TheSixEncodingsOfNefertitiAreOneSurface) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh obj = loaded("nefertiti_bust/nefertiti-lowres.obj");
+    const bake::SourceMesh obj = loaded("nefertiti_bust/nefertiti-lowres.obj");
     const Extent truth = extent_of(obj);
     const glm::dvec3 size = truth.high - truth.low;
     const double edge = std::max({size.x, size.y, size.z});
@@ -57,7 +57,7 @@ TEST(SharedModels, TheSixEncodingsOfNefertitiAreOneSurface) {
     for (const char* name : {"nefertiti-lowres_le.ply", "nefertiti_draco.glb", "nefertiti_float.glb",
                              "nefertiti_meshopt.glb", "nefertiti_quantized.glb"}) {
         SCOPED_TRACE(name);
-        const SourceMesh mesh = loaded(std::string("nefertiti_bust/") + name);
+        const bake::SourceMesh mesh = loaded(std::string("nefertiti_bust/") + name);
         const Extent extent = extent_of(mesh);
         EXPECT_EQ(mesh.triangles.size(), obj.triangles.size());
         // Draco's 14 bits are the coarsest of the six.
@@ -76,8 +76,8 @@ TEST(SharedModels, StlAndObjOfOneObjectAgree) {
     for (const auto& [obj, stl] :
          std::map<std::string, std::string>{{"goathead/goathead.obj", "goathead/goathead_bin.stl"},
                                             {"wingnut/wingnut.obj", "wingnut/wingnut_ascii.stl"}}) {
-        const SourceMesh a = loaded(obj);
-        const SourceMesh b = loaded(stl);
+        const bake::SourceMesh a = loaded(obj);
+        const bake::SourceMesh b = loaded(stl);
         EXPECT_EQ(a.triangles.size(), b.triangles.size());
         EXPECT_NEAR(area_of(a) / area_of(b), 1.0, 1e-5);
         EXPECT_NEAR(volume_of(a) / volume_of(b), 1.0, 1e-5);
@@ -86,20 +86,20 @@ TEST(SharedModels, StlAndObjOfOneObjectAgree) {
 
 TEST(SharedModels, QuadsAndTrianglesOfTheSwordEncloseTheSameVolume) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh triangles = loaded("oakeshott_sword/sword.obj");
-    const SourceMesh quads = loaded("oakeshott_sword/sword-quad-dominant.obj");
+    const bake::SourceMesh triangles = loaded("oakeshott_sword/sword.obj");
+    const bake::SourceMesh quads = loaded("oakeshott_sword/sword-quad-dominant.obj");
     EXPECT_NEAR(volume_of(quads) / volume_of(triangles), 1.0, 2e-3);
     EXPECT_NEAR(area_of(quads) / area_of(triangles), 1.0, 2e-3);
 }
 
 /// Mean base colour over the surface: the texel at each triangle's middle, weighted by area.
-glm::dvec3 mean_colour(const SourceMesh& mesh) {
+glm::dvec3 mean_colour(const bake::SourceMesh& mesh) {
     glm::dvec3 sum(0.0);
     double total = 0.0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& [a, b, c] = mesh.triangles[i];
-        const SourceMaterial& material = mesh.materials[mesh.triangle_materials[i]];
-        const Image8& image = *mesh.textures.at(static_cast<std::size_t>(material.texture)).image;
+        const bake::SourceMaterial& material = mesh.materials[mesh.triangle_materials[i]];
+        const image::Image8& image = *mesh.textures.at(static_cast<std::size_t>(material.texture)).image;
         const glm::dvec2 uv = glm::dvec2(mesh.uvs[a] + mesh.uvs[b] + mesh.uvs[c]) / 3.0;
         const glm::dvec2 wrapped = uv - glm::floor(uv);
         const glm::u8vec4 texel =
@@ -115,12 +115,12 @@ glm::dvec3 mean_colour(const SourceMesh& mesh) {
 
 TEST(SharedModels, TheCatHasOneColourInItsThreeEncodings) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh jpeg = loaded("egyptian_cat_statue/cat_jpg.glb");
+    const bake::SourceMesh jpeg = loaded("egyptian_cat_statue/cat_jpg.glb");
     const glm::dvec3 truth = mean_colour(jpeg);
     EXPECT_GT(glm::length(truth), 30.0) << "the cat is not black";
     for (const char* name : {"egyptian_cat_statue/cat.glb", "egyptian_cat_statue/cat_meshopt.glb"}) {
         SCOPED_TRACE(name);
-        const SourceMesh mesh = loaded(name);
+        const bake::SourceMesh mesh = loaded(name);
         ASSERT_EQ(mesh.textures.size(), 1U) << "only the base colour is decoded";
         EXPECT_EQ(mesh.textures[0].image->width, 1024);
         EXPECT_LT(glm::length(mean_colour(mesh) - truth), 2.0);
@@ -130,7 +130,7 @@ TEST(SharedModels, TheCatHasOneColourInItsThreeEncodings) {
 
 TEST(SharedModels, EveryFlightHelmetPartHasItsOwnPicture) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    const SourceMesh mesh = loaded("flight_helmet/FlightHelmet.gltf");
+    const bake::SourceMesh mesh = loaded("flight_helmet/FlightHelmet.gltf");
     for (const std::uint32_t material : mesh.triangle_materials) {
         ASSERT_GE(mesh.materials[material].texture, 0);
     }

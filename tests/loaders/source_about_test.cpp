@@ -8,23 +8,24 @@
 namespace frustumscreen::testing {
 namespace {
 
-SourceAbout about_of(const std::string& asset) {
-    return about_of_gltf(nlohmann::json::parse(fmt::format(R"({{"asset":{}}})", asset)));
+bake::SourceAbout about_of(const std::string& asset) {
+    return bake::about_of_gltf(nlohmann::json::parse(fmt::format(R"({{"asset":{}}})", asset)));
 }
 
 TEST(SourceAbout, of_glTF_is_what_Sketchfab_writes_or_the_copyright_notice) {
     EXPECT_EQ(
         about_of(
             R"json({"extras":{"author":"Ann (https://a.org/ann)","title":"A  cat\n","license":"CC-BY-4.0 (http://b.org)","source":"https://a.org/cat"}})json"),
-        (SourceAbout{"A cat", "Ann (https://a.org/ann)", "CC-BY-4.0 (http://b.org)", "https://a.org/cat"}));
+        (bake::SourceAbout{"A cat", "Ann (https://a.org/ann)", "CC-BY-4.0 (http://b.org)",
+                           "https://a.org/cat"}));
     EXPECT_EQ(about_of(R"({"copyright":"2018 (c) Ann, CC-BY 4.0"})"),
-              (SourceAbout{"", "2018 (c) Ann, CC-BY 4.0", "CC-BY 4.0", ""}));
+              (bake::SourceAbout{"", "2018 (c) Ann, CC-BY 4.0", "CC-BY 4.0", ""}));
     EXPECT_EQ(about_of(R"({"copyright":"CC0 - public domain"})").licence, "CC0");
     EXPECT_EQ(about_of(R"({"copyright":"Ann","extras":{"author":"Bo","license":"CC0-1.0"}})"),
-              (SourceAbout{"", "Bo", "CC0-1.0", ""}));
+              (bake::SourceAbout{"", "Bo", "CC0-1.0", ""}));
     for (const char* strange :
          {R"({"copyright":5,"extras":[]})", R"({"extras":{"author":{},"license":null}})", "7"}) {
-        EXPECT_EQ(about_of(strange), SourceAbout()) << strange;
+        EXPECT_EQ(about_of(strange), bake::SourceAbout()) << strange;
     }
     const std::string long_name = std::string(999, 'a') + "\u00E4\u00E4";
     EXPECT_EQ(about_of(fmt::format(R"({{"extras":{{"author":"{}"}}}})", long_name)).author,
@@ -32,37 +33,37 @@ TEST(SourceAbout, of_glTF_is_what_Sketchfab_writes_or_the_copyright_notice) {
 }
 
 TEST(SourceAbout, of_comments_is_the_first_of_a_kind) {
-    SourceAbout about;
-    take_comments(
+    bake::SourceAbout about;
+    bake::take_comments(
         "# Title: Jar\r\n  ## AUTHOR : Ann\n#license:CC0-1.0\n# Licence: other\n#Source: https://a.org\n"
         "newmtl Title: no\n# Blender MTL File: 'None'\n# Material Count: 1\n# Created by: a program\n",
         about);
-    EXPECT_EQ(about, (SourceAbout{"Jar", "Ann", "CC0-1.0", "https://a.org"}));
+    EXPECT_EQ(about, (bake::SourceAbout{"Jar", "Ann", "CC0-1.0", "https://a.org"}));
     about = {};
-    take_comment("Copyright (c) 2020 Ann, CC BY-SA 3.0", about);
-    EXPECT_EQ(about, (SourceAbout{"", "Copyright (c) 2020 Ann, CC BY-SA 3.0", "CC BY-SA 3.0", ""}));
-    take_comments("", about);
-    take_comments("#", about);
+    bake::take_comment("Copyright (c) 2020 Ann, CC BY-SA 3.0", about);
+    EXPECT_EQ(about, (bake::SourceAbout{"", "Copyright (c) 2020 Ann, CC BY-SA 3.0", "CC BY-SA 3.0", ""}));
+    bake::take_comments("", about);
+    bake::take_comments("#", about);
 }
 
 TEST(SourceAbout, comes_with_every_format_that_can_say_it) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "# License: CC0-1.0\nnewmtl a\nKd 1 0 0\n");
     const std::string square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
-    EXPECT_EQ(load_mesh(folder.write("m.obj", "# Author: Ann\nmtllib m.mtl\n" + square))->about,
-              (SourceAbout{"", "Ann", "CC0-1.0", ""}));
+    EXPECT_EQ(bake::load_mesh(folder.write("m.obj", "# Author: Ann\nmtllib m.mtl\n" + square))->about,
+              (bake::SourceAbout{"", "Ann", "CC0-1.0", ""}));
     const std::string ply =
         "ply\nformat ascii 1.0\ncomment Author: Bo\nobj_info title: Jar\nelement vertex 3\n"
         "property float x\nproperty float y\nproperty float z\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    EXPECT_EQ(load_text("m.ply", ply)->about, (SourceAbout{"Jar", "Bo", "", ""}));
+    EXPECT_EQ(load_text("m.ply", ply)->about, (bake::SourceAbout{"Jar", "Bo", "", ""}));
 }
 
 /// The notes on a triangle with this material and these members of the file.
 std::vector<std::string> lost_of(const std::string& material, const std::string& members = "",
                                  const std::string& primitive = "") {
     const std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
-    const Result<SourceMesh> mesh = load_text(
+    const Result<bake::SourceMesh> mesh = load_text(
         "m.gltf",
         gltf_text(
             bytes,
@@ -73,8 +74,8 @@ std::vector<std::string> lost_of(const std::string& material, const std::string&
                         material, primitive, members)));
     EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
     std::vector<std::string> lost;
-    for (const SourceNote& note : mesh ? mesh->notes : std::vector<SourceNote>()) {
-        EXPECT_EQ(note.kind, SourceNote::Kind::Lost);
+    for (const bake::SourceNote& note : mesh ? mesh->notes : std::vector<bake::SourceNote>()) {
+        EXPECT_EQ(note.kind, bake::SourceNote::Kind::Lost);
         lost.push_back(note.text);
     }
     return lost;

@@ -29,7 +29,7 @@ constexpr std::string_view ascii = "solid a name with words\n"
 
 TEST(Stl, BinaryAndAsciiGiveTheSameTriangle) {
     for (const std::string& file : {binary_stl({facet}), std::string(ascii)}) {
-        const Result<SourceMesh> mesh = load_text("part.stl", file);
+        const Result<bake::SourceMesh> mesh = load_text("part.stl", file);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
         EXPECT_EQ(mesh->triangles.size(), 1U);
@@ -40,7 +40,8 @@ TEST(Stl, BinaryAndAsciiGiveTheSameTriangle) {
 }
 
 TEST(Stl, ABinaryFileMayBeginWithSolid) {
-    const Result<SourceMesh> mesh = load_text("part.stl", binary_stl({facet, facet}, "solid from some tool"));
+    const Result<bake::SourceMesh> mesh =
+        load_text("part.stl", binary_stl({facet, facet}, "solid from some tool"));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     EXPECT_EQ(mesh->triangles.size(), 2U);
 }
@@ -55,7 +56,7 @@ TEST(Stl, UpperCaseWordsAndSeveralSolidsAreRead) {
     for (char& c : text) {
         c = static_cast<char>(std::toupper(c));
     }
-    const Result<SourceMesh> mesh = load_text("part.stl", text + std::string(ascii));
+    const Result<bake::SourceMesh> mesh = load_text("part.stl", text + std::string(ascii));
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
     EXPECT_EQ(mesh->triangles.size(), 2U);
 }

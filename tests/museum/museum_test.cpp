@@ -3,16 +3,16 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 namespace {
 
 constexpr MuseumTime noon = 12 * 3600;
 
 /// The steps against one fault that comes at noon and that a person mends five hours later.
-std::vector<Step> steps_against(FaultKind fault, MuseumTime mended_after = 5 * 3600) {
+std::vector<watch::Step> steps_against(FaultKind fault, MuseumTime mended_after = 5 * 3600) {
     const std::vector<FaultEvent> fault_events{{noon, fault, noon + mended_after}};
     const MuseumRun run = simulate(Policy::Ladder, fault_events, 2, 1);
-    std::vector<Step> steps;
+    std::vector<watch::Step> steps;
     for (const TakenStep& taken : run.steps) {
         EXPECT_FALSE(taken.is_false_alarm);
         steps.push_back(taken.act.step);
@@ -20,7 +20,7 @@ std::vector<Step> steps_against(FaultKind fault, MuseumTime mended_after = 5 * 3
     return steps;
 }
 
-using Steps = std::vector<Step>;
+using Steps = std::vector<watch::Step>;
 
 TEST(Museum, WhatSystemdMendsNeedsNoStep) {
     for (const FaultKind fault :
@@ -30,28 +30,30 @@ TEST(Museum, WhatSystemdMendsNeedsNoStep) {
 }
 
 TEST(Museum, EachFaultMeetsTheShortestLadder) {
-    EXPECT_EQ(steps_against(FaultKind::Freeze), Steps{Step::RestartExhibit});
-    EXPECT_EQ(steps_against(FaultKind::TrackerHung), Steps{Step::ResetDevice});
-    EXPECT_EQ(steps_against(FaultKind::DeviceThread), Steps{Step::ResetDevice});
+    EXPECT_EQ(steps_against(FaultKind::Freeze), Steps{watch::Step::RestartExhibit});
+    EXPECT_EQ(steps_against(FaultKind::TrackerHung), Steps{watch::Step::ResetDevice});
+    EXPECT_EQ(steps_against(FaultKind::DeviceThread), Steps{watch::Step::ResetDevice});
     EXPECT_EQ(steps_against(FaultKind::BadSet, 1800),
-              (Steps{Step::ResetDevice, Step::LastGoodSet, Step::Return, Step::LastGoodSet, Step::Return}));
+              (Steps{watch::Step::ResetDevice, watch::Step::LastGoodSet, watch::Step::Return,
+                     watch::Step::LastGoodSet, watch::Step::Return}));
     for (const FaultKind fault : {FaultKind::DriverCrash, FaultKind::GpuWedged}) {
-        EXPECT_EQ(steps_against(fault, 1800), (Steps{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly,
-                                                     Step::Return, Step::DrawPlainly, Step::Return}))
+        EXPECT_EQ(steps_against(fault, 1800),
+                  (Steps{watch::Step::ResetDevice, watch::Step::LastGoodSet, watch::Step::DrawPlainly,
+                         watch::Step::Return, watch::Step::DrawPlainly, watch::Step::Return}))
             << kind_of(fault).name;
     }
 }
 
 TEST(Museum, ADeadTrackerIsGivenUp) {
     EXPECT_EQ(steps_against(FaultKind::TrackerDead),
-              (Steps{Step::ResetDevice, Step::RestartExhibit, Step::Reboot}));
+              (Steps{watch::Step::ResetDevice, watch::Step::RestartExhibit, watch::Step::Reboot}));
 }
 
 TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
     const std::vector<FaultEvent> fault_events{{noon, FaultKind::MachineBroken, noon + 3 * museum_day}};
     const MuseumRun run = simulate(Policy::Ladder, fault_events, 5, 1);
-    EXPECT_LE(run.max_reboots_in_day, reboots_a_day);
-    EXPECT_GE(count_of(run, Step::Reboot), 6U);
+    EXPECT_LE(run.max_reboots_in_day, watch::reboots_a_day);
+    EXPECT_GE(count_of(run, watch::Step::Reboot), 6U);
     EXPECT_GT(run.open.at(static_cast<std::size_t>(VisibleState::Words)),
               20 * run.open.at(static_cast<std::size_t>(VisibleState::Dark)));
     EXPECT_LT(run.longest_dark_s, 300);
@@ -65,7 +67,7 @@ TEST(Museum, MonthsOfEverything) {
     const MuseumRun alone = simulate(Policy::SystemdAlone, fault_events, days, 7);
     const MuseumRun reboots = simulate(Policy::RebootAtEveryTrouble, fault_events, days, 7);
     EXPECT_EQ(false_alarms(ladder), 0U);
-    EXPECT_LE(ladder.max_reboots_in_day, reboots_a_day);
+    EXPECT_LE(ladder.max_reboots_in_day, watch::reboots_a_day);
     const auto whole = static_cast<std::size_t>(VisibleState::Whole);
     const auto dark = static_cast<std::size_t>(VisibleState::Dark);
     EXPECT_GE(ladder.open.at(whole), reboots.open.at(whole));
@@ -75,4 +77,4 @@ TEST(Museum, MonthsOfEverything) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

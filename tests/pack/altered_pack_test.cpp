@@ -2,6 +2,7 @@
 #include "tests/pack/samples.h"
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 TEST(AlteredPack, every_truncation_is_refused_in_one_line) {
     const Bytes bytes = samples::bytes_of(samples::pack());
@@ -69,7 +70,7 @@ TEST(AlteredPack, other_files_are_called_what_they_are) {
     const std::string text(500, 'x');
     const auto bytes = as_bytes(text);
     EXPECT_NE(samples::refusal_of(Bytes(bytes.begin(), bytes.end())).find("not a pack"), std::string::npos);
-    pack_format::ZipWriter zip;
-    zip.add("letter.txt", as_bytes(text), pack_format::Packing::Deflated);
+    pack::ZipWriter zip;
+    zip.add("letter.txt", as_bytes(text), pack::Packing::Deflated);
     EXPECT_NE(samples::refusal_of(zip.finish().value()).find("not a pack"), std::string::npos);
 }

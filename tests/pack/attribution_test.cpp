@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 PackCaption caption_of(std::string maker, std::string place, std::string period, std::string credit) {
@@ -93,4 +93,4 @@ TEST(Attribution, WhatALicenceAsksForIsMissed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

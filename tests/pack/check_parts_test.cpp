@@ -7,11 +7,11 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 std::string fault_of(const Bytes& pack, std::uint64_t* passed = nullptr) {
-    Result<pack_format::PackReader> reader = pack_format::PackReader::open(pack);
+    Result<pack::PackReader> reader = pack::PackReader::open(pack);
     if (!reader) {
         return test::told(reader.error());
     }
@@ -73,7 +73,7 @@ TEST(CheckParts, a_level_may_come_in_any_pieces) {
         const bool is_mesh = name == "levels/0.bin";
         const nlohmann::ordered_json& record = entries.manifest["levels"][is_mesh ? 0 : 1];
         for (int k = 0; k < 200; ++k) {
-            pack_format::LevelScan scan(part.size());
+            pack::LevelScan scan(part.size());
             std::span<const std::byte> left(part);
             while (!left.empty()) {
                 const std::size_t piece = std::min<std::size_t>(left.size(), random() % 70);
@@ -96,14 +96,14 @@ TEST(CheckParts, refuses_pictures_that_are_too_large_or_none) {
         samples::right_hashes(entries);
         return fault_of(samples::put_together(entries));
     };
-    EXPECT_EQ(with_texture(encode_png(Image8(3, 3))), "");
-    EXPECT_NE(with_texture(encode_png(Image8(16385, 1))).find("16385 x 1"), std::string::npos);
+    EXPECT_EQ(with_texture(image::encode_png(image::Image8(3, 3))), "");
+    EXPECT_NE(with_texture(image::encode_png(image::Image8(16385, 1))).find("16385 x 1"), std::string::npos);
     EXPECT_NE(with_texture(samples::some_bytes("no picture")), "");
     // A PNG that only claims to be large: its width is in bytes 16 to 19, the checksum in bytes 29 to 32.
-    Bytes png = encode_png(Image8(3, 3));
+    Bytes png = image::encode_png(image::Image8(3, 3));
     png[16] = std::byte{0x7f};
     EXPECT_NE(with_texture(png), "");
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -2,6 +2,7 @@
 #include "tests/pack/samples.h"
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 

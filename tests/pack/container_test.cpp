@@ -8,6 +8,7 @@
 #include <sstream>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -50,8 +51,8 @@ TEST(Container, the_level_in_the_format_page_is_what_is_written) {
     level.clusters = {{0, 3, {0.0F, 0.0F, 0.5F}, 1.0F, {0.0F, 0.0F, -0.5F}, {0.0F, 0.0F, 1.0F}, 2.0F}};
     const Bytes dump = dump_in_format_page("One triangle");
     ASSERT_FALSE(dump.empty());
-    EXPECT_EQ(pack_format::encode_level(level, {}, glm::dvec3(1.0)).value(), dump);
-    const Result<PackLevel> back = pack_format::decode_level(dump, {}, glm::dvec3(1.0));
+    EXPECT_EQ(pack::encode_level(level, {}, glm::dvec3(1.0)).value(), dump);
+    const Result<PackLevel> back = pack::decode_level(dump, {}, glm::dvec3(1.0));
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->indices, level.indices);
     EXPECT_EQ(back->vertices[2].uv, level.vertices[2].uv);

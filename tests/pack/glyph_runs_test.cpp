@@ -12,6 +12,7 @@
 #include <sstream>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -118,7 +119,7 @@ TEST(GlyphRuns, the_atlas_must_be_theirs) {
     EXPECT_EQ(back->texels, right.texels);
     EXPECT_FALSE(decode_distance_atlas(encode_distance_atlas(DistanceAtlas(31, 36)), runs));
     const Result<DistanceAtlas> coloured =
-        decode_distance_atlas(encode_webp(Image8(32, 36, {1, 2, 3, 255})), runs);
+        decode_distance_atlas(image::encode_webp(image::Image8(32, 36, {1, 2, 3, 255})), runs);
     ASSERT_FALSE(coloured);
     EXPECT_EQ(coloured.error().id, "glyphs.picture_not_grey");
     EXPECT_FALSE(decode_distance_atlas({}, runs));

@@ -4,6 +4,7 @@
 #include <functional>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 using Json = nlohmann::ordered_json;
 
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -144,15 +145,17 @@ TEST(HostilePart, a_picture_is_a_png_or_webp_of_allowed_size) {
          {"textures/0.png", "PNG", [](Bytes& b) { b.resize(b.size() / 2); }},
          {"textures/0.png", "WebP", // of a truncated picture
           [](Bytes& b) {
-              b = encode_webp(samples::texture(13, 7, 1, true));
+              b = image::encode_webp(samples::texture(13, 7, 1, true));
               b.resize(b.size() / 2);
           }},
-         {"textures/0.png", "16000 x 4500", [](Bytes& b) { b = encode_webp(Image8(16000, 4500)); }},
+         {"textures/0.png", "16000 x 4500",
+          [](Bytes& b) { b = image::encode_webp(image::Image8(16000, 4500)); }},
          {"relief/atlas.png", "relief/atlas.png",
-          [](Bytes& b) { b = encode_png(samples::texture(13, 7, 1, true)); }},
-         {"relief/atlas.png", "its texture is", [](Bytes& b) { b = encode_png(Image16(12, 7)); }},
+          [](Bytes& b) { b = image::encode_png(samples::texture(13, 7, 1, true)); }},
+         {"relief/atlas.png", "its texture is",
+          [](Bytes& b) { b = image::encode_png(image::Image16(12, 7)); }},
          // 30000 x 2 texels: few, but wider than drivers accept.
-         {"textures/0.png", "30000 x 2", [](Bytes& b) { b = encode_png(Image8(30000, 2)); }},
+         {"textures/0.png", "30000 x 2", [](Bytes& b) { b = image::encode_png(image::Image8(30000, 2)); }},
          {"textures/0.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }},
          {"relief/atlas.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }}});
 }
@@ -169,8 +172,9 @@ TEST(HostilePart, the_writer_refuses_what_the_reader_would) {
     EXPECT_NE(refused([](Pack& p) { p.levels[0].indices[3] = 99; }).find("level 0"), std::string::npos);
     EXPECT_NE(refused([](Pack& p) { p.levels[0].error.p95_box = not_a_number; }).find("error"),
               std::string::npos);
-    EXPECT_NE(refused([](Pack& p) { p.textures[1] = Image8(13, 6); }).find("13 x 6"), std::string::npos);
-    EXPECT_NE(refused([](Pack& p) { p.textures[0] = Image8(); }).find("texture 0"), std::string::npos);
+    EXPECT_NE(refused([](Pack& p) { p.textures[1] = image::Image8(13, 6); }).find("13 x 6"),
+              std::string::npos);
+    EXPECT_NE(refused([](Pack& p) { p.textures[0] = image::Image8(); }).find("texture 0"), std::string::npos);
     EXPECT_NE(refused([](Pack& p) { p.relief.charts[1].x = 3; }).find("overlaps"), std::string::npos);
     EXPECT_NE(refused([](Pack& p) { p.levels[1].vertices[0].uv[0] = 7; }).find("centre"), std::string::npos);
     EXPECT_NE(refused([](Pack& p) { p.levels[1].vertices[0].position[0] ^= 0x4000U; }).find("vertex 0"),

@@ -4,6 +4,7 @@
 #include <set>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -43,12 +44,12 @@ void mutate(Bytes& bytes, std::mt19937& random) {
 void expect_usable(const Pack& pack) {
     ASSERT_FALSE(pack.levels.empty());
     ASSERT_LT(pack.default_level, pack.levels.size());
-    const Placement placement = place(pack, make_frustum({}));
+    const Placement placement = place(pack, geometry::make_frustum({}));
     ASSERT_TRUE(placement.metres_per_box > 0.05 && placement.metres_per_box < 0.3)
         << placement.metres_per_box;
     for (const PackLevel& level : pack.levels) {
         ASSERT_LT(level.texture, pack.textures.size());
-        const Image8& texture = pack.textures[level.texture];
+        const image::Image8& texture = pack.textures[level.texture];
         ASSERT_EQ(texture.texels.size(),
                   static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height));
         ASSERT_FALSE(texture.texels.empty());

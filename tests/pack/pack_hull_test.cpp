@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 const std::vector<glm::dvec3> corners{
@@ -18,7 +18,7 @@ TEST(PackHull, IsReadAsItWasWrittenAndStandsInAProp) {
     const auto back = verify_pack(*write_pack(pack));
     ASSERT_TRUE(back);
     EXPECT_EQ(hull_of(**back).value(), corners);
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const double scale = place(pack, prop).metres_per_box;
     EXPECT_EQ(hull_in(**back, prop).value()[0], scale * corners[0]);
 }
@@ -48,4 +48,4 @@ TEST(PackHull, ThatIsNotWhatTheFormatSaysIsRefused) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -8,6 +8,7 @@
 #include <functional>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 using Json = nlohmann::ordered_json;
 
 namespace {

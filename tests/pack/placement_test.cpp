@@ -3,6 +3,7 @@
 #include <algorithm>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -34,7 +35,7 @@ Cloud random_cloud(std::mt19937& random) {
 }
 
 /// How far a point is outside the prop, by similar triangles, without the planes of its shape.
-double outside_by(const FrustumSize& prop, const glm::dvec3& p) {
+double outside_by(const geometry::FrustumSize& prop, const glm::dvec3& p) {
     const double half = (prop.base_m + (prop.top_m - prop.base_m) * p.z / prop.height_m) / 2.0;
     return std::max({std::abs(p.x) - half, std::abs(p.y) - half, p.z - prop.height_m, -p.z});
 }
@@ -50,8 +51,10 @@ TEST(Placement, keeps_every_vertex_inside_and_touches_a_side) {
         pack.box_size = cloud.size;
         const glm::dvec3 offset(random() % 100, random() % 100, random() % 100);
         pack.box_from_file = glm::translate(glm::scale(glm::dmat4(1.0), glm::dvec3(0.5)), -offset);
-        const FrustumSize prop = k % 2 == 0 ? FrustumSize{} : FrustumSize{0.1, 0.1, 0.1};
-        const Placement placement = place(pack, k % 2 == 0 ? make_frustum(prop) : make_cube(prop.base_m));
+        const geometry::FrustumSize prop =
+            k % 2 == 0 ? geometry::FrustumSize{} : geometry::FrustumSize{0.1, 0.1, 0.1};
+        const Placement placement =
+            place(pack, k % 2 == 0 ? geometry::make_frustum(prop) : geometry::make_cube(prop.base_m));
         double most = -1.0;
         for (const glm::dvec3& box_point : cloud.points) {
             const glm::dvec3 file_point = box_point * 2.0 + offset;
@@ -78,7 +81,7 @@ TEST(Placement, of_a_cube_shaped_artifact_is_known_by_hand) {
             pack.extremes.insert(pack.extremes.end(), {{x, y, 0.0}, {x, y, 1.0}});
         }
     }
-    const Placement placement = place(pack, make_frustum({}));
+    const Placement placement = place(pack, geometry::make_frustum({}));
     const double side_m = 0.16 * 12.0 / 19.0;
     EXPECT_NEAR(placement.metres_per_box, side_m, 1e-15);
     EXPECT_NEAR(placement.prop_from_artifact[1][1], side_m, 1e-15);
@@ -89,7 +92,7 @@ TEST(Placement, turns_moves_and_scales_in_that_order) {
     // The file's +Y up at scale 1/2 about (1, 2, 3): file (x, y, z) -> box ((x-1)/2, -(z-3)/2, (y-2)/2).
     pack.box_from_file = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0, 0.5, 0),
                                     glm::dvec4(0, -0.5, 0, 0), glm::dvec4(-0.5, 1.5, -1.0, 1));
-    const Placement placement = place(pack, make_frustum({}));
+    const Placement placement = place(pack, geometry::make_frustum({}));
     const double s = placement.metres_per_box;
     const glm::dvec4 p = placement.prop_from_artifact * glm::dvec4(5.0, 6.0, 7.0, 1.0);
     EXPECT_NEAR(p.x, s * 2.0, 1e-15);
@@ -100,14 +103,14 @@ TEST(Placement, turns_moves_and_scales_in_that_order) {
 
 TEST(Placement, is_not_shrunk_by_a_lowest_point_that_rounding_put_below_the_bottom) {
     Pack pack = samples::pack();
-    const double whole = place(pack, make_frustum({})).metres_per_box;
+    const double whole = place(pack, geometry::make_frustum({})).metres_per_box;
     pack.extremes[0].z = -1e-12;
-    EXPECT_NEAR(place(pack, make_frustum({})).metres_per_box, whole, 1e-12);
+    EXPECT_NEAR(place(pack, geometry::make_frustum({})).metres_per_box, whole, 1e-12);
 }
 
 TEST(Placement, a_scale_is_a_factor_on_the_largest_size) {
     Pack pack = samples::pack();
-    const PropShape prop = make_frustum({});
+    const geometry::PropShape prop = geometry::make_frustum({});
     const double largest = place(pack, prop).metres_per_box;
     for (const double scale : {0.05, 0.5, 1.25, 20.0}) {
         pack.scale = scale;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -84,13 +85,14 @@ TEST_F(Program, list_gives_errors_in_millimetres_on_the_default_prop) {
     EXPECT_EQ(json["languages"], nlohmann::json({"en", "pt-BR"}));
     EXPECT_EQ(json["levels"][0]["triangles"], 3);
     EXPECT_EQ(json["parts"].size(), 7U);
-    const double mm_per_box = place(samples::pack(), make_frustum(shipped_frustum)).metres_per_box * 1000.0;
+    const double mm_per_box =
+        place(samples::pack(), geometry::make_frustum(geometry::shipped_frustum)).metres_per_box * 1000.0;
     EXPECT_NEAR(json["levels"][1]["error"]["p95_mm"].get<double>(), 0.002 * mm_per_box, 1e-6);
 }
 
 TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
     const Pack pack = samples::pack();
-    const auto expect_matrix = [&](const std::string& options, const PropShape& prop) {
+    const auto expect_matrix = [&](const std::string& options, const geometry::PropShape& prop) {
         const Outcome outcome = pack_program("explain good.fspack --json " + options);
         ASSERT_EQ(outcome.status, 0) << outcome.error;
         const auto json = nlohmann::json::parse(outcome.out);
@@ -101,9 +103,9 @@ TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
             EXPECT_EQ(matrix[static_cast<std::size_t>(k)], expected[k / 4][k % 4]) << k;
         }
     };
-    expect_matrix("", make_frustum(shipped_frustum));
+    expect_matrix("", geometry::make_frustum(geometry::shipped_frustum));
     ASSERT_TRUE(write_file("cube.toml", as_bytes("[prop]\nkind = \"cube\"\nbase_m = 0.1\nheight_m = 0.1\n")));
-    expect_matrix("--config cube.toml", make_cube(0.1));
+    expect_matrix("--config cube.toml", geometry::make_cube(0.1));
 }
 
 TEST_F(Program, explain_has_everything_that_a_pack_says) {

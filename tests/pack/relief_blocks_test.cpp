@@ -12,6 +12,7 @@
 #include <limits>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -38,11 +39,11 @@ template <typename Number> Bytes with(Bytes bytes, std::size_t at, Number number
 }
 
 std::string refusal(const Bytes& bytes) {
-    const Result<BlockRelief> relief = pack_format::decode_blocks(bytes);
+    const Result<relief::BlockRelief> relief = pack::decode_blocks(bytes);
     return relief ? std::string() : test::told(relief.error());
 }
 
-void expect_equal(const BlockRelief& a, const BlockRelief& b) {
+void expect_equal(const relief::BlockRelief& a, const relief::BlockRelief& b) {
     EXPECT_EQ(a.texel_box, b.texel_box);
     ASSERT_EQ(a.grids.size(), b.grids.size());
     for (std::size_t k = 0; k < a.grids.size(); ++k) {
@@ -53,8 +54,8 @@ void expect_equal(const BlockRelief& a, const BlockRelief& b) {
     EXPECT_EQ(a.first_block, b.first_block);
     ASSERT_EQ(a.blocks.size(), b.blocks.size());
     for (std::size_t k = 0; k < a.blocks.size(); ++k) {
-        const ReliefBlock& x = a.blocks[k];
-        const ReliefBlock& y = b.blocks[k];
+        const relief::ReliefBlock& x = a.blocks[k];
+        const relief::ReliefBlock& y = b.blocks[k];
         EXPECT_EQ(std::tuple(x.u0, x.v0, x.w0, x.w_u, x.w_v, x.residual_low, x.residual_step),
                   std::tuple(y.u0, y.v0, y.w0, y.w_u, y.w_v, y.residual_low, y.residual_step));
         EXPECT_EQ(x.gradient_u, y.gradient_u);
@@ -70,8 +71,8 @@ void expect_equal(const BlockRelief& a, const BlockRelief& b) {
 } // namespace
 
 TEST(ReliefBlocks, the_bytes_lie_where_the_format_page_says) {
-    const BlockRelief relief = samples::block_relief(32);
-    const Bytes bytes = pack_format::encode_blocks(relief);
+    const relief::BlockRelief relief = samples::block_relief(32);
+    const Bytes bytes = pack::encode_blocks(relief);
     ASSERT_EQ(bytes.size(), covers + 8 * relief.covers.size());
     EXPECT_EQ(as_text(bytes).substr(0, 4), "FSRB");
     EXPECT_EQ(read_at<std::uint32_t>(bytes, 8), 32U);
@@ -93,14 +94,14 @@ TEST(ReliefBlocks, the_bytes_lie_where_the_format_page_says) {
 }
 
 TEST(ReliefBlocks, a_part_written_and_read_is_equal) {
-    const BlockRelief relief = samples::block_relief(64);
-    const Result<BlockRelief> read = pack_format::decode_blocks(pack_format::encode_blocks(relief));
+    const relief::BlockRelief relief = samples::block_relief(64);
+    const Result<relief::BlockRelief> read = pack::decode_blocks(pack::encode_blocks(relief));
     ASSERT_TRUE(read) << read.error().message;
     expect_equal(*read, relief);
 }
 
 TEST(ReliefBlocks, a_damaged_part_is_refused) {
-    const Bytes good = pack_format::encode_blocks(samples::block_relief(32));
+    const Bytes good = pack::encode_blocks(samples::block_relief(32));
     ASSERT_EQ(refusal(good), "");
     struct Fault {
         Bytes bytes;
@@ -151,7 +152,7 @@ TEST(ReliefBlocks, a_pack_has_them_and_one_is_read_alone) {
     EXPECT_EQ(reliefs[1].error, (LevelError{0.001F, 0.002F, 0.25F, 0.0F}));
     const std::filesystem::path file = "reliefs.fspack";
     ASSERT_TRUE(write_file(file, bytes));
-    const Result<BlockRelief> finer = load_relief(file, reliefs[1]);
+    const Result<relief::BlockRelief> finer = load_relief(file, reliefs[1]);
     ASSERT_TRUE(finer) << finer.error().message;
     expect_equal(*finer, samples::block_relief(64));
     // A relief that contradicts the manifest is refused; a part that is not chosen is not read.

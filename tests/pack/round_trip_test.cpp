@@ -7,6 +7,7 @@
 #include <filesystem>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 
@@ -126,7 +127,7 @@ TEST(RoundTrip, a_pack_of_meshes_needs_no_relief) {
 
 TEST(RoundTrip, a_texture_is_stored_as_webp_where_that_is_smaller) {
     Pack pack = samples::pack();
-    pack.textures[0] = Image8(300, 200, {10, 20, 30, 255});
+    pack.textures[0] = image::Image8(300, 200, {10, 20, 30, 255});
     pack.textures[0].at(7, 9) = {1, 2, 3, 0};
     const Bytes bytes = samples::bytes_of(pack);
     EXPECT_EQ(samples::take_apart(bytes).manifest["textures"][0], "textures/0.webp");

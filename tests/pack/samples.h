@@ -23,29 +23,29 @@
 namespace frustumscreen::samples {
 
 /// One quad in the plane z = 1/4 of the box and one upright, in two clusters.
-inline PackLevel mesh_level() {
-    PackLevel level;
-    level.technique = LevelTechnique::Mesh;
+inline pack::PackLevel mesh_level() {
+    pack::PackLevel level;
+    level.technique = pack::LevelTechnique::Mesh;
     level.error = {0.0001F, 0.0004F, 0.02F, 3.5F};
     level.vertices = {{{0, 0, 16384}, 0, {0, 0}},
                       {{65535, 0, 16384}, 0, {65535, 0}},
                       {{65535, 65535, 16384}, 0, {65535, 65535}},
                       {{0, 65535, 65535}, 0, {0, 65535}}};
     level.indices = {0, 1, 2, 0, 2, 3, 2, 1, 3};
-    PackCluster first{0, 6, {0.0F, 0.0F, 0.2F}, 0.75F, {0.1F, -0.2F, 0.3F}, {0.0F, 0.6F, 0.8F}, 0.25F};
-    PackCluster second{6, 3, {0.25F, 0.0F, 0.5F}, 0.5F, {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 2.0F};
+    pack::PackCluster first{0, 6, {0.0F, 0.0F, 0.2F}, 0.75F, {0.1F, -0.2F, 0.3F}, {0.0F, 0.6F, 0.8F}, 0.25F};
+    pack::PackCluster second{6, 3, {0.25F, 0.0F, 0.5F}, 0.5F, {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 2.0F};
     level.clusters = {first, second};
     return level;
 }
 
 /// Two charts, one seen from above and one from the front, with an empty texel in each.
-inline ReliefAtlas relief_atlas() {
-    ReliefAtlas atlas;
+inline pack::ReliefAtlas relief_atlas() {
+    pack::ReliefAtlas atlas;
     atlas.texel_box = 0.125F;
-    atlas.charts = {{ReliefDirection::PlusZ, 1, 1, 5, 4, -0.4375F, -0.1875F},
-                    {ReliefDirection::MinusY, 8, 2, 3, 3, -0.25F, 0.0625F}};
-    atlas.relief = Image16(13, 7, 65535);
-    for (const ReliefChart& chart : atlas.charts) {
+    atlas.charts = {{pack::ReliefDirection::PlusZ, 1, 1, 5, 4, -0.4375F, -0.1875F},
+                    {pack::ReliefDirection::MinusY, 8, 2, 3, 3, -0.25F, 0.0625F}};
+    atlas.relief = image::Image16(13, 7, 65535);
+    for (const pack::ReliefChart& chart : atlas.charts) {
         for (int y = chart.y; y < chart.y + chart.height; ++y) {
             for (int x = chart.x; x < chart.x + chart.width; ++x) {
                 atlas.relief.at(x, y) = static_cast<std::uint16_t>((x * 9001 + y * 17011) % 65535);
@@ -58,12 +58,12 @@ inline ReliefAtlas relief_atlas() {
 }
 
 /// Where a texel lies according to pack.h, written out for the two directions used here.
-inline PackVertex vertex_at(const ReliefAtlas& atlas, const ReliefChart& chart, int x, int y,
-                            const glm::dvec3& box) {
+inline pack::PackVertex vertex_at(const pack::ReliefAtlas& atlas, const pack::ReliefChart& chart, int x,
+                                  int y, const glm::dvec3& box) {
     const double u = static_cast<double>(chart.u0_box) + 0.125 * (x - chart.x);
     const double v = static_cast<double>(chart.v0_box) + 0.125 * (y - chart.y);
     const double along = atlas.relief.at(x, y) / 65534.0;
-    const glm::dvec3 unit = chart.direction == ReliefDirection::PlusZ
+    const glm::dvec3 unit = chart.direction == pack::ReliefDirection::PlusZ
                                 ? glm::dvec3(u / box.x + 0.5, v / box.y + 0.5, along)
                                 : glm::dvec3(u / box.x + 0.5, along, v / box.z);
     const auto code = [](double value) { return static_cast<std::uint16_t>(std::lround(value * 65535.0)); };
@@ -71,12 +71,12 @@ inline PackVertex vertex_at(const ReliefAtlas& atlas, const ReliefChart& chart, 
 }
 
 /// A triangle for every texel whose right and lower neighbours are filled too.
-inline PackLevel relief_level(const ReliefAtlas& atlas, const glm::dvec3& box) {
-    PackLevel level;
-    level.technique = LevelTechnique::Relief;
+inline pack::PackLevel relief_level(const pack::ReliefAtlas& atlas, const glm::dvec3& box) {
+    pack::PackLevel level;
+    level.technique = pack::LevelTechnique::Relief;
     level.error = {0.001F, 0.002F, 0.003F, 12.25F};
     level.texture = 1;
-    for (const ReliefChart& chart : atlas.charts) {
+    for (const pack::ReliefChart& chart : atlas.charts) {
         const auto first = static_cast<std::uint32_t>(level.indices.size());
         for (int y = chart.y; y + 1 < chart.y + chart.height; ++y) {
             for (int x = chart.x; x + 1 < chart.x + chart.width; ++x) {
@@ -90,7 +90,7 @@ inline PackLevel relief_level(const ReliefAtlas& atlas, const glm::dvec3& box) {
                 }
             }
         }
-        PackCluster cluster;
+        pack::PackCluster cluster;
         cluster.first_index = first;
         cluster.index_count = static_cast<std::uint32_t>(level.indices.size()) - first;
         cluster.radius = 1.5F;
@@ -99,9 +99,9 @@ inline PackLevel relief_level(const ReliefAtlas& atlas, const glm::dvec3& box) {
     return level;
 }
 
-inline Image8 texture(int width, int height, unsigned seed, bool opaque) {
+inline image::Image8 texture(int width, int height, unsigned seed, bool opaque) {
     std::mt19937 random(seed);
-    Image8 image(width, height);
+    image::Image8 image(width, height);
     for (glm::u8vec4& texel : image.texels) {
         const auto code = static_cast<std::uint32_t>(random());
         texel = {code & 255U, (code >> 8) & 255U, (code >> 16) & 255U, opaque ? 255U : code >> 24};
@@ -110,8 +110,8 @@ inline Image8 texture(int width, int height, unsigned seed, bool opaque) {
 }
 
 /// A pack without sections: levels of both kinds, in few bytes.
-inline Pack pack() {
-    Pack pack;
+inline pack::Pack pack() {
+    pack::Pack pack;
     pack.title = "Amphora \xC3\xA0 colonnettes";
     pack.languages = {"en", "pt-BR"};
     pack.captions = {{"en", "Amphora", "Clay, wheel-made.\nAbout 540 BC."}, {"pt-BR", "\xC3\x82nfora", ""}};
@@ -138,8 +138,8 @@ inline Bytes some_bytes(std::string_view text) {
 }
 
 /// A pack with every section that the description has members for, an unknown section, and sounds.
-inline Pack full_pack() {
-    Pack pack = samples::pack();
+inline pack::Pack full_pack() {
+    pack::Pack pack = samples::pack();
     pack.id = "museum-1234.a";
     pack.captions[0].period = "about 540 BC";
     pack.captions[0].place = "Athens";
@@ -168,8 +168,8 @@ inline Pack full_pack() {
 }
 
 /// One letter, a block of 3 x 4 texels, in a title that is broken for one width.
-inline SetLanguage set_language(const std::string& language, TextDirection direction) {
-    SetLanguage set{language, {}, DistanceAtlas(5, 6, 255)};
+inline pack::SetLanguage set_language(const std::string& language, pack::TextDirection direction) {
+    pack::SetLanguage set{language, {}, pack::DistanceAtlas(5, 6, 255)};
     set.runs.texels_per_em = 8;
     set.runs.spread_texels = 1;
     set.runs.atlas_width = 5;
@@ -180,29 +180,29 @@ inline SetLanguage set_language(const std::string& language, TextDirection direc
 }
 
 /// Texts in three languages, one of them without letters, and a sound.
-inline Pack pack_with_words() {
-    Pack pack = samples::pack();
-    SetLanguage without_letters = set_language("fr", TextDirection::LeftToRight);
+inline pack::Pack pack_with_words() {
+    pack::Pack pack = samples::pack();
+    pack::SetLanguage without_letters = set_language("fr", pack::TextDirection::LeftToRight);
     without_letters.atlas = {};
     without_letters.runs.atlas_width = without_letters.runs.atlas_height = 0;
     without_letters.runs.boxes = {{}};
-    put_sounds(
-        pack, std::vector<SpokenLanguage>{{"en", {{"description", some_bytes("OggS english")}}}, {"fr", {}}});
-    put_set_texts(pack, std::vector{set_language("en", TextDirection::LeftToRight),
-                                    set_language("pt-BR", TextDirection::RightToLeft), without_letters,
-                                    SetLanguage{"de", {}, {}}});
+    pack::put_sounds(pack, std::vector<pack::SpokenLanguage>{
+                               {"en", {{"description", some_bytes("OggS english")}}}, {"fr", {}}});
+    pack::put_set_texts(pack, std::vector{set_language("en", pack::TextDirection::LeftToRight),
+                                          set_language("pt-BR", pack::TextDirection::RightToLeft),
+                                          without_letters, pack::SetLanguage{"de", {}, {}}});
     return pack;
 }
 
 /// Blocks of a hill in two directions, of `texels`: one whole, one with cells left out, one of a single cell.
-inline BlockRelief block_relief(int texels) {
-    BlockRelief relief;
+inline relief::BlockRelief block_relief(int texels) {
+    relief::BlockRelief relief;
     relief.texel_box = static_cast<float>(1.0 / texels);
     relief.grids = {{{1, 2, 0}, -1.0, {-0.5, -0.25 - 0.5 / texels, -0.5 / texels}},
                     {{0, 1, 2}, 1.0, {-0.5 - 0.5 / texels, -0.25 - 0.5 / texels, 0.0}}};
     relief.first_block = {0, 1, 3};
     const auto add = [&](int u0, int v0, float w0, std::uint64_t mask, std::array<std::uint8_t, 4> cells) {
-        ReliefBlock block;
+        relief::ReliefBlock block;
         block.u0 = static_cast<float>(u0);
         block.v0 = static_cast<float>(v0);
         block.w0 = w0;
@@ -240,15 +240,16 @@ inline BlockRelief block_relief(int texels) {
 }
 
 /// A pack with two reliefs and its levels.
-inline Pack pack_with_reliefs() {
-    Pack pack = samples::pack();
-    put_reliefs(pack, std::vector<MeasuredRelief>{{block_relief(32), {0.01F, 0.02F, 0.03F, 4.5F}},
-                                                  {block_relief(64), {0.001F, 0.002F, 0.25F, 0.0F}}});
+inline pack::Pack pack_with_reliefs() {
+    pack::Pack pack = samples::pack();
+    pack::put_reliefs(pack,
+                      std::vector<pack::MeasuredRelief>{{block_relief(32), {0.01F, 0.02F, 0.03F, 4.5F}},
+                                                        {block_relief(64), {0.001F, 0.002F, 0.25F, 0.0F}}});
     return pack;
 }
 
-inline Bytes bytes_of(const Pack& pack) {
-    Result<Bytes> bytes = write_pack(pack);
+inline Bytes bytes_of(const pack::Pack& pack) {
+    Result<Bytes> bytes = pack::write_pack(pack);
     EXPECT_TRUE(bytes) << (bytes ? "" : bytes.error().message);
     return bytes ? *bytes : Bytes{};
 }
@@ -278,14 +279,14 @@ struct Entries {
 /// Throws if the bytes are no pack: a fuzzer's bytes may claim any size.
 inline Entries take_apart(const Bytes& bytes) {
     constexpr std::uint64_t max_bytes = 1U << 28U;
-    auto zip = pack_format::ZipReader::open(bytes);
+    auto zip = pack::ZipReader::open(bytes);
     Entries entries;
-    for (const pack_format::ZipEntry& entry : zip.value().entries()) {
+    for (const pack::ZipEntry& entry : zip.value().entries()) {
         if (entry.bytes > max_bytes) {
             throw std::length_error(entry.name);
         }
         const Bytes part = zip->read(entry).value();
-        if (entry.name == pack_format::manifest_name) {
+        if (entry.name == pack::manifest_name) {
             entries.manifest = nlohmann::ordered_json::parse(as_text(part));
         } else {
             entries.parts.push_back({entry.name, part});
@@ -297,10 +298,10 @@ inline Entries take_apart(const Bytes& bytes) {
 /// Packs the parts unchanged, with this text as the manifest.
 inline Bytes put_together(const std::string& manifest,
                           const std::vector<std::pair<std::string, Bytes>>& parts) {
-    pack_format::ZipWriter zip;
-    zip.add("manifest.json", as_bytes(manifest), pack_format::Packing::Deflated);
+    pack::ZipWriter zip;
+    zip.add("manifest.json", as_bytes(manifest), pack::Packing::Deflated);
     for (const auto& [name, bytes] : parts) {
-        zip.add(name, bytes, pack_format::Packing::Stored);
+        zip.add(name, bytes, pack::Packing::Stored);
     }
     return zip.finish().value();
 }
@@ -314,7 +315,7 @@ inline void right_hashes(Entries& entries) {
         for (const auto& [name, bytes] : entries.parts) {
             if (record["name"] == name) {
                 record["bytes"] = bytes.size();
-                record["sha256"] = sha256_hex(bytes);
+                record["sha256"] = pack::sha256_hex(bytes);
             }
         }
     }
@@ -322,7 +323,7 @@ inline void right_hashes(Entries& entries) {
 
 /// The message with which the bytes are refused; empty if they are accepted.
 inline std::string refusal_of(const Bytes& bytes) {
-    const Result<VerifiedPack> pack = verify_pack(bytes);
+    const Result<pack::VerifiedPack> pack = pack::verify_pack(bytes);
     return pack ? std::string() : test::told(pack.error());
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -214,7 +215,7 @@ TEST(Sections, the_writer_refuses_what_the_reader_would) {
         p.section_parts["levels/0.bin"] = samples::some_bytes("x");
     });
     refused("0 bytes", [](Pack& p) { p.section_parts["glyphs/runs.bin"].clear(); });
-    refused("1025 x 1", [](Pack& p) { p.table_picture = Image8(1025, 1); });
+    refused("1025 x 1", [](Pack& p) { p.table_picture = image::Image8(1025, 1); });
 }
 
 TEST_F(PackFile, a_card_has_what_the_table_shows) {

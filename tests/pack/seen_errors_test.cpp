@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 using Json = nlohmann::json;
@@ -120,4 +120,4 @@ TEST(SeenErrors, ThatAreNotWhatTheFormatSaysAreRefused) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -7,6 +7,7 @@
 #include <numeric>
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 

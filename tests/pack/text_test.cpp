@@ -3,6 +3,7 @@
 #include "tests/pack/samples.h"
 
 using namespace frustumscreen;
+using namespace frustumscreen::pack;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 using std::chrono::milliseconds;
@@ -242,4 +242,4 @@ TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 using std::chrono::milliseconds;
@@ -431,4 +431,4 @@ TEST(Buttons, SamplingOnlyWhenSomethingIsDueGivesTheSameAsSamplingAlways) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -7,7 +7,7 @@
 #include <array>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 /// A configuration from independent sources, and the pins that it removes from GPIO.
@@ -85,4 +85,4 @@ TEST(Cp2112, AChipThatIsNotThereOrIsNoCp2112HasNoConfiguration) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

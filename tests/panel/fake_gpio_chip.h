@@ -16,7 +16,7 @@
 #include <mutex>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 template <typename Struct> Answer answer_with(const Struct& value) {
     const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
@@ -165,4 +165,4 @@ private:
     PluggedDevices devices_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

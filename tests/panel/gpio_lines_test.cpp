@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 LineRequest three_buttons() {
@@ -213,4 +213,4 @@ TEST_F(GpioLines, APanelOverThemHearsAPressAndFindsThePluggedChipAgain) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 std::vector<std::byte> bytes_of(std::initializer_list<unsigned> values) {
@@ -139,4 +139,4 @@ TEST(KeyFiles, AKeyboardWithoutTheKeysIsLeftToOthers) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 using std::chrono::milliseconds;
@@ -190,4 +190,4 @@ TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

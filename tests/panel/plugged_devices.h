@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 
 /// A device's answer to one ioctl: its result, or minus an errno, and the bytes.
 struct Answer {
@@ -98,4 +98,4 @@ private:
     std::list<Node> nodes_; ///< a list, because addresses of its elements are in use
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::panel {
 namespace {
 
 using std::chrono::seconds;
@@ -46,4 +46,4 @@ TEST(ScriptedPanel, AnEmptyScriptPressesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::panel

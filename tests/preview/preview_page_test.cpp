@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 constexpr const char* hostile = "</title><script>alert(\"1\")</script><img src=http://x/y onerror=z> & 'so'";
@@ -20,12 +20,12 @@ protected:
         pack.title = hostile;
         pack.id = "jug";
         pack.languages = {"en", "ar"};
-        PackCaption english;
+        pack::PackCaption english;
         english.language = "en";
         english.title = hostile;
         english.text = std::string("first line\n") + hostile;
         english.maker = english.credit = english.place = english.period = english.description = hostile;
-        PackCaption arabic;
+        pack::PackCaption arabic;
         arabic.language = "ar";
         arabic.title = "جرة";
         pack.captions = {english, arabic};
@@ -39,10 +39,11 @@ protected:
         media.turn.rows = 2;
         media.turn.frames = 4;
         media.turn.size = {16, 8};
-        media.turn.sheet = Image8(32, 16, {90, 60, 30, 255});
+        media.turn.sheet = image::Image8(32, 16, {90, 60, 30, 255});
         media.turn.marks = {std::vector<MarkPlace>(4, {0.25, 0.5, true})};
-        media.table_picture = Image8(4, 4, {1, 2, 3, 255});
-        const ProjectedText text{hostile, encode_webp(Image8(5, 3, {255, 255, 255, 255})), {5, 3}};
+        media.table_picture = image::Image8(4, 4, {1, 2, 3, 255});
+        const ProjectedText text{
+            hostile, image::encode_webp(image::Image8(5, 3, {255, 255, 255, 255})), {5, 3}};
         Bytes sound(40);
         std::copy_n(as_bytes("OggS").begin(), 4, sound.begin());
         std::copy_n(as_bytes("OpusHead").begin(), 8, sound.begin() + 28);
@@ -62,7 +63,7 @@ protected:
                                .c_str());
     }
 
-    PackDescription pack;
+    pack::PackDescription pack;
     PreviewFacts facts;
     PreviewMedia media;
 };
@@ -86,11 +87,11 @@ TEST_F(PreviewPage, WithoutItsReloadingItIsOneThatRests) {
 }
 
 TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
-    PackDescription bare;
+    pack::PackDescription bare;
     bare.title = "Jug";
     media.turn.marks.clear();
     media.languages.clear();
-    media.table_picture = Image8();
+    media.table_picture = image::Image8();
     EXPECT_EQ(check(preview_page(bare, {}, media), "--pictures 1 --sounds 0 --text 'Nothing of the scan'"),
               0);
 }
@@ -112,13 +113,13 @@ TEST(Base64, IsThatOfTheStandard) {
 }
 
 TEST(LossyWebp, LooksLikeThePicture) {
-    Image8 picture(64, 48);
+    image::Image8 picture(64, 48);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             picture.at(x, y) = {40 + 2 * x, 60 + 2 * y, 100, 255};
         }
     }
-    const Bytes bytes = encode_lossy_webp(picture, 82.0F);
+    const Bytes bytes = image::encode_lossy_webp(picture, 82.0F);
     int width = 0;
     int height = 0;
     std::uint8_t* const texels =
@@ -133,8 +134,8 @@ TEST(LossyWebp, LooksLikeThePicture) {
         }
     }
     WebPFree(texels);
-    EXPECT_TRUE(encode_lossy_webp(Image8(), 82.0F).empty());
+    EXPECT_TRUE(image::encode_lossy_webp(image::Image8(), 82.0F).empty());
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

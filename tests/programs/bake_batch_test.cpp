@@ -2,7 +2,7 @@
 #include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST_F(BakeBatch, WhatIsWrongWithTheWholeIsSaidInOneLine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

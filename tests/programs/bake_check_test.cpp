@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,9 +24,9 @@ protected:
                              "usemtl skin\n"
                              "f 1/1 3/2 2/3\nf 1/1/1 2/2/1 4/3/1\nf 1/1 4/2 3/3\nf 2/1 3/2 4/3\n");
         put("scans/box.mtl", "newmtl skin\nmap_Kd skin.png\n");
-        Image8 picture(32, 16, {200, 120, 60, 255});
+        image::Image8 picture(32, 16, {200, 120, 60, 255});
         picture.at(3, 3) = {10, 10, 200, 255};
-        ASSERT_TRUE(write_file(folder / "scans/skin.png", encode_png(picture)));
+        ASSERT_TRUE(write_file(folder / "scans/skin.png", image::encode_png(picture)));
     }
     [[nodiscard]] int check(const std::string& arguments) const {
         return run("frustumscreen-bake --check " + arguments);
@@ -151,4 +151,4 @@ TEST_F(BakeCheck, TheStatusIsZeroOneOrTwo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

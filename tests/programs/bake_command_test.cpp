@@ -17,7 +17,7 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ protected:
                         "usemtl skin\n"
                         "f 1/1 3/2 2/3\nf 1/1 2/2 4/3\nf 1/1 4/2 3/3\nf 2/1 3/2 4/3\n");
         put("scan.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\nmap_Ks shine.png\n");
-        const Bytes picture = encode_png(Image8(4, 4, {200, 120, 60, 255}));
+        const Bytes picture = image::encode_png(image::Image8(4, 4, {200, 120, 60, 255}));
         ASSERT_TRUE(write_file(folder / "skin.png", picture));
         ASSERT_TRUE(write_file(folder / "shine.png", picture));
         put("notes.txt", "what the curator wrote down");
@@ -62,7 +62,7 @@ protected:
 TEST_F(BakeCommand, WritesAPackAndReplacesAPack) {
     for (int time = 0; time < 2; ++time) {
         ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
-        EXPECT_TRUE(load_pack(folder / "scan.fspack"));
+        EXPECT_TRUE(pack::load_pack(folder / "scan.fspack"));
     }
 }
 
@@ -81,7 +81,7 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     ASSERT_EQ(bake_to("scan.fspack", "--json --up z --turn 30 --scale 0.5 --lift 0.25"), 0)
         << text("err.txt");
     const nlohmann::json report = nlohmann::json::parse(text("out.txt"));
-    const Result<VerifiedPack> pack = load_pack(folder / "scan.fspack");
+    const Result<pack::VerifiedPack> pack = pack::load_pack(folder / "scan.fspack");
     ASSERT_TRUE(pack) << pack.error().message;
     EXPECT_EQ(report["bytes"], fs::file_size(folder / "scan.fspack"));
     EXPECT_EQ(report["up"], "+z");
@@ -94,15 +94,15 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     const double longest = std::max(wide, 1.25);
     EXPECT_NEAR((*pack)->box_size.x, wide / longest, 1e-6);
     EXPECT_NEAR((*pack)->box_size.z, 1.25 / longest, 1e-6);
-    const Placement placement = place(**pack, make_frustum(shipped_frustum));
+    const pack::Placement placement = pack::place(**pack, geometry::make_frustum(geometry::shipped_frustum));
     const glm::dvec3 foot(placement.prop_from_artifact * glm::dvec4(0, 0, 0, 1));
     const glm::dvec3 tip(placement.prop_from_artifact * glm::dvec4(0, 0, 1, 1));
     EXPECT_NEAR(foot.z, 0.25 * (tip.z - foot.z), 1e-9);
     EXPECT_NEAR(report["size_m"][2], tip.z - foot.z, 1e-4); // 16-bit positions
     ASSERT_EQ(bake_to("whole.fspack", "--up z --turn 30 --lift 0.25"), 0) << text("err.txt");
-    const Result<VerifiedPack> whole = load_pack(folder / "whole.fspack");
-    EXPECT_NEAR(place(**whole, make_frustum(shipped_frustum)).metres_per_box, 2.0 * placement.metres_per_box,
-                1e-12);
+    const Result<pack::VerifiedPack> whole = pack::load_pack(folder / "whole.fspack");
+    EXPECT_NEAR(pack::place(**whole, geometry::make_frustum(geometry::shipped_frustum)).metres_per_box,
+                2.0 * placement.metres_per_box, 1e-12);
 }
 
 TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
@@ -115,7 +115,7 @@ TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
     EXPECT_FALSE(fs::exists(folder / "strict.fspack"));
     ASSERT_EQ(bake_to("strict.fspack", "--strict --texture skin.png"), 0) << text("err.txt");
     EXPECT_EQ(text("err.txt"), "");
-    EXPECT_TRUE(load_pack(folder / "strict.fspack"));
+    EXPECT_TRUE(pack::load_pack(folder / "strict.fspack"));
     EXPECT_EQ(bake_to("skin.png", "--force --texture skin.png"), 1) << "the picture is an input";
 }
 
@@ -129,15 +129,15 @@ TEST_F(BakeCommand, WhatTheFileSaysOfItselfIsTakenOverAndTold) {
     EXPECT_EQ(report["licence"], "CC-BY-4.0");
     EXPECT_EQ(report["missing"].size(), 0U) << report["missing"];
     EXPECT_EQ(report["taken"].size(), 2U) << "from the file, and the id";
-    Result<VerifiedPack> pack = load_pack(folder / "Jar of Ann.fspack");
+    Result<pack::VerifiedPack> pack = pack::load_pack(folder / "Jar of Ann.fspack");
     ASSERT_TRUE(pack);
-    EXPECT_EQ(scan_rights(**pack).value(), (ScanRights{"CC-BY-4.0", "Ann", ""}));
+    EXPECT_EQ(pack::scan_rights(**pack).value(), (pack::ScanRights{"CC-BY-4.0", "Ann", ""}));
     EXPECT_EQ(report["id"], (*pack)->id);
     EXPECT_TRUE((*pack)->id.starts_with("jar-of-ann-")) << (*pack)->id;
 
     ASSERT_EQ(bake_to("jar.fspack", "--licence CC0-1.0 --author Bo --title Jug"), 0) << text("err.txt");
-    pack = load_pack(folder / "jar.fspack");
-    EXPECT_EQ(scan_rights(**pack).value(), (ScanRights{"CC0-1.0", "Bo", ""}));
+    pack = pack::load_pack(folder / "jar.fspack");
+    EXPECT_EQ(pack::scan_rights(**pack).value(), (pack::ScanRights{"CC0-1.0", "Bo", ""}));
     EXPECT_EQ((*pack)->title, "Jug");
     EXPECT_EQ((*pack)->id, "jar");
     EXPECT_NE(
@@ -165,7 +165,7 @@ TEST_F(BakeCommand, WhatAPackShouldSayIsMissedAtTheBakeAndWhenItIsSigned) {
 TEST_F(BakeCommand, AnIdOfTheNameIsTheSameForTheSameNameAndAnotherForAnother) {
     const auto id_of = [&](const std::string& name) {
         EXPECT_EQ(bake_to(name), 0) << text("err.txt");
-        const Result<VerifiedPack> pack = load_pack(folder / name);
+        const Result<pack::VerifiedPack> pack = pack::load_pack(folder / name);
         return pack ? (*pack)->id : std::string();
     };
     EXPECT_EQ(id_of("vase_2.old.fspack"), "vase_2.old");
@@ -190,12 +190,12 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
         << text("err.txt");
     EXPECT_EQ(nlohmann::json::parse(text("out.txt"))["spoken"], nlohmann::json({"en", "he"}));
     const std::vector<std::string> both{"he", "en"};
-    const Result<std::vector<SetLanguage>> set = load_set_texts(folder / "vase.fspack", both);
+    const Result<std::vector<pack::SetLanguage>> set = pack::load_set_texts(folder / "vase.fspack", both);
     ASSERT_TRUE(set) << set.error().message;
     ASSERT_EQ(set->size(), 2U);
-    EXPECT_EQ((*set)[1].runs.find("title")->direction, TextDirection::RightToLeft);
+    EXPECT_EQ((*set)[1].runs.find("title")->direction, pack::TextDirection::RightToLeft);
     EXPECT_NE((*set)[1].runs.find("description.0"), nullptr);
-    EXPECT_FALSE(load_sound(folder / "vase.fspack", "he", "description")->empty());
+    EXPECT_FALSE(pack::load_sound(folder / "vase.fspack", "he", "description")->empty());
     EXPECT_EQ(run("frustumscreen-pack verify vase.fspack"), 0) << text("err.txt");
 
     ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt"); // with the default voice
@@ -248,7 +248,7 @@ TEST_F(BakeCommand, ThePreviewShowsFourSides) {
     ASSERT_EQ(run("frustumscreen-pack preview scan.fspack -o sides.png"), 0) << text("err.txt");
     const Result<Bytes> file = read_file(folder / "sides.png");
     ASSERT_TRUE(file) << file.error().message;
-    const Result<Image8> picture = decode_png8(*file, 1 << 24);
+    const Result<image::Image8> picture = image::decode_png8(*file, 1 << 24);
     ASSERT_TRUE(picture) << picture.error().message;
     std::array<int, 4> lit{};
     for (int y = 0; y < picture->height; ++y) {
@@ -264,7 +264,7 @@ TEST_F(BakeCommand, ThePreviewShowsFourSides) {
     }
     EXPECT_EQ(run("frustumscreen-pack preview scan.obj -o sides.png"), 1);
     EXPECT_EQ(run("frustumscreen-pack preview scan.fspack -o scan.fspack"), 1);
-    EXPECT_TRUE(load_pack(folder / "scan.fspack")) << "its input is as it was";
+    EXPECT_TRUE(pack::load_pack(folder / "scan.fspack")) << "its input is as it was";
 }
 
 TEST_F(BakeCommand, NeverReplacesItsInput) {
@@ -286,7 +286,7 @@ TEST_F(BakeCommand, NeverReplacesAFileThatTheModelNames) {
 TEST_F(BakeCommand, ReplacesAnotherFileOnlyByForce) {
     refused("notes.txt", "notes.txt: this file exists and is not a pack");
     ASSERT_EQ(bake_to("notes.txt", "--force"), 0) << text("err.txt");
-    EXPECT_TRUE(load_pack(folder / "notes.txt"));
+    EXPECT_TRUE(pack::load_pack(folder / "notes.txt"));
 }
 
 TEST_F(BakeCommand, LooksAtTheOutputBeforeTheWork) {
@@ -318,7 +318,7 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
     ASSERT_EQ(
         bake_to("scan.fspack", "--title Cat --language en --language DE --caption 'de=Eine Katze=Kater.'"), 0)
         << text("err.txt");
-    const auto pack = load_pack(folder / "scan.fspack");
+    const auto pack = pack::load_pack(folder / "scan.fspack");
     ASSERT_TRUE(pack);
     ASSERT_EQ((*pack)->captions.size(), 2U);
     EXPECT_EQ((*pack)->captions[0].text, "");
@@ -363,7 +363,7 @@ labels = { en = "Side" }
     file.replace(file.find("[0.2, 0.2, 0.0]"), 15, "[0.0, 0.2, 0.2]");
     put("vase/artifact.toml", file);
     ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt");
-    const auto pack = load_pack(folder / "vase.fspack");
+    const auto pack = pack::load_pack(folder / "vase.fspack");
     ASSERT_TRUE(pack) << pack.error().message;
     EXPECT_EQ((*pack)->id, "vase-1");
     EXPECT_EQ((*pack)->title, "Vase");
@@ -397,14 +397,15 @@ TEST_F(BakeCommand, OptionsStandAboveTheFolder) {
                   "--language en --caption 'fr=Un vase.' --up z"),
               0)
         << text("err.txt");
-    const auto pack = load_pack(folder / "a.fspack");
+    const auto pack = pack::load_pack(folder / "a.fspack");
     ASSERT_TRUE(pack) << pack.error().message;
     EXPECT_EQ((*pack)->prop_kind, "frustum");
     EXPECT_EQ((*pack)->scale, 2.0);
     EXPECT_EQ((*pack)->provenance.licence, "b");
     ASSERT_EQ((*pack)->captions.size(), 2U);
-    EXPECT_TRUE((*pack)->captions[0] == (PackCaption{"fr", "Vase", "Un vase.", "", "Paris", "", "", ""}));
-    EXPECT_TRUE((*pack)->captions[1] == (PackCaption{"en", "scan", ""}));
+    EXPECT_TRUE((*pack)->captions[0] ==
+                (pack::PackCaption{"fr", "Vase", "Un vase.", "", "Paris", "", "", ""}));
+    EXPECT_TRUE((*pack)->captions[1] == (pack::PackCaption{"en", "scan", ""}));
     EXPECT_EQ(run("frustumscreen-bake vase -o vase/artifact.toml --force"), 1) << "it is an input";
     EXPECT_EQ(run("frustumscreen-bake vase"), 2) << "no output is named";
     put("vase/artifact.toml", "scan = \"scan.obj\"\nlicense = \"a\"\n");
@@ -420,7 +421,7 @@ TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
     ASSERT_EQ(run("frustumscreen-pack preview scan.fspack --table -o table.png"), 0) << text("err.txt");
     const Result<Bytes> file = read_file(folder / "table.png");
     ASSERT_TRUE(file);
-    const Result<Image8> picture = decode_png8(*file, 1 << 24);
+    const Result<image::Image8> picture = image::decode_png8(*file, 1 << 24);
     ASSERT_TRUE(picture);
     EXPECT_EQ(std::max(picture->width, picture->height), 256);
     EXPECT_EQ(picture->at(0, 0).a, 0);
@@ -447,4 +448,4 @@ TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

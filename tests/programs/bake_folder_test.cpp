@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,9 +102,9 @@ TEST_F(BakeFolder, TheArtifactFileStandsForItsFolder) {
     ASSERT_EQ(bake("[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n"), 0) << text("err.txt");
     ASSERT_EQ(run("frustumscreen-bake jug/artifact.toml -o again.fspack --speech none"), 0)
         << text("err.txt");
-    EXPECT_EQ((*load_pack(folder / "again.fspack"))->title, "Jug");
+    EXPECT_EQ((*pack::load_pack(folder / "again.fspack"))->title, "Jug");
     ASSERT_EQ(run("frustumscreen-bake artifact.toml -o again.fspack"), 1) << "there is none here";
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

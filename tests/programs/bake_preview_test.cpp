@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST_F(BakePreview, WhatCannotBeWatchedIsSaid) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

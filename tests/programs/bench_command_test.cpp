@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 class BenchCounts : public ProgramFolder {
@@ -163,4 +163,4 @@ TEST_F(BenchReport, APageOrAFolderThatIsMissingIsNamed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 class CameraCommand : public ProgramFolder {
@@ -52,4 +52,4 @@ TEST_F(CameraCommand, WrongUseIsTwo) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 constexpr const char* lens = "[projector]\nwidth = 1280\nheight = 800\nthrow_ratio = 1.5\n";
@@ -150,4 +150,4 @@ TEST_F(ConfigCommand, SaysThisWeeksHours) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

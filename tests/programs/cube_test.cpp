@@ -11,7 +11,7 @@
 #include <cstring>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 /// A six-sided die of unequal pyramids on a core: every side is visible, the bottom too.
@@ -92,4 +92,4 @@ TEST_F(CubeProgram, ErrorTimeHoldsItAgainstTheTruthInSixDegreesOfFreedom) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class CuratorFolder : public ProgramFolder {
 protected:
@@ -64,4 +64,4 @@ protected:
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Waits for the name, because a thread names itself when it first runs.
 inline std::optional<pid_t> thread_named(pid_t process, const std::string& wanted) {
@@ -40,4 +40,4 @@ inline bool hang(pid_t thread) {
            ::waitpid(thread, &status, __WALL) == thread;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -18,7 +18,7 @@ protected:
         std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
         ASSERT_NE(::mkdtemp(name.data()), nullptr);
         folder = name;
-        Pack pack = rings();
+        pack::Pack pack = rings();
         pack.title = "Rings";
         pack.languages = {"en"};
         pack.captions = {{"en", "Rings", ""}};
@@ -31,7 +31,7 @@ protected:
                                        ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
                                        (k & 4U) != 0 ? pack.box_size.z : 0.0);
         }
-        const Result<Bytes> bytes = write_pack(pack);
+        const Result<Bytes> bytes = pack::write_pack(pack);
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
         ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"

@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Rings at four levels, each with its own picture.
-Pack full_pack() {
-    Pack pack = rings(12, 4);
+pack::Pack full_pack() {
+    pack::Pack pack = rings(12, 4);
     for (const auto& [around, across] : {std::pair(16U, 8U), std::pair(24U, 12U), std::pair(48U, 24U)}) {
-        Pack finer = rings(around, across);
+        pack::Pack finer = rings(around, across);
         finer.levels[0].texture = static_cast<std::uint32_t>(pack.textures.size());
         pack.levels.push_back(finer.levels[0]);
-        Image8 texture(256, 192);
+        image::Image8 texture(256, 192);
         for (std::size_t k = 0; k < texture.texels.size(); ++k) {
             const auto shade = static_cast<std::uint8_t>(60 + (k * 37 + k / 256 * 91) % 180);
             texture.texels[k] = {shade, 255 - shade, static_cast<std::uint8_t>(40 * around), 255};
@@ -69,48 +69,51 @@ protected:
     void SetUp() override {
         WithTemporaryFolder::SetUp();
         file = folder / "full.fspack";
-        const Result<Bytes> bytes = write_pack(full_pack());
+        const Result<Bytes> bytes = pack::write_pack(full_pack());
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(write_file(file, *bytes));
     }
     void configure(std::string_view text) {
-        settings = **parse_settings(std::string(stage) + std::string(text), "kiosk.toml");
+        settings = **settings::parse_settings(std::string(stage) + std::string(text), "kiosk.toml");
         settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw the level for the tolerance
     }
-    std::unique_ptr<ArtifactShow> show(unsigned cull_kinds, const std::string& technique = "auto") {
-        const DevicePlan devices = plan_devices(settings, false, false);
-        return ArtifactShow::create(settings, devices, {{file}, technique, default_samples, cull_kinds},
-                                    {display->framebuffer(), 0})
+    std::unique_ptr<show::ArtifactShow> show(unsigned cull_kinds, const std::string& technique = "auto") {
+        const scene::DevicePlan devices = scene::plan_devices(settings, false, false);
+        return show::ArtifactShow::create(settings, devices,
+                                          {{file}, technique, render::default_samples, cull_kinds},
+                                          {display->framebuffer(), 0})
             .value();
     }
-    Image8 picture(ArtifactShow& of, Exhibit& exhibit, MonotonicTime now, const TrackedState& tracked_state) {
-        const Presentation presentation = exhibit.step(now, {}, tracked_state);
-        EXPECT_TRUE(
-            of.draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0}, Redraw::Everything)
-                .drawn);
-        return read_colour(display->framebuffer(), 320, 200);
+    image::Image8 picture(show::ArtifactShow& of, exhibit::Exhibit& exhibit, MonotonicTime now,
+                          const tracking::TrackedState& tracked_state) {
+        const exhibit::Presentation presentation = exhibit.step(now, {}, tracked_state);
+        EXPECT_TRUE(of.draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
+                            render::Redraw::Everything)
+                        .drawn);
+        return render::read_colour(display->framebuffer(), 320, 200);
     }
     /// Seeded situations that the settings allow.
-    std::vector<TrackedState> situations(int count) {
+    std::vector<tracking::TrackedState> situations(int count) {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> u(-1.0, 1.0);
-        std::vector<TrackedState> all;
+        std::vector<tracking::TrackedState> all;
         for (int k = 0; k < count; ++k) {
-            TrackedState tracked_state;
+            tracking::TrackedState tracked_state;
             tracked_state.prop_known = true;
             tracked_state.eye_m = settings.eye.default_m;
-            if (settings.tracker.kind != TrackerKind::None) {
+            if (settings.tracker.kind != settings::TrackerKind::None) {
                 const double yaw = 3.1416 * u(random);
                 tracked_state.table_from_prop = {{std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)},
                                                  {0.25 * u(random), 0.12 * u(random), 0.0}};
             }
-            if (settings.tracker.kind == TrackerKind::Replay) { // lifted and tilted, seen from below
+            if (settings.tracker.kind ==
+                settings::TrackerKind::Replay) { // lifted and tilted, seen from below
                 tracked_state.table_from_prop.rotation =
                     glm::normalize(glm::dquat(1.0, 0.4 * u(random), 0.4 * u(random), u(random)));
                 tracked_state.table_from_prop.translation.z = 0.1 + 0.1 * u(random);
             }
             if (settings.eye.tracked) {
-                const bool anywhere = settings.tracker.kind == TrackerKind::Replay;
+                const bool anywhere = settings.tracker.kind == settings::TrackerKind::Replay;
                 const double elevation = glm::radians(anywhere ? 80.0 * u(random) : 52.5 + 37.5 * u(random));
                 const double azimuth = 3.1416 * u(random);
                 tracked_state.eye_m =
@@ -124,16 +127,16 @@ protected:
         return all;
     }
     /// Compares `count` pictures of both shows; returns the number that are not entirely black.
-    int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
+    int expect_same_pictures(show::ArtifactShow& a, show::ArtifactShow& b, int count) {
         int lit = 0;
         const std::size_t programs = programs_that_exist();
         MonotonicTime now;
-        Exhibit exhibit_of_a = make_exhibit(settings, a, now);
-        Exhibit exhibit_of_b = make_exhibit(settings, b, now);
-        for (const TrackedState& tracked_state : situations(count)) {
+        exhibit::Exhibit exhibit_of_a = show::make_exhibit(settings, a, now);
+        exhibit::Exhibit exhibit_of_b = show::make_exhibit(settings, b, now);
+        for (const tracking::TrackedState& tracked_state : situations(count)) {
             now += std::chrono::milliseconds(700);
-            const Image8 first = picture(a, exhibit_of_a, now, tracked_state);
-            const Image8 second = picture(b, exhibit_of_b, now, tracked_state);
+            const image::Image8 first = picture(a, exhibit_of_a, now, tracked_state);
+            const image::Image8 second = picture(b, exhibit_of_b, now, tracked_state);
             EXPECT_EQ(first.texels, second.texels);
             lit += std::any_of(first.texels.begin(), first.texels.end(),
                                [](const glm::u8vec4& t) { return t.r + t.g + t.b > 0; })
@@ -143,20 +146,21 @@ protected:
         EXPECT_EQ(programs_that_exist(), programs); // no frame creates a program
         return lit;
     }
-    void expect_as_planned(const ArtifactShow& of, std::size_t programs) {
-        const ShowUse use = of.use();
+    void expect_as_planned(const show::ArtifactShow& of, std::size_t programs) {
+        const show::ShowUse use = of.use();
         EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
         EXPECT_EQ(use.planned_shaders, use.shaders);
         EXPECT_EQ(use.shaders.size(), programs);
         EXPECT_EQ(programs_that_exist(), programs);
-        for (const LevelUse& level : of.levels(0).uses()) {
+        for (const residency::LevelUse& level : of.levels(0).uses()) {
             EXPECT_EQ(level.planned_gpu_bytes, level.gpu_bytes);
         }
     }
 
     fs::path file;
-    Settings settings;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
+    settings::Settings settings;
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(320, 200).value();
 };
 
 TEST_F(PlanAgainstShow, AMinimalScene) {
@@ -166,7 +170,7 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
     for (int k = 0; k < 12; ++k) { // each viewer is a scene and a plan of its own
         configure(minimal);
         settings.eye.default_m = {0.6 * u(random), -0.6 + 0.3 * u(random), 0.45 + 0.35 * u(random)};
-        const auto lean = show(AllCullKinds, "level3");
+        const auto lean = show(scene::AllCullKinds, "level3");
         expect_as_planned(*lean, 6); // outline, artifact, edges, three for the sample headroom
         EXPECT_EQ(lean->levels(0).uses().size(), 1U);
         EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912; one eye sees about half
@@ -180,13 +184,13 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
 
 TEST_F(PlanAgainstShow, AnOrdinaryScene) {
     configure(ordinary);
-    const auto lean = show(AllCullKinds);
-    const ScenePlan& plan = lean->plan(0);
+    const auto lean = show(scene::AllCullKinds);
+    const scene::ScenePlan& plan = lean->plan(0);
     EXPECT_FALSE(plan.left_out.empty());
     EXPECT_LT(plan.levels.size(), 4U);
     EXPECT_EQ(lean->use().captions, 1U); // no button changes the language
     EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 0U);
-    expect_as_planned(*lean, shaders_of(plan.needs).size());
+    expect_as_planned(*lean, scene::shaders_of(plan.needs).size());
     const auto everything = show(0);
     EXPECT_EQ(everything->levels(0).uses().size(), 4U);
     EXPECT_EQ(everything->use().planned_gpu_bytes, everything->use().gpu_bytes);
@@ -197,7 +201,7 @@ TEST_F(PlanAgainstShow, AnOrdinaryScene) {
 TEST_F(PlanAgainstShow, EachCullKindByItself) {
     configure(ordinary);
     const auto everything = show(0);
-    for (unsigned cull_kind = 1; cull_kind < AllCullKinds; cull_kind <<= 1U) {
+    for (unsigned cull_kind = 1; cull_kind < scene::AllCullKinds; cull_kind <<= 1U) {
         const auto one = show(cull_kind);
         EXPECT_EQ(one->use().planned_gpu_bytes, one->use().gpu_bytes) << cull_kind;
         EXPECT_EQ(one->use().planned_shaders, one->use().shaders) << cull_kind;
@@ -207,10 +211,10 @@ TEST_F(PlanAgainstShow, EachCullKindByItself) {
 
 TEST_F(PlanAgainstShow, AFullScene) {
     configure(full);
-    const auto lean = show(AllCullKinds);
+    const auto lean = show(scene::AllCullKinds);
     EXPECT_EQ(lean->plan(0).levels, (std::vector<std::uint32_t>{3U, 2U, 1U, 0U}));
     EXPECT_EQ(lean->use().captions, 2U);
-    for (const LevelUse& level : lean->levels(0).uses()) {
+    for (const residency::LevelUse& level : lean->levels(0).uses()) {
         EXPECT_EQ(level.unseen_triangles, 0U); // nothing can be proved about a recording
     }
     expect_as_planned(*lean, 8); // every shader except those without light compensation
@@ -221,17 +225,17 @@ TEST_F(PlanAgainstShow, AFullScene) {
 }
 
 TEST_F(PlanAgainstShow, AFixedSceneOfFineTexelsLeavesOutTheirFinestMipLevels) {
-    Pack fine = full_pack();
-    Image8 texture(2048, 1536);
+    pack::Pack fine = full_pack();
+    image::Image8 texture(2048, 1536);
     for (std::size_t k = 0; k < texture.texels.size(); ++k) {
         texture.texels[k] = glm::u8vec4(glm::u8vec3(static_cast<std::uint8_t>(40 + k / 16 % 200)), 255);
     }
     fine.textures[1] = texture;
     fine.samples = 1;
-    ASSERT_TRUE(write_file(file, *write_pack(fine)));
+    ASSERT_TRUE(write_file(file, *pack::write_pack(fine)));
     configure(minimal);
-    const auto lean = show(AllCullKinds, "level1");
-    const LevelUse& level = lean->levels(0).uses()[0];
+    const auto lean = show(scene::AllCullKinds, "level1");
+    const residency::LevelUse& level = lean->levels(0).uses()[0];
     EXPECT_GE(level.finest_mip, 2);
     EXPECT_EQ(level.texture, glm::ivec2(2048 >> level.finest_mip, 1536 >> level.finest_mip));
     EXPECT_EQ(lean->use().planned_gpu_bytes, lean->use().gpu_bytes);

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class ProgramFolder : public WithTemporaryFolder {
 protected:
@@ -39,4 +39,4 @@ protected:
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -19,7 +19,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,19 +27,19 @@ namespace fs = std::filesystem;
 /// One second of a HID tracker at 100 Hz that moves along x by 1 mm a sample.
 Bytes recording() {
     Bytes file;
-    append_packet_header(file);
-    const auto put = [&](PacketKind kind, int ms, std::span<const std::byte> payload) {
-        append_packet(file, {kind, from_microseconds(1000 * (90'000 + ms)), payload});
+    tracker::append_packet_header(file);
+    const auto put = [&](tracker::PacketKind kind, int ms, std::span<const std::byte> payload) {
+        tracker::append_packet(file, {kind, from_microseconds(1000 * (90'000 + ms)), payload});
     };
-    put(PacketKind::Opened, 0, OpenedDevice{UsbTrackerModel::Hid, {}}.bytes());
-    put(PacketKind::Received, 1, wire::hid_info());
+    put(tracker::PacketKind::Opened, 0, tracker::OpenedDevice{tracker::UsbTrackerModel::Hid, {}}.bytes());
+    put(tracker::PacketKind::Received, 1, wire::hid_info());
     for (int k = 0; k < 100; ++k) {
         wire::HidPose pose;
         pose.counter = static_cast<std::uint32_t>(k);
         pose.time_us = static_cast<std::uint32_t>(10'000 * k);
         pose.position = {100 * k, 0, 0};
         pose.quaternion = {32767, 0, 0, 0};
-        put(PacketKind::Received, 10 + 10 * k, wire::hid_pose(pose));
+        put(tracker::PacketKind::Received, 10 + 10 * k, wire::hid_pose(pose));
     }
     return file;
 }
@@ -49,10 +49,10 @@ protected:
     void settings(const std::string& tracker) const {
         ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[tracker]\n" + tracker)));
     }
-    [[nodiscard]] std::vector<PoseSample> poses(const std::string& file) const {
-        const auto parsed = parse_poses(text(file), file, PoseOrder::PropAscends);
+    [[nodiscard]] std::vector<tracker::PoseSample> poses(const std::string& file) const {
+        const auto parsed = tracker::parse_poses(text(file), file, tracker::PoseOrder::PropAscends);
         EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
-        return parsed ? *parsed : std::vector<PoseSample>();
+        return parsed ? *parsed : std::vector<tracker::PoseSample>();
     }
     /// Records while the tracker's thread hangs, until stopped; nothing if this machine does not allow that.
     [[nodiscard]] std::optional<int> stopped_while_the_device_hangs(std::vector<const char*> more) const {
@@ -104,7 +104,7 @@ TEST_F(RecordCommand, ARecordingPlaysInPlaceOfTheDeviceAndIsPlacedOnTheTable) {
              "table_from_tracker = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0.25,0,0.125,1]\n");
     ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.5 -o poses.csv"), 0)
         << text("err.txt");
-    const std::vector<PoseSample> found = poses("poses.csv");
+    const std::vector<tracker::PoseSample> found = poses("poses.csv");
     ASSERT_EQ(found.size(), 100U);
     for (std::size_t k = 0; k < found.size(); ++k) {
         EXPECT_LT(
@@ -121,7 +121,7 @@ TEST_F(RecordCommand, ARecordingIsConvertedUpToItsCut) {
     const std::span<const std::byte> cut(whole.data(), whole.size() - 1);
     ASSERT_TRUE(write_file(folder / "fault.rec", cut));
     ASSERT_EQ(run("frustumscreen-poses convert fault.rec -o poses.csv"), 0) << text("err.txt");
-    const std::vector<PoseSample> found = poses("poses.csv");
+    const std::vector<tracker::PoseSample> found = poses("poses.csv");
     ASSERT_EQ(found.size(), 99U);
     EXPECT_EQ(to_microseconds(found.front().time), 10'000);
     EXPECT_EQ(to_microseconds(found.back().time), 990'000);
@@ -159,7 +159,7 @@ TEST_F(RecordCommand, WithoutADeviceThePacketsAreStillARecordingThatSaysSo) {
     ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.3 --raw -o raw"), 0)
         << text("err.txt");
     const Bytes file = *read_file(folder / "raw");
-    EXPECT_TRUE(is_packet_recording(file));
+    EXPECT_TRUE(tracker::is_packet_recording(file));
     EXPECT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.1 -o none.csv"), 1);
     EXPECT_NE(text("err.txt").find("no pose came"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "none.csv"));
@@ -175,7 +175,7 @@ TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost)
     EXPECT_NE(text("err.txt").find("a device did not stop in time"), std::string::npos) << text("err.txt");
     EXPECT_NE(text("out.txt").find(" packets, 0 dropped"), std::string::npos);
     const Bytes file = *read_file(folder / "raw");
-    Result<PacketReader> reader = PacketReader::open(file, "raw");
+    Result<tracker::PacketReader> reader = tracker::PacketReader::open(file, "raw");
     ASSERT_TRUE(reader);
     std::size_t packets = 0;
     while (reader->next()) {
@@ -189,4 +189,4 @@ TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost)
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -87,7 +87,8 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_EQ(status.at("level"), "level0");
     EXPECT_GE(status.at("samples"), 1);
     // A level's mean error along the eye's rays, which is twice the distance for a convex body (error_estimate.h).
-    const double mm_per_box = 1e3 * place(rings(), make_prop(Settings().prop)).metres_per_box;
+    const double mm_per_box =
+        1e3 * pack::place(rings(), settings::make_prop(settings::Settings().prop)).metres_per_box;
     const double mean_mm = status.at("estimated_error_mm");
     EXPECT_NEAR(mean_mm, 2e-3 * mm_per_box, 1e-3 * mm_per_box);
     EXPECT_NEAR(status.at("p95_error_mm").get<double>() / mean_mm, 2.0, 0.5); // as in the pack for this level
@@ -202,8 +203,8 @@ TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
 TEST_F(RunCommand, KeepsTheProbeOutOfItsStills) {
     run("--seconds 2 --out pictures --stills 2");
     for (const char* name : {"frame_00000.png", "frame_00001.png"}) {
-        const Image8 still = decode_png8(*read_file(folder / "pictures" / name)).value();
-        EXPECT_FALSE(read_probe(still));
+        const image::Image8 still = image::decode_png8(*read_file(folder / "pictures" / name)).value();
+        EXPECT_FALSE(render::read_probe(still));
         EXPECT_EQ(still.at(0, 0), glm::u8vec4(0, 0, 0, 255));
     }
 }

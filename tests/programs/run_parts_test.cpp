@@ -15,21 +15,21 @@
 #include <algorithm>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-Result<LoopResult> lasted(Nanoseconds length) {
-    LoopResult result;
+Result<show::LoopResult> lasted(Nanoseconds length) {
+    show::LoopResult result;
     result.status.uptime_s = to_seconds(length);
     return result;
 }
 const Error no_pack{ErrorKind::BadConfiguration, "test.no_pack", "there is no pack"};
 const Error no_display{ErrorKind::DeviceLost, "test.no_display", "the display is gone"};
-const Result<LoopResult> failed = tl::unexpected<Error>(no_display);
+const Result<show::LoopResult> failed = tl::unexpected<Error>(no_display);
 
 TEST(RunEnd, ARunThatShowsSomethingIsDoneWhenItIsTold) {
     for (const Nanoseconds length : {Nanoseconds(0), Nanoseconds(minutes(600))}) {
@@ -71,42 +71,42 @@ protected:
         ::unsetenv("JOURNAL_STREAM");
         settings.projector.pinhole.width = width;
         settings.projector.pinhole.height = height;
-        auto made = SurfacelessDisplay::create(width, height);
+        auto made = display::SurfacelessDisplay::create(width, height);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
     }
-    [[nodiscard]] Image8 picture_of(Show& show) const {
-        const DrawResult drawn =
-            show.draw(MonotonicTime(seconds(1)), TrackedState{},
-                      {display->framebuffer(), display->buffer_age()}, Redraw::Everything);
+    [[nodiscard]] image::Image8 picture_of(show::Show& show) const {
+        const render::DrawResult drawn =
+            show.draw(MonotonicTime(seconds(1)), tracking::TrackedState{},
+                      {display->framebuffer(), display->buffer_age()}, render::Redraw::Everything);
         EXPECT_TRUE(drawn.drawn);
-        return read_colour(display->framebuffer(), width, height);
+        return render::read_colour(display->framebuffer(), width, height);
     }
-    [[nodiscard]] std::unique_ptr<Show> error_screen_for(const std::string& message) {
+    [[nodiscard]] std::unique_ptr<show::Show> error_screen_for(const std::string& message) {
         ::testing::internal::CaptureStderr();
-        Result<std::unique_ptr<Show>> error_screen =
-            make_error_screen(settings, Journal("test"), {ErrorKind::BadInput, "test.excuse", message});
+        Result<std::unique_ptr<show::Show>> error_screen = make_error_screen(
+            settings, service::Journal("test"), {ErrorKind::BadInput, "test.excuse", message});
         said = ::testing::internal::GetCapturedStderr();
         EXPECT_TRUE(error_screen);
         return error_screen ? std::move(*error_screen) : nullptr;
     }
 
     static constexpr int width = 320, height = 200;
-    Settings settings;
-    std::unique_ptr<SurfacelessDisplay> display;
+    settings::Settings settings;
+    std::unique_ptr<display::SurfacelessDisplay> display;
     std::string said;
 };
 
 TEST_F(RunShow, AnErrorScreenSaysItsErrorInTheJournalAndOnTheTable) {
-    const std::unique_ptr<Show> cat = error_screen_for("no cat");
+    const std::unique_ptr<show::Show> cat = error_screen_for("no cat");
     ASSERT_NE(cat, nullptr);
     EXPECT_NE(said.find("no cat"), std::string::npos) << said;
-    EXPECT_EQ(cat->state().state, State::Fault) << "the watchdog is to see that it is no artifact";
+    EXPECT_EQ(cat->state().state, exhibit::State::Fault) << "the watchdog is to see that it is no artifact";
     EXPECT_FALSE(cat->sleeps());
-    const Image8 of_cat = picture_of(*cat);
+    const image::Image8 of_cat = picture_of(*cat);
     EXPECT_TRUE(std::any_of(of_cat.texels.begin(), of_cat.texels.end(),
                             [](const glm::u8vec4& texel) { return texel.x > 0; }));
-    const std::unique_ptr<Show> dog = error_screen_for("no dog");
+    const std::unique_ptr<show::Show> dog = error_screen_for("no dog");
     ASSERT_NE(dog, nullptr);
     EXPECT_NE(picture_of(*dog).texels, of_cat.texels) << "its words are in the picture";
 }
@@ -114,9 +114,9 @@ TEST_F(RunShow, AnErrorScreenSaysItsErrorInTheJournalAndOnTheTable) {
 TEST_F(RunShow, TheAlignmentPatternNeedsNoPack) {
     RunRequest request;
     request.pattern = true;
-    const auto show = make_show(request, settings, DevicePlan{}, *display, MonotonicTime{});
+    const auto show = make_show(request, settings, scene::DevicePlan{}, *display, MonotonicTime{});
     ASSERT_TRUE(show) << show.error().message;
-    EXPECT_EQ((*show)->state().state, State::Staff);
+    EXPECT_EQ((*show)->state().state, exhibit::State::Staff);
     EXPECT_NE(picture_of(**show).texels, picture_of(*error_screen_for("no cat")).texels);
 }
 
@@ -124,7 +124,7 @@ TEST_F(RunShow, WithoutAPackThatCanBeShownThereIsAnError) {
     RunRequest request;
     request.show.packs = {"no-such.fspack"};
     ::testing::internal::CaptureStderr();
-    const auto show = make_show(request, settings, DevicePlan{}, *display, MonotonicTime{});
+    const auto show = make_show(request, settings, scene::DevicePlan{}, *display, MonotonicTime{});
     ::testing::internal::GetCapturedStderr();
     ASSERT_FALSE(show);
     EXPECT_NE(show.error().message.find("no-such.fspack"), std::string::npos) << show.error().message;
@@ -135,8 +135,8 @@ protected:
     void SetUp() override {
         WithTemporaryFolder::SetUp();
         for (int k = 0; k < 2; ++k) {
-            Still still;
-            still.picture = Image8(4, 3);
+            show::Still still;
+            still.picture = image::Image8(4, 3);
             std::fill(still.picture.texels.begin(), still.picture.texels.end(),
                       glm::u8vec4(10 * k, 20, 30, 255));
             still.tracked_state.table_from_prop.translation = {0.125 * k, 0.25, 0.5};
@@ -144,28 +144,28 @@ protected:
             result.stills.push_back(still);
             result.rows.emplace_back();
         }
-        std::ofstream(folder / visitor_cameras_name) << "of an earlier call of render";
+        std::ofstream(folder / simulation::visitor_cameras_name) << "of an earlier call of render";
     }
     [[nodiscard]] std::size_t lines_of(const char* file) const {
         std::ifstream text(folder / file);
         return static_cast<std::size_t>(std::count(std::istreambuf_iterator<char>(text), {}, '\n'));
     }
 
-    LoopResult result;
+    show::LoopResult result;
 };
 
 TEST_F(RunOutput, IsThePicturesTheirPosesAndTheFrames) {
-    const WavSound sound{MonotonicTime{}};
+    const sound::WavSound sound{MonotonicTime{}};
     ASSERT_TRUE(write_output(folder, result, &sound));
     for (std::size_t k = 0; k < 2; ++k) {
         const Result<Bytes> png = read_file(folder / (k == 0 ? "frame_00000.png" : "frame_00001.png"));
         ASSERT_TRUE(png) << png.error().message;
-        EXPECT_EQ(decode_png8(*png).value().texels, result.stills[k].picture.texels);
+        EXPECT_EQ(image::decode_png8(*png).value().texels, result.stills[k].picture.texels);
     }
     EXPECT_EQ(lines_of("poses.csv"), 1U + 2 * 2) << "the prop and the head";
     EXPECT_EQ(lines_of("frames.csv"), 1U + 2);
     EXPECT_TRUE(fs::exists(folder / "sound.wav"));
-    EXPECT_FALSE(fs::exists(folder / visitor_cameras_name));
+    EXPECT_FALSE(fs::exists(folder / simulation::visitor_cameras_name));
 }
 
 TEST_F(RunOutput, OfASilentRunHasNoSound) {
@@ -174,7 +174,7 @@ TEST_F(RunOutput, OfASilentRunHasNoSound) {
 }
 
 TEST_F(RunOutput, AFileThatCannotBeWrittenIsNamed) {
-    const WavSound sound{MonotonicTime{}};
+    const sound::WavSound sound{MonotonicTime{}};
     for (const char* name : {"frame_00001.png", "poses.csv", "frames.csv", "sound.wav"}) {
         fs::create_directories(folder / name / "in the way");
         const Result<void> written = write_output(folder, result, &sound);
@@ -208,4 +208,4 @@ TEST_F(RunOutput, IsReportedInAFewWordsOrAsJson) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

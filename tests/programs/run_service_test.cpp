@@ -107,7 +107,7 @@ protected:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
-    NotifySocket socket;
+    service::NotifySocket socket;
     std::optional<uid_t> user; ///< user of the exhibit; nothing: that of the test
     pid_t process = 0;
 };
@@ -153,9 +153,9 @@ TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
 TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     start("", "usb");
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
-    const std::optional<pid_t> tracker = thread_named(process, "tracker");
+    const std::optional<pid_t> tracker = programs::thread_named(process, "tracker");
     ASSERT_TRUE(tracker);
-    if (!hang(*tracker)) {
+    if (!programs::hang(*tracker)) {
         GTEST_SKIP() << "this machine lets nobody trace";
     }
     std::this_thread::sleep_for(seconds(11)); // by then the thread's promise is broken
@@ -216,7 +216,7 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
     start("", "replay", {"--headless", "--status-file", folder / "status.json"});
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
     ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text_of("status.json");
-    if (!hang(process)) {
+    if (!programs::hang(process)) {
         GTEST_SKIP() << "this machine lets nobody trace";
     }
     EXPECT_TRUE(

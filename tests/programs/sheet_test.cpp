@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 class Sheet : public testing::Test {
@@ -23,9 +23,9 @@ protected:
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 4; ++k) {
             poses += std::to_string(k * 100000) + ",1," + std::to_string(0.03 * k) + ",0,0,1,0,0,0,1\n";
-            const Image8 picture(320, 200, glm::u8vec4(90, 80, 70, 255));
+            const image::Image8 picture(320, 200, glm::u8vec4(90, 80, 70, 255));
             ASSERT_TRUE(
-                write_file(folder / ("frame_0000" + std::to_string(k) + ".png"), encode_png(picture)));
+                write_file(folder / ("frame_0000" + std::to_string(k) + ".png"), image::encode_png(picture)));
         }
         ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
         ASSERT_TRUE(write_file(folder / "frames.csv",
@@ -34,12 +34,12 @@ protected:
                                         "1,100000,4,level1,0.05,1,\"Bowl, blue\"\n"
                                         "2,200000,0.1,level1,0.05,0,\"Bowl, blue\"\n"
                                         "3,300000,6,level1,0.05,1,\"Bowl, blue\"\n")));
-        settings.emplace(*parse_settings("", "kiosk.toml"));
+        settings.emplace(*settings::parse_settings("", "kiosk.toml"));
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
     std::filesystem::path folder;
-    std::optional<CheckedSettings> settings;
+    std::optional<settings::CheckedSettings> settings;
 };
 
 TEST_F(Sheet, FramesComeWithTheirPosesAndTheArtifactOfTheirTime) {
@@ -118,11 +118,11 @@ TEST_F(Sheet, TheTableLeavesOutTheFirstFrameAndCountsWhatWasNotDrawn) {
 
 TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(read && typesetter);
     std::size_t made = 0;
-    const Result<Image8> sheet = contact_sheet(**settings, read->frames, {}, *typesetter,
-                                               [&](std::size_t done, std::size_t) { made = done; });
+    const Result<image::Image8> sheet = contact_sheet(**settings, read->frames, {}, *typesetter,
+                                                      [&](std::size_t done, std::size_t) { made = done; });
     ASSERT_TRUE(sheet) << sheet.error().message;
     EXPECT_EQ(made, 4U);
     EXPECT_GT(sheet->width, sheet->height);
@@ -130,7 +130,7 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
 
 TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
     // A green mark in each corner of the projector's picture, where words and pictures for the choice are shown.
-    Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             if ((x < 20 || x >= 300) && (y < 20 || y >= 180)) {
@@ -138,15 +138,15 @@ TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
             }
         }
     }
-    ASSERT_TRUE(write_file(folder / "frame_00000.png", encode_png(picture)));
+    ASSERT_TRUE(write_file(folder / "frame_00000.png", image::encode_png(picture)));
     Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(read && typesetter);
     read->frames.resize(1);
     const auto green = [&](bool whole_table) {
         SheetOptions options;
         options.whole_table = whole_table;
-        const Result<Image8> sheet =
+        const Result<image::Image8> sheet =
             contact_sheet(**settings, read->frames, options, *typesetter, [](std::size_t, std::size_t) {});
         EXPECT_TRUE(sheet);
         return std::count_if(sheet->texels.begin(), sheet->texels.end(), [](const glm::u8vec4& colour) {
@@ -163,8 +163,8 @@ TEST_F(Sheet, ThePropFillsMostOfTheVisitorsPicture) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
     ASSERT_TRUE(read);
     for (const SheetFrame& frame : read->frames) {
-        const VisitorScene scene = visitor_scene(**settings, frame.tracked_state, 320, 200);
-        const VisitorCamera camera = framed_camera(scene, {544, 340});
+        const simulation::VisitorScene scene = visitor_scene(**settings, frame.tracked_state, 320, 200);
+        const simulation::VisitorCamera camera = framed_camera(scene, {544, 340});
         double top = 1e9;
         double bottom = -1e9;
         for (const glm::dvec3& corner : scene.prop.corners) {
@@ -181,11 +181,11 @@ TEST_F(Sheet, ThePropFillsMostOfTheVisitorsPicture) {
 
 TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
-    const Result<Typesetter> typesetter = Typesetter::open();
+    const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(read && typesetter);
-    const VisitorScene scene = visitor_scene(**settings, read->frames[1].tracked_state, 320, 200);
-    const VisitorCamera camera = room_camera(scene, {760, 880});
-    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
+    const simulation::VisitorScene scene = visitor_scene(**settings, read->frames[1].tracked_state, 320, 200);
+    const simulation::VisitorCamera camera = room_camera(scene, {760, 880});
+    const geometry::RigidTransform camera_from_table = camera.table_from_camera.inverse();
     for (const glm::dvec3 point :
          {glm::dvec3(-0.4, -0.25, 0.0), glm::dvec3(0.4, 0.25, 0.0), glm::dvec3(0.0, 0.0, 1.2)}) {
         const auto pixel = camera.pinhole.pixel(camera_from_table.point(point));
@@ -203,10 +203,10 @@ TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
 }
 
 TEST_F(Sheet, APictureOfAnotherShapeThanTheProjectorsIsRefused) {
-    ASSERT_TRUE(write_file(folder / "frame_00001.png", encode_png(Image8(200, 200))));
+    ASSERT_TRUE(write_file(folder / "frame_00001.png", image::encode_png(image::Image8(200, 200))));
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
     ASSERT_TRUE(read);
-    const Result<Image8> picture = read_picture(read->frames[1], (*settings)->projector.pinhole);
+    const Result<image::Image8> picture = read_picture(read->frames[1], (*settings)->projector.pinhole);
     ASSERT_FALSE(picture);
     EXPECT_NE(picture.error().message.find("frame_00001.png"), std::string::npos);
 }
@@ -260,4 +260,4 @@ TEST_F(Sheet, AClosedAnimationPlaysForwardsAndWithoutLoss) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

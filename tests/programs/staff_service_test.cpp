@@ -11,7 +11,7 @@
 #include <fstream>
 #include <future>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,24 +32,25 @@ protected:
         ::unsetenv("JOURNAL_STREAM");
     }
     /// Opens the socket; the journal's text goes to `said`.
-    [[nodiscard]] std::unique_ptr<StaffSocket> opened(const fs::path& at) {
+    [[nodiscard]] std::unique_ptr<service::StaffSocket> opened(const fs::path& at) {
         ::testing::internal::CaptureStderr();
-        std::unique_ptr<StaffSocket> socket = open_staff_socket(at, screenshot, Journal("test"));
+        std::unique_ptr<service::StaffSocket> socket =
+            open_staff_socket(at, screenshot, service::Journal("test"));
         said = ::testing::internal::GetCapturedStderr();
         return socket;
     }
     /// The socket's answer to a question.
     [[nodiscard]] Result<Bytes> asked(std::string_view question) const {
-        return ask_staff_socket(path, question, std::size_t{1} << 20, seconds(60));
+        return service::ask_staff_socket(path, question, std::size_t{1} << 20, seconds(60));
     }
 
     fs::path path;
-    Screenshot screenshot{width, height};
+    show::Screenshot screenshot{width, height};
     std::string said;
 };
 
 TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
-    const auto display = SurfacelessDisplay::create(width, height);
+    const auto display = display::SurfacelessDisplay::create(width, height);
     ASSERT_TRUE(display) << display.error().message;
     glBindFramebuffer(GL_FRAMEBUFFER, (*display)->framebuffer());
     glClearColor(1.0F, 0.0F, 1.0F, 1.0F);
@@ -65,7 +66,7 @@ TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
     }
     const Result<Bytes> png = answer.get();
     ASSERT_TRUE(png) << png.error().message;
-    const Result<Image8> picture = decode_png8(*png);
+    const Result<image::Image8> picture = image::decode_png8(*png);
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_EQ(picture->width, width);
     EXPECT_EQ(picture->height, height);
@@ -135,4 +136,4 @@ TEST_F(StaffService, EndsWhileAQuestionWaitsAndLeavesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

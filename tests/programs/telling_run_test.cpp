@@ -34,15 +34,15 @@ protected:
     }
     /// `opus`: recording of the description; none: it is silent.
     void put_pack(const std::string& description, const Bytes& opus) const {
-        Result<VerifiedPack> loaded = load_pack(folder / "rings.fspack");
+        Result<pack::VerifiedPack> loaded = pack::load_pack(folder / "rings.fspack");
         ASSERT_TRUE(loaded) << loaded.error().message;
-        Pack pack = **loaded;
+        pack::Pack pack = **loaded;
         pack.captions = {{"en", "Rings", "Short."}};
         pack.captions[0].description = description;
         if (!opus.empty()) {
-            put_sounds(pack, std::vector<SpokenLanguage>{{"en", {{"description", opus}}}});
+            pack::put_sounds(pack, std::vector<pack::SpokenLanguage>{{"en", {{"description", opus}}}});
         }
-        const Result<Bytes> bytes = write_pack(pack);
+        const Result<Bytes> bytes = pack::write_pack(pack);
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(write_file(folder / "told.fspack", *bytes));
     }
@@ -72,7 +72,7 @@ protected:
     /// Number of pixels brighter than half below the prop's middle, where the caption lies.
     [[nodiscard]] long light_in(int still) const {
         const Result<Bytes> file = read_file(folder / fmt::format("pictures/frame_{:05}.png", still));
-        const Result<Image8> picture = decode_png8(*file);
+        const Result<image::Image8> picture = image::decode_png8(*file);
         EXPECT_TRUE(picture);
         long count = 0;
         for (int y = 280; y < picture->height; ++y) {
@@ -112,10 +112,10 @@ const std::string long_text =
 TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     put_pack(long_text, opus_);
     run();
-    const std::vector<std::int16_t> truth = read_opus(opus_)->samples;
+    const std::vector<std::int16_t> truth = sound::read_opus(opus_)->samples;
     const auto [lag, correlation] = best_match(heard(), truth);
     EXPECT_GT(correlation, 0.99);
-    EXPECT_NEAR(static_cast<double>(lag) / sample_rate_hz, asked_at_s, 0.150);
+    EXPECT_NEAR(static_cast<double>(lag) / sound::sample_rate_hz, asked_at_s, 0.150);
     // Stills are taken in the middle of each second, or shortly afterwards.
     EXPECT_GT(light_in(2), 20) << "the short text";
     const long described = light_in(3);

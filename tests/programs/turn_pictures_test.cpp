@@ -3,7 +3,7 @@
 #include "app/programs/preview/turn_pictures.h"
 #include "tests/programs/curator_folder.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 /// A box whose red side faces -Y, the visitor.
@@ -66,4 +66,4 @@ TEST_F(Turn, ACubeShowsTheSideThatLooksAtTheVisitor) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

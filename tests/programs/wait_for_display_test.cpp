@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 using std::chrono::seconds;
 
-class NoDisplay final : public Display {
+class NoDisplay final : public display::Display {
 public:
     [[nodiscard]] int width() const override { return 64; }
     [[nodiscard]] int height() const override { return 40; }
@@ -33,7 +33,7 @@ struct Machine {
     int looks = 0, hotplugs = 0, waits = 0;
     std::function<void()> in_a_wait = [] {};
 
-    class Waiting final : public Hotplug {
+    class Waiting final : public display::Hotplug {
     public:
         explicit Waiting(Machine& machine) : machine_(machine) {}
         [[nodiscard]] bool wait(Nanoseconds at_most) override {
@@ -49,7 +49,7 @@ struct Machine {
     };
 
     DisplaySearch search() {
-        return {[this, start = time]() -> Result<std::unique_ptr<Display>> {
+        return {[this, start = time]() -> Result<std::unique_ptr<display::Display>> {
                     ++looks;
                     if (const std::optional<Error> error = trouble(time - start)) {
                         return tl::unexpected<Error>(*error);
@@ -76,11 +76,11 @@ protected:
         machine.in_a_wait = [this] { hear(); }; // the socket holds only a few messages
     }
     void TearDown() override { ::unsetenv("NOTIFY_SOCKET"); }
-    [[nodiscard]] Result<std::unique_ptr<Display>> waited() {
-        ServiceManager manager;
+    [[nodiscard]] Result<std::unique_ptr<display::Display>> waited() {
+        service::ServiceManager manager;
         ::testing::internal::CaptureStderr();
-        Result<std::unique_ptr<Display>> display =
-            wait_for_display(machine.search(), stop_signals, manager, Journal("test"));
+        Result<std::unique_ptr<display::Display>> display =
+            wait_for_display(machine.search(), stop_signals, manager, service::Journal("test"));
         said = ::testing::internal::GetCapturedStderr();
         return display;
     }
@@ -97,8 +97,8 @@ protected:
         return times;
     }
 
-    NotifySocket socket;
-    StopSignals stop_signals;
+    service::NotifySocket socket;
+    service::StopSignals stop_signals;
     Machine machine;
     std::string said;
     std::vector<std::string> heard; ///< messages to the service manager during the wait
@@ -177,8 +177,9 @@ TEST_F(WaitForDisplay, EachNewReasonIsSaid) {
 TEST_F(WaitForDisplay, AStopSignalEndsTheProcessWhileItWaitsAndIsKeptOtherwise) {
     machine.trouble = [](Nanoseconds) { return no_card; };
     machine.in_a_wait = [] { ::raise(SIGTERM); };
-    ServiceManager manager;
-    EXPECT_EXIT(static_cast<void>(wait_for_display(machine.search(), stop_signals, manager, Journal("test"))),
+    service::ServiceManager manager;
+    EXPECT_EXIT(static_cast<void>(
+                    wait_for_display(machine.search(), stop_signals, manager, service::Journal("test"))),
                 ::testing::KilledBySignal(SIGTERM), no_card.message);
     machine.in_a_wait = [] {};
     machine.trouble = [](Nanoseconds since) {
@@ -190,4 +191,4 @@ TEST_F(WaitForDisplay, AStopSignalEndsTheProcessWhileItWaitsAndIsKeptOtherwise) 
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

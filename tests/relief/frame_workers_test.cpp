@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 namespace {
 
 bool leaves_to_others(int signal) {
@@ -56,4 +56,4 @@ TEST(FrameWorkers, LeaveTheStopSignalsToTheCaller) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 namespace {
 
 FRUSTUMSCREEN_INLINE Ints mask_of(unsigned bits) {
@@ -49,4 +49,4 @@ TEST(Lanes, TheLargestIsFoundInAnyLane) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

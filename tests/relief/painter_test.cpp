@@ -9,24 +9,24 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 namespace {
 
-template <typename Texel> PictureSpan<Texel> span_of(Image<Texel>& image) {
+template <typename Texel> PictureSpan<Texel> span_of(image::Image<Texel>& image) {
     return {image.texels.data(), image.width, image.height, image.width};
 }
 
 struct Painting {
     Subject subject;
-    Settings settings = near_settings();
-    PropShape prop = make_prop(settings.prop);
-    std::vector<BenchPose> poses = draw_poses(settings, prop, 3, 5).value();
+    settings::Settings settings = bench::near_settings();
+    geometry::PropShape prop = settings::make_prop(settings.prop);
+    std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 3, 5).value();
     BlockRelief relief = subject.relief(128);
 
-    [[nodiscard]] Image8 blank(const glm::u8vec4& fill) const {
+    [[nodiscard]] image::Image8 blank(const glm::u8vec4& fill) const {
         return {settings.projector.pinhole.width, settings.projector.pinhole.height, fill};
     }
-    [[nodiscard]] RasterView view(const BenchPose& pose) const {
+    [[nodiscard]] RasterView view(const bench::BenchPose& pose) const {
         RasterView view;
         subject.show(view, settings, prop, pose);
         return view;
@@ -43,9 +43,9 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
     ReliefPainter painter(2);
     BlockItems items;
     RasterSamples samples;
-    for (const BenchPose& pose : painting.poses) {
+    for (const bench::BenchPose& pose : painting.poses) {
         const RasterView view = painting.view(pose);
-        Image8 picture = painting.blank(untouched);
+        image::Image8 picture = painting.blank(untouched);
         const std::span<const PixelRectangle> painted =
             painter.paint(painting.relief, view, 1, span_of(picture));
         ASSERT_FALSE(painted.empty());
@@ -161,10 +161,10 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
     const Painting painting;
     ReliefPainter alone(1);
     ReliefPainter together(5);
-    for (const BenchPose& pose : painting.poses) {
+    for (const bench::BenchPose& pose : painting.poses) {
         const RasterView view = painting.view(pose);
-        Image8 a = painting.blank({});
-        Image8 b = a;
+        image::Image8 a = painting.blank({});
+        image::Image8 b = a;
         for (const int samples : {1, 4}) {
             EXPECT_TRUE(std::ranges::equal(alone.paint(painting.relief, view, samples, span_of(a)),
                                            together.paint(painting.relief, view, samples, span_of(b))));
@@ -181,7 +181,7 @@ TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
     }
     const Painting painting;
     const RasterView view = painting.view(painting.poses.front());
-    Image8 picture = painting.blank(glm::u8vec4(0));
+    image::Image8 picture = painting.blank(glm::u8vec4(0));
     ReliefPainter painter(24);
     static_cast<void>(painter.paint(painting.relief, view, 4, span_of(picture)));
     const long before = synthetic::allocations_so_far();
@@ -194,12 +194,13 @@ TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
 TEST(Painter, HitPointsAreTheRayCastsOwn) {
     const Painting painting;
     ReliefPainter painter(2);
-    ImageFloat points(painting.settings.projector.pinhole.width, painting.settings.projector.pinhole.height);
+    image::ImageFloat points(painting.settings.projector.pinhole.width,
+                             painting.settings.projector.pinhole.height);
     const glm::dmat4 prop_from_box = glm::inverse(painting.subject.frame.box_from_file);
-    for (const BenchPose& pose : painting.poses) {
+    for (const bench::BenchPose& pose : painting.poses) {
         painter.hit_points(painting.relief, painting.view(pose), span_of(points));
-        const TruthPicture truth =
-            painting.subject.truth.cast(painting.prop, view_of(painting.settings, pose), false);
+        const bench::TruthPicture truth =
+            painting.subject.truth.cast(painting.prop, bench::view_of(painting.settings, pose), false);
         int near = 0;
         int far = 0;
         int one_sided = 0;
@@ -219,7 +220,7 @@ TEST(Painter, HitPointsAreTheRayCastsOwn) {
 }
 
 /// Error in codes against 16 rays per pixel, over the artifact and the pixels around it.
-double rmse(const Image8& picture, const TruthPicture& truth) {
+double rmse(const image::Image8& picture, const bench::TruthPicture& truth) {
     double sum = 0.0;
     int count = 0;
     for (std::size_t k = 0; k < picture.texels.size(); ++k) {
@@ -235,12 +236,12 @@ double rmse(const Image8& picture, const TruthPicture& truth) {
 TEST(Painter, MoreSamplesComeNearerToSixteenRays) {
     const Painting painting;
     ReliefPainter painter(2);
-    for (const BenchPose& pose : painting.poses) {
-        const TruthPicture truth =
-            painting.subject.truth.cast(painting.prop, view_of(painting.settings, pose), true);
+    for (const bench::BenchPose& pose : painting.poses) {
+        const bench::TruthPicture truth =
+            painting.subject.truth.cast(painting.prop, bench::view_of(painting.settings, pose), true);
         double before = INFINITY;
         for (const int samples : {1, 2, 4, 8}) {
-            Image8 picture = painting.blank({});
+            image::Image8 picture = painting.blank({});
             painter.paint(painting.relief, painting.view(pose), samples, span_of(picture));
             const double now = rmse(picture, truth);
             EXPECT_LT(now, before) << samples;
@@ -253,8 +254,8 @@ TEST(Painter, SamplesChangeOutlinesAndLeaveWhatIsEven) {
     const Painting painting;
     ReliefPainter painter(2);
     const RasterView view = painting.view(painting.poses[0]);
-    Image8 one = painting.blank({});
-    Image8 many = one;
+    image::Image8 one = painting.blank({});
+    image::Image8 many = one;
     painter.paint(painting.relief, view, 1, span_of(one));
     painter.paint(painting.relief, view, 16, span_of(many));
     int outlines = 0;
@@ -292,4 +293,4 @@ TEST(SampleLight, HalfOfWhiteIsCode188) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

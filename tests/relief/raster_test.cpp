@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 namespace {
 
 struct Frame {
@@ -15,8 +15,8 @@ struct Frame {
     RasterSamples picture; ///< one sample per pixel of the lit part
 };
 
-void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const Settings& settings,
-          const PropShape& prop, const BenchPose& pose) {
+void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const settings::Settings& settings,
+          const geometry::PropShape& prop, const bench::BenchPose& pose) {
     subject.show(frame.view, settings, prop, pose);
     list_blocks(frame.items, relief, frame.view);
     frame.picture.begin(frame.view.lit, 1);
@@ -32,9 +32,10 @@ struct Errors {
     double mean_mm = 0.0, colour_rmse = 0.0;
 };
 
-Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPicture& truth,
-                 const PropShape& prop, const BenchPose& pose, const Settings& settings) {
-    const TruthView view = view_of(settings, pose);
+Errors errors_of(const Frame& frame, const BlockRelief& relief, const bench::TruthPicture& truth,
+                 const geometry::PropShape& prop, const bench::BenchPose& pose,
+                 const settings::Settings& settings) {
+    const bench::TruthView view = bench::view_of(settings, pose);
     Errors errors;
     int both = 0;
     for (int y = 0; y < truth.hit.height; ++y) {
@@ -49,11 +50,12 @@ Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPictu
                 continue;
             }
             glm::dvec3 best(INFINITY);
-            for (const PropFace& face : prop.faces) {
+            for (const geometry::PropFace& face : prop.faces) {
                 if (face.plane.distance(view.eye_m) > 0.0 &&
                     face.plane.distance(view.prop_from_projector.translation) > 0.0) {
-                    const Pinhole ideal = view.projector.ideal();
-                    const FaceRays rays = face_rays(face, ideal, view.prop_from_projector, view.eye_m);
+                    const geometry::Pinhole ideal = view.projector.ideal();
+                    const geometry::FaceRays rays =
+                        geometry::face_rays(face, ideal, view.prop_from_projector, view.eye_m);
                     const glm::dvec3 pixel(ideal.pixel(view.projector.ray({x + 0.5, y + 0.5})).value(), 1.0);
                     bool inside = true;
                     for (const glm::dvec3& edge : rays.edges) {
@@ -80,13 +82,13 @@ Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPictu
 }
 
 /// Sums of pixels over all poses; the mean of their means.
-Errors errors_over(const Subject& subject, const BlockRelief& relief, const Settings& settings,
-                   const PropShape& prop, const std::vector<BenchPose>& poses) {
+Errors errors_over(const Subject& subject, const BlockRelief& relief, const settings::Settings& settings,
+                   const geometry::PropShape& prop, const std::vector<bench::BenchPose>& poses) {
     Errors sum;
     Frame frame;
-    for (const BenchPose& pose : poses) {
+    for (const bench::BenchPose& pose : poses) {
         draw(frame, subject, relief, settings, prop, pose);
-        const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
+        const bench::TruthPicture truth = subject.truth.cast(prop, bench::view_of(settings, pose), false);
         const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
         sum.truth += one.truth;
         sum.missing += one.missing;
@@ -100,9 +102,9 @@ Errors errors_over(const Subject& subject, const BlockRelief& relief, const Sett
 
 TEST(Raster, ARingIsWhereTheRayCastFindsIt) {
     const Subject subject;
-    const Settings settings = near_settings();
-    const PropShape prop = make_prop(settings.prop);
-    const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+    const settings::Settings settings = bench::near_settings();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 8, 5).value();
     struct Size {
         int texels;
         double wrong_share, mean_mm; ///< limits at three times the measured values; missing and extra pixels
@@ -121,16 +123,17 @@ TEST(Raster, ARingIsWhereTheRayCastFindsIt) {
     }
 }
 
-constexpr std::array<Lens, 3> lenses{Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
+constexpr std::array<geometry::Lens, 3> lenses{geometry::Lens{0.1, 0.0}, geometry::Lens{-0.12, 0.04},
+                                               geometry::Lens{0.3, -0.2}};
 
 TEST(Raster, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
     const Subject subject;
     const BlockRelief relief = subject.relief(256);
-    for (const Lens& lens : lenses) {
-        Settings settings = near_settings();
+    for (const geometry::Lens& lens : lenses) {
+        settings::Settings settings = bench::near_settings();
         settings.projector.pinhole.lens = lens;
-        const PropShape prop = make_prop(settings.prop);
-        const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+        const geometry::PropShape prop = settings::make_prop(settings.prop);
+        const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 8, 5).value();
         const Errors sum = errors_over(subject, relief, settings, prop, poses);
         std::printf("k1 %g: %d pixels, missing %.3f %%, extra %.3f %%, far %.3f %%, %.5f mm, RMSE %.2f\n",
                     lens.k1, sum.truth, 100.0 * sum.missing / sum.truth, 100.0 * sum.extra / sum.truth,
@@ -146,14 +149,14 @@ TEST(Raster, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
 TEST(Raster, BehindALensTheListLeavesNothingOut) {
     const Subject subject;
     const BlockRelief relief = subject.relief(32);
-    for (const Lens& lens : lenses) {
-        Settings settings = near_settings();
-        Pinhole& pinhole = settings.projector.pinhole;
+    for (const geometry::Lens& lens : lenses) {
+        settings::Settings settings = bench::near_settings();
+        geometry::Pinhole& pinhole = settings.projector.pinhole;
         pinhole.lens = lens;
-        const PropShape prop = make_prop(settings.prop);
+        const geometry::PropShape prop = settings::make_prop(settings.prop);
         std::size_t narrowed = 0;
-        const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 6).value();
-        for (const BenchPose& pose : poses) {
+        const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 8, 6).value();
+        for (const bench::BenchPose& pose : poses) {
             Frame frame;
             draw(frame, subject, relief, settings, prop, pose);
             const std::vector<float> own = frame.picture.nearness;
@@ -177,8 +180,8 @@ TEST(Raster, BehindALensTheListLeavesNothingOut) {
 }
 
 /// A block at an angle in the prop: flat faces and sharp edges, none along the grid.
-std::shared_ptr<SourceMesh> askew_block() {
-    auto mesh = std::make_shared<SourceMesh>();
+std::shared_ptr<bake::SourceMesh> askew_block() {
+    auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->materials.resize(1);
     const glm::dmat3 turn(glm::mat3_cast(glm::angleAxis(0.5, glm::dvec3(0.0, 0.0, 1.0)) *
                                          glm::angleAxis(0.3, glm::dvec3(0.0, 1.0, 0.0))));
@@ -195,11 +198,11 @@ std::shared_ptr<SourceMesh> askew_block() {
 
 TEST(Raster, SharpEdgesAreCutWhereTheyEnd) {
     const Subject subject{askew_block()};
-    const Settings settings = near_settings();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = bench::near_settings();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const BlockRelief relief = subject.relief(96);
     EXPECT_FALSE(relief.covers.empty());
-    const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+    const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 8, 5).value();
     const Errors sum = errors_over(subject, relief, settings, prop, poses);
     std::printf("%zu blocks, %zu covers, %d pixels, missing %d, extra %d, far %d, %.5f mm\n",
                 relief.blocks.size(), relief.covers.size(), sum.truth, sum.missing, sum.extra, sum.far,
@@ -212,25 +215,26 @@ TEST(Raster, SharpEdgesAreCutWhereTheyEnd) {
 }
 
 TEST(Raster, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
-    std::shared_ptr<SourceMesh> soup = askew_block();
+    std::shared_ptr<bake::SourceMesh> soup = askew_block();
     for (std::size_t k = 0; k < soup->triangles.size(); k += 3) {
         std::swap(soup->triangles[k][1], soup->triangles[k][2]);
     }
     const Subject subject{soup};
-    const TriangleMesh sides = visible_sides(weld(*soup, subject.points), subject.surface, {});
-    const SourceMesh seen = as_source(sides);
-    const SourceScene surface(seen, std::vector<glm::dvec3>(sides.positions.begin(), sides.positions.end()),
-                              Sides::Front);
-    const BlockRelief relief = bake_blocks({surface, subject.frame.box_size, frustum_directions, 96});
-    const Settings settings = near_settings();
-    const PropShape prop = make_prop(settings.prop);
-    const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+    const bake::TriangleMesh sides =
+        bake::visible_sides(bake::weld(*soup, subject.points), subject.surface, {});
+    const bake::SourceMesh seen = bake::as_source(sides);
+    const bake::SourceScene surface(
+        seen, std::vector<glm::dvec3>(sides.positions.begin(), sides.positions.end()), bake::Sides::Front);
+    const BlockRelief relief = bake::bake_blocks({surface, subject.frame.box_size, frustum_directions, 96});
+    const settings::Settings settings = bench::near_settings();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 8, 5).value();
     int truth_pixels = 0;
     int missing = 0;
-    for (const BenchPose& pose : poses) {
+    for (const bench::BenchPose& pose : poses) {
         Frame frame;
         draw(frame, subject, relief, settings, prop, pose);
-        const TruthPicture truth = subject.truth.cast(prop, view_of(settings, pose), false);
+        const bench::TruthPicture truth = subject.truth.cast(prop, bench::view_of(settings, pose), false);
         const Errors one = errors_of(frame, relief, truth, prop, pose, settings);
         truth_pixels += one.truth;
         missing += one.missing;
@@ -241,11 +245,11 @@ TEST(Raster, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
 
 TEST(Raster, EveryInstructionSetMakesTheSamePicture) {
     const Subject subject;
-    const Settings settings = near_settings();
-    const PropShape prop = make_prop(settings.prop);
+    const settings::Settings settings = bench::near_settings();
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     const BlockRelief relief = subject.relief(128);
-    const std::vector<BenchPose> poses = draw_poses(settings, prop, 4, 9).value();
-    for (const BenchPose& pose : poses) {
+    const std::vector<bench::BenchPose> poses = bench::draw_poses(settings, prop, 4, 9).value();
+    for (const bench::BenchPose& pose : poses) {
         Frame frame;
         draw(frame, subject, relief, settings, prop, pose);
         BlockItems plain_items;
@@ -266,4 +270,4 @@ TEST(Raster, EveryInstructionSetMakesTheSamePicture) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

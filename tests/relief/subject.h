@@ -14,31 +14,31 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::relief {
 
-inline const std::vector<ReliefDirection> frustum_directions = {
-    ReliefDirection::PlusX, ReliefDirection::MinusX, ReliefDirection::PlusY, ReliefDirection::MinusY,
-    ReliefDirection::PlusZ};
+inline const std::vector<pack::ReliefDirection> frustum_directions = {
+    pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX, pack::ReliefDirection::PlusY,
+    pack::ReliefDirection::MinusY, pack::ReliefDirection::PlusZ};
 
 /// A mesh in the prop frame, as a relief and as the truth.
 struct Subject {
-    std::shared_ptr<SourceMesh> mesh = ring();
-    BoxFrame frame = make_box_frame(*mesh, {}).value();
-    std::vector<glm::dvec3> points = in_box(*mesh, frame);
-    SourceScene surface{*mesh, points, Sides::Both};
-    Truth truth = Truth::build(mesh, glm::dmat4(1.0)).value();
+    std::shared_ptr<bake::SourceMesh> mesh = bench::ring();
+    bake::BoxFrame frame = bake::make_box_frame(*mesh, {}).value();
+    std::vector<glm::dvec3> points = bake::in_box(*mesh, frame);
+    bake::SourceScene surface{*mesh, points, bake::Sides::Both};
+    bench::Truth truth = bench::Truth::build(mesh, glm::dmat4(1.0)).value();
 
     [[nodiscard]] BlockRelief relief(int texels) const {
-        return bake_blocks({surface, frame.box_size, frustum_directions, texels});
+        return bake::bake_blocks({surface, frame.box_size, frustum_directions, texels});
     }
     /// Sets up the view of an eye.
-    void show(RasterView& view, const Settings& settings, const PropShape& prop,
-              const BenchPose& pose) const {
-        const TruthView from = view_of(settings, pose);
+    void show(RasterView& view, const settings::Settings& settings, const geometry::PropShape& prop,
+              const bench::BenchPose& pose) const {
+        const bench::TruthView from = bench::view_of(settings, pose);
         set_up(view, prop,
                {glm::inverse(frame.box_from_file), frame.box_size, from.projector, from.prop_from_projector,
                 from.eye_m});
     }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::relief

@@ -18,7 +18,7 @@ TEST(Frame, AllocatesNothing) {
         for (int k = 0; k < 60; ++k) {
             stage.shuffle(random);
             const long before = allocations_so_far();
-            plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
+            scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{}), rig.plan);
             counted += allocations_so_far() - before;
             // In its first frames llvmpipe compiles shaders, with LLVM's C++ allocations.
             const long before_draw = allocations_so_far();

@@ -11,25 +11,25 @@ TEST_P(Captions, LieWhereTheyArePutAndNotOnTheProp) {
     Rig rig(320, 200, GetParam());
     Stage stage(320, 200, false);
     // Left half white, right half empty; 0.2 m wide from the prop's middle to the right.
-    Image<std::uint8_t> coverage(64, 32);
+    image::Image<std::uint8_t> coverage(64, 32);
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
             coverage.at(x, y) = 255;
         }
     }
-    const TextureId caption = rig.renderer->store().upload(coverage).value();
-    PlanView view = stage.view();
-    view.caption = TablePicture{{glm::dvec3(0.0, 0.03, 0.0), glm::dvec3(0.2, 0.03, 0.0),
-                                 glm::dvec3(0.2, -0.03, 0.0), glm::dvec3(0.0, -0.03, 0.0)},
-                                1.0,
-                                caption};
-    plan_frame(stage.prop, rig.level, view, rig.plan);
+    const scene::TextureId caption = rig.renderer->store().upload(coverage).value();
+    scene::PlanView view = stage.view();
+    view.caption = scene::TablePicture{{glm::dvec3(0.0, 0.03, 0.0), glm::dvec3(0.2, 0.03, 0.0),
+                                        glm::dvec3(0.2, -0.03, 0.0), glm::dvec3(0.0, -0.03, 0.0)},
+                                       1.0,
+                                       caption};
+    scene::plan_frame(stage.prop, rig.level, view, rig.plan);
     ASSERT_GE(rig.plan.faces.size(), 2U);
-    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, Redraw::Everything);
-    const Image8 both = rig.picture();
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, Redraw::Everything);
-    const Image8 alone = rig.picture();
+    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, render::Redraw::Everything);
+    const image::Image8 both = rig.picture();
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    rig.renderer->draw(rig.plan, {rig.display->framebuffer(), 0}, render::Redraw::Everything);
+    const image::Image8 alone = rig.picture();
 
     const glm::dvec3 projector(0.0, 0.0, 0.9);
     int white = 0;
@@ -38,8 +38,8 @@ TEST_P(Captions, LieWhereTheyArePutAndNotOnTheProp) {
             const glm::dvec2 pixel(x + 0.5, y + 0.5);
             const glm::dvec3 ray = stage.table_from_projector.direction(stage.projector.ray(pixel));
             const glm::dvec3 on_table = projector - ray * (0.9 / ray.z);
-            PropHit hit;
-            if (intersect(stage.prop, projector, ray, hit)) {
+            geometry::PropHit hit;
+            if (geometry::intersect(stage.prop, projector, ray, hit)) {
                 ASSERT_EQ(both.at(x, y), alone.at(x, y)) << x << ' ' << y;
             } else if (on_table.x > 0.0 && on_table.x < 0.095 && std::abs(on_table.y) < 0.028) {
                 ASSERT_EQ(both.at(x, y), glm::u8vec4(255)) << x << ' ' << y;

@@ -29,7 +29,7 @@ struct Comparison {
 inline double grid_step_px() {
     GLint bits = 4;
     glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    return draws_on_processor(gl_driver_name()) ? 0.0 : std::ldexp(1.0, -bits);
+    return display::draws_on_processor(display::gl_driver_name()) ? 0.0 : std::ldexp(1.0, -bits);
 }
 
 /// How far the true point moves when the pixel's centre moves by `step_px`: the maximum over eight
@@ -64,7 +64,8 @@ bool grazes(const Cast& cast, const Stage& stage, const glm::dvec2& centre, cons
     return false;
 }
 
-template <typename Cast> Comparison compare(const Stage& stage, const Cast& cast, const ImageFloat& drawn) {
+template <typename Cast>
+Comparison compare(const Stage& stage, const Cast& cast, const image::ImageFloat& drawn) {
     Comparison result;
     for (int y = 0; y < drawn.height; ++y) {
         for (int x = 0; x < drawn.width; ++x) {

@@ -25,9 +25,9 @@ struct CubeRig : Rig {
     Stage stage{256, 160};
 
     CubeRig() : Rig(256, 160) {
-        stage.prop = prop = make_cube(edge_m);
+        stage.prop = prop = geometry::make_cube(edge_m);
         level.metres_per_box = metres_per_box(pack, prop);
-        plan = make_plan(prop, level);
+        plan = scene::make_plan(prop, level);
     }
 };
 
@@ -39,8 +39,8 @@ TEST(Cube, EveryFaceShowsWhatARayCastShows) {
     std::set<std::string_view> shown;
     for (int pose = 0; pose < 24; ++pose) {
         hold(stage, random);
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        for (const FacePlan& face : rig.plan.faces) {
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        for (const scene::FacePlan& face : rig.plan.faces) {
             shown.insert(stage.prop.faces[static_cast<std::size_t>(face.face)].name);
         }
         const Comparison c = compare(stage, cast, rig.places());
@@ -55,7 +55,7 @@ TEST(Cube, UpsideDownItsBottomShowsTheArtifactFromBelow) {
     Stage& stage = rig.stage;
     stage.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};
     stage.eye_m = {0.0, 0.0, 0.7};
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     ASSERT_EQ(rig.plan.faces.size(), 1U);
     EXPECT_EQ(stage.prop.faces[static_cast<std::size_t>(rig.plan.faces[0].face)].name, "-Z");
     const Comparison c = compare(stage, ReferenceCast(rig.pack, rig.level.metres_per_box), rig.places());

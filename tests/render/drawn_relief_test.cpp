@@ -11,23 +11,24 @@ namespace frustumscreen::synthetic {
 namespace {
 
 /// The point of a relief that a pixel's ray meets, in the prop frame; NaN: none.
-glm::dvec3 met_by_ray(const ReliefScene& scene, const Stage& stage, double metres_per_box,
+glm::dvec3 met_by_ray(const bake::ReliefScene& scene, const Stage& stage, double metres_per_box,
                       const glm::dvec2& pixel) {
-    const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
+    const geometry::RigidTransform prop_from_projector =
+        stage.table_from_prop.inverse() * stage.table_from_projector;
     const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
     const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
-    PropHit lit;
-    if (!intersect(stage.prop, prop_from_projector.translation, ray, lit) ||
+    geometry::PropHit lit;
+    if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit) ||
         !(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
         return glm::dvec3(NAN);
     }
     const glm::dvec3 direction = glm::normalize(prop_from_projector.translation + lit.t * ray - eye);
-    const SurfaceHit met = scene.trace(glm::vec3(eye / metres_per_box), glm::vec3(direction));
+    const bake::SurfaceHit met = scene.trace(glm::vec3(eye / metres_per_box), glm::vec3(direction));
     return met.hit ? eye + metres_per_box * static_cast<double>(met.distance) * direction : glm::dvec3(NAN);
 }
 
-BlockRelief without_cuts(BlockRelief relief) {
-    for (ReliefBlock& block : relief.blocks) {
+relief::BlockRelief without_cuts(relief::BlockRelief relief) {
+    for (relief::ReliefBlock& block : relief.blocks) {
         block.cut = 0;
     }
     relief.covers.clear();
@@ -36,11 +37,11 @@ BlockRelief without_cuts(BlockRelief relief) {
 
 TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
     std::mt19937 random(13);
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 40, rings(), lens);
-        const BlockRelief whole = without_cuts(*rig.relief);
-        const ReliefScene scene(*rig.relief);
-        const ReliefScene whole_scene(whole);
+        const relief::BlockRelief whole = without_cuts(*rig.relief);
+        const bake::ReliefScene scene(*rig.relief);
+        const bake::ReliefScene whole_scene(whole);
         Stage stage = stage_of(lens);
         std::size_t both = 0;
         std::size_t one = 0;
@@ -49,10 +50,10 @@ TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
         for (int pose = 0; pose < 3; ++pose) {
             stage.shuffle(random);
             rig.one(stage, rig.drawn);
-            const ImageFloat places = rig.places();
+            const image::ImageFloat places = rig.places();
             for (int y = 0; y < places.height; ++y) {
                 for (int x = 0; x < places.width; ++x) {
-                    const auto ray = [&](const ReliefScene& of) {
+                    const auto ray = [&](const bake::ReliefScene& of) {
                         return met_by_ray(of, stage, rig.drawn.metres_per_box, {x + 0.5, y + 0.5});
                     };
                     const glm::dvec3 truth = ray(scene);
@@ -78,7 +79,7 @@ TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
 
 TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
     std::mt19937 random(14);
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         for (const int samples : {1, 16}) {
             ReliefRig rig(samples, 192, rings(), lens);
             Stage stage = stage_of(lens);
@@ -88,10 +89,10 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
             std::size_t far = 0;
             for (int pose = 0; pose < 4; ++pose) {
                 stage.shuffle(random);
-                const Image8 raster = rig.one(stage, rig.raster, LightCompensation{});
-                const ImageFloat met = rig.places();
-                const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
-                const ImageFloat places = rig.places();
+                const image::Image8 raster = rig.one(stage, rig.raster, scene::LightCompensation{});
+                const image::ImageFloat met = rig.places();
+                const image::Image8 drawn = rig.one(stage, rig.drawn, scene::LightCompensation{});
+                const image::ImageFloat places = rig.places();
                 for (std::size_t k = 0; k < raster.texels.size(); ++k) {
                     const bool in_raster = !std::isnan(met.texels[k].x);
                     const bool in_drawn = !std::isnan(places.texels[k].x);
@@ -121,9 +122,9 @@ TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
     Stage stage(320, 200);
     std::mt19937 random(15);
     stage.shuffle(random);
-    const Image8 raster = rig.one(stage, rig.raster, LightCompensation{});
-    const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
-    const Image8 middle = rig.fading(stage, rig.raster, rig.drawn, 0.5);
+    const image::Image8 raster = rig.one(stage, rig.raster, scene::LightCompensation{});
+    const image::Image8 drawn = rig.one(stage, rig.drawn, scene::LightCompensation{});
+    const image::Image8 middle = rig.fading(stage, rig.raster, rig.drawn, 0.5);
     std::size_t differing = 0;
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
         ASSERT_TRUE(farthest_channel(middle.texels[k], raster.texels[k]) <= 1 ||
@@ -137,11 +138,11 @@ TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
 
 TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
     ReliefRig rig(1);
-    GpuStore& store = rig.renderer->store();
+    render::GpuStore& store = rig.renderer->store();
     const std::uint64_t before = store.bytes();
     EXPECT_EQ(store.bytes(rig.raster.drawable), 0U);
-    const Drawable drawable = store.upload(rig.relief).value();
-    EXPECT_EQ(store.bytes(drawable), gpu_bytes(*rig.relief));
+    const scene::Drawable drawable = store.upload(rig.relief).value();
+    EXPECT_EQ(store.bytes(drawable), render::gpu_bytes(*rig.relief));
     EXPECT_GE(store.bytes(drawable), rig.relief->blocks.size() * 372 + rig.relief->covers.size() * 8);
     EXPECT_EQ(store.bytes(), before + store.bytes(drawable));
     const GLuint numbers = store.find_blocks(drawable.mesh)->numbers.get();
@@ -154,32 +155,32 @@ TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
 TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
-    const Image8 whole = rig.one(stage, rig.drawn);
-    LevelData data;
+    const image::Image8 whole = rig.one(stage, rig.drawn);
+    scene::LevelData data;
     data.relief = rig.relief;
     data.on_gpu = true;
-    LevelUpload upload(std::move(data));
+    render::LevelUpload upload(std::move(data));
     int pieces = 0;
     while (!upload.done()) {
         ASSERT_TRUE(upload.go_on(1000));
         pieces += 1;
     }
     EXPECT_GT(pieces, 5);
-    PlacedLevel other = rig.drawn;
+    scene::PlacedLevel other = rig.drawn;
     other.drawable = rig.renderer->store().keep(std::move(upload));
     EXPECT_EQ(rig.one(stage, other).texels, whole.texels);
 }
 
 TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
     ReliefRig rig(1);
-    const Result<BlockSheet> sheet = sheet_of(*rig.relief, 64);
+    const Result<render::BlockSheet> sheet = render::sheet_of(*rig.relief, 64);
     ASSERT_FALSE(sheet);
     EXPECT_NE(sheet.error().message.find("this driver allows 64"), std::string::npos)
         << sheet.error().message;
     EXPECT_EQ(sheet.error().message.find('\n'), std::string::npos);
     const std::uint64_t before = rig.renderer->store().bytes();
     glEnable(GL_TEXTURE_2D); // ES has no such state: the error stands for one of memory
-    const Result<Drawable> refused = rig.renderer->store().upload(rig.relief);
+    const Result<scene::Drawable> refused = rig.renderer->store().upload(rig.relief);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().id, "render.no_room_for_relief") << refused.error().message;
     EXPECT_EQ(rig.renderer->store().bytes(), before);

@@ -15,21 +15,21 @@ constexpr double step_m = 1e-4;
 class EdgeFeather : public ::testing::Test {
 protected:
     EdgeFeather() : rig(320, 200), stage(320, 200) {
-        rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
+        rig.pack.textures[0] = image::Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
         stage.eye_m = {0.0, -0.45, 0.5};
     }
-    Image8 draw(bool feathered) {
-        plan_frame(stage.prop, rig.level, stage.view(LightCompensation{aim}), rig.plan);
+    image::Image8 draw(bool feathered) {
+        scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{aim}), rig.plan);
         if (!feathered) {
             rig.plan.feathers.clear();
         }
-        rig.draw(Redraw::Everything);
+        rig.draw(render::Redraw::Everything);
         return rig.picture();
     }
     /// An edge of the top in the picture; both adjacent faces show the artifact.
     [[nodiscard]] std::array<glm::dvec2, 2> front_edge_of_top() const {
-        const RigidTransform projector_from_prop =
+        const geometry::RigidTransform projector_from_prop =
             stage.table_from_projector.inverse() * stage.table_from_prop;
         std::array<glm::dvec2, 2> ends{};
         std::size_t count = 0;
@@ -44,10 +44,10 @@ protected:
     int max_change(bool feathered) {
         int most = 0;
         stage.table_from_prop.translation = {0.0, 0.0, 0.0};
-        Image8 before = draw(feathered);
+        image::Image8 before = draw(feathered);
         for (int k = 1; k <= 40; ++k) {
             stage.table_from_prop.translation.y = k * step_m;
-            const Image8 now = draw(feathered);
+            const image::Image8 now = draw(feathered);
             const auto [a, b] = front_edge_of_top();
             const int x = static_cast<int>(0.5 * (a.x + b.x)); // middle of the artifact
             for (int y = static_cast<int>(a.y) - 4; y <= static_cast<int>(a.y) + 4; ++y) {
@@ -69,8 +69,8 @@ TEST_F(EdgeFeather, APixelChangesByDegreesWhenAnEdgeCrossesIt) {
 }
 
 TEST_F(EdgeFeather, OnlyTheLastPixelOfTheBrighterFaceIsDimmed) {
-    const Image8 sharp = draw(false);
-    const Image8 feathered = draw(true);
+    const image::Image8 sharp = draw(false);
+    const image::Image8 feathered = draw(true);
     ASSERT_FALSE(rig.plan.faces.empty());
     const auto [a, b] = front_edge_of_top();
     int dimmed = 0;
@@ -90,17 +90,18 @@ TEST_F(EdgeFeather, OnlyTheLastPixelOfTheBrighterFaceIsDimmed) {
 TEST_F(EdgeFeather, TheStripsCloseTheGapBetweenTheGains) {
     draw(true);
     ASSERT_FALSE(rig.plan.feathers.empty());
-    for (const frustumscreen::EdgeFeather& feather : rig.plan.feathers) {
-        const FacePlan& own = rig.plan.faces[static_cast<std::size_t>(feather.face)];
+    for (const frustumscreen::scene::EdgeFeather& feather : rig.plan.feathers) {
+        const scene::FacePlan& own = rig.plan.faces[static_cast<std::size_t>(feather.face)];
         for (std::size_t end = 0; end < 2; ++end) {
             const glm::vec4& clip = feather.corners_clip.at(end);
             const glm::dvec2 pixel = (glm::dvec2(clip) * 0.5 + 0.5) * glm::dvec2(320, 200);
             const double share = end == 0 ? feather.share.x : feather.share.y;
             double nearest = 1e9; // to the gain of the closest neighbour
-            for (const FacePlan& other : rig.plan.faces) {
+            for (const scene::FacePlan& other : rig.plan.faces) {
                 if (&other != &own) {
-                    nearest = std::min(nearest, std::abs(share * gain(own.light, stage.projector, pixel) -
-                                                         gain(other.light, stage.projector, pixel)));
+                    nearest =
+                        std::min(nearest, std::abs(share * scene::gain(own.light, stage.projector, pixel) -
+                                                   scene::gain(other.light, stage.projector, pixel)));
                 }
             }
             EXPECT_LT(nearest, 1e-4);

@@ -14,26 +14,27 @@ namespace {
 /// Two levels of one artifact: the points of the coarse one are points of the fine one, so the boxes are
 /// equal.
 struct FadeRig : Rig {
-    Pack coarse_pack = rings(12, 4);
-    PlacedLevel coarse;
+    pack::Pack coarse_pack = rings(12, 4);
+    scene::PlacedLevel coarse;
 
     explicit FadeRig(int samples) : Rig(320, 200, samples) {
         EXPECT_EQ(coarse_pack.box_size, pack.box_size);
         EXPECT_TRUE(renderer->prepare(needs(samples, true)));
-        hit_points = HitPointRenderer::create(*renderer).value();
-        coarse =
-            placed(coarse_pack, 0, level.metres_per_box, renderer->store().upload(coarse_pack, 0).value());
+        hit_points = render::HitPointRenderer::create(*renderer).value();
+        coarse = scene::placed(coarse_pack, 0, level.metres_per_box,
+                               renderer->store().upload(coarse_pack, 0).value());
         level.samples = coarse.samples = 0;
-        plan = make_plan(prop, level.triangles->indices.size() + coarse.triangles->indices.size(), 2);
+        plan = scene::make_plan(prop, level.triangles->indices.size() + coarse.triangles->indices.size(), 2);
     }
-    Image8 one(const Stage& stage, const PlacedLevel& which) {
-        plan_frame(prop, which, stage.view(LightCompensation{}), plan);
+    image::Image8 one(const Stage& stage, const scene::PlacedLevel& which) {
+        scene::plan_frame(prop, which, stage.view(scene::LightCompensation{}), plan);
         draw();
         return picture();
     }
     /// Fades from the fine level to the coarse one.
-    Image8 fading(const Stage& stage, double share) {
-        plan_frame(prop, fade(level, coarse, share), stage.view(LightCompensation{}), plan);
+    image::Image8 fading(const Stage& stage, double share) {
+        scene::plan_frame(prop, scene::fade(level, coarse, share), stage.view(scene::LightCompensation{}),
+                          plan);
         EXPECT_TRUE(draw().drawn);
         return picture();
     }
@@ -54,8 +55,8 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
     std::mt19937 random(11);
     for (int pose = 0; pose < 4; ++pose) {
         stage.shuffle(random);
-        const Image8 from = rig.one(stage, rig.level);
-        const Image8 to = rig.one(stage, rig.coarse);
+        const image::Image8 from = rig.one(stage, rig.level);
+        const image::Image8 to = rig.one(stage, rig.coarse);
         EXPECT_EQ(rig.fading(stage, 0.0).texels, from.texels);
         EXPECT_EQ(rig.fading(stage, 1.0).texels, to.texels);
         std::vector<bool> arrived(from.texels.size(), false);
@@ -65,7 +66,7 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
         }
         ASSERT_GT(differing, 500U);
         for (const double share : {0.1, 0.3, 0.5, 0.8}) {
-            const Image8 middle = rig.fading(stage, share);
+            const image::Image8 middle = rig.fading(stage, share);
             std::size_t coming = 0;
             std::size_t neither = 0;
             std::size_t gone_back = 0;
@@ -88,12 +89,13 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
 
 TEST_P(Fading, IsLeftOutByARendererThatWasMadeWithoutItsShader) {
     FadeRig rig(GetParam());
-    rig.renderer = Renderer::create(320, 200, needs(GetParam())).value();
+    rig.renderer = render::Renderer::create(320, 200, needs(GetParam())).value();
     rig.upload_again();
     const Stage stage(320, 200);
     EXPECT_GT(lit_pixels(rig.one(stage, rig.level)), 1000U);
     EXPECT_EQ(lit_pixels(rig.fading(stage, 0.5)), 0U);
-    EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(GetParam()))); // no shader was compiled for the fade
+    EXPECT_EQ(rig.renderer->shaders(),
+              scene::shaders_of(needs(GetParam()))); // no shader was compiled for the fade
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Fading, ::testing::Values(1, 2, 4, 8));
@@ -118,8 +120,9 @@ TEST(Fading, PlacesAreThoseOfARayCastOfTheLevelThatHasThePixel) {
     stage.shuffle(random);
     const ReferenceCast fine(rig.pack, rig.level.metres_per_box);
     const ReferenceCast coarse(rig.coarse_pack, rig.level.metres_per_box);
-    plan_frame(rig.prop, fade(rig.level, rig.coarse, 0.4), stage.view(LightCompensation{}), rig.plan);
-    const ImageFloat drawn = rig.places();
+    scene::plan_frame(rig.prop, scene::fade(rig.level, rig.coarse, 0.4),
+                      stage.view(scene::LightCompensation{}), rig.plan);
+    const image::ImageFloat drawn = rig.places();
     std::array<int, 2> compared{};
     for (int y = 0; y < drawn.height; ++y) {
         for (int x = 0; x < drawn.width; ++x) {
@@ -152,8 +155,8 @@ TEST(Fading, AllocatesNothing) {
     for (int k = 0; k < 60; ++k) {
         stage.shuffle(random);
         const long before = allocations_so_far();
-        plan_frame(rig.prop, fade(rig.level, rig.coarse, k / 60.0), stage.view(LightCompensation{}),
-                   rig.plan);
+        scene::plan_frame(rig.prop, scene::fade(rig.level, rig.coarse, k / 60.0),
+                          stage.view(scene::LightCompensation{}), rig.plan);
         counted += allocations_so_far() - before;
         const long before_draw = allocations_so_far();
         rig.draw();

@@ -12,10 +12,11 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-constexpr std::array<Lens, 4> lenses{Lens{0.1, 0.0}, Lens{-0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
+constexpr std::array<geometry::Lens, 4> lenses{geometry::Lens{0.1, 0.0}, geometry::Lens{-0.1, 0.0},
+                                               geometry::Lens{-0.12, 0.04}, geometry::Lens{0.3, -0.2}};
 
 /// A wide lens: the picture's corner is at 0.42 focal lengths, where k1 = 0.1 moves a pixel by 2.
-Stage wide(const Lens& lens) {
+Stage wide(const geometry::Lens& lens) {
     Stage stage(256, 160);
     stage.projector.fx = stage.projector.fy = 360.0;
     stage.projector.lens = lens;
@@ -28,14 +29,14 @@ Stage wide(const Lens& lens) {
 /// angle magnifies that ten times.
 TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
     std::mt19937 random(17);
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(48, 24), wide(lens).projector);
         const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
         for (int pose = 0; pose < 2; ++pose) {
             Stage stage = wide(lens);
             stage.shuffle(random);
             stage.table_from_projector.translation.z = 0.5;
-            plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
             const Comparison c = compare(stage, cast, rig.places());
             EXPECT_GT(c.both, 200U) << lens.k1 << ' ' << pose;
             EXPECT_LT(c.worst_mm, 0.1) << lens.k1 << ' ' << pose;
@@ -48,8 +49,8 @@ TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
 /// mean of three would reveal a shift.
 TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
     constexpr std::array<glm::dvec2, 3> places{glm::dvec2(0.07, 0.03), {-0.07, -0.03}, {0.06, -0.04}};
-    for (const Lens& lens : std::span(lenses).first(2)) {
-        Pack white = rings(16, 8);
+    for (const geometry::Lens& lens : std::span(lenses).first(2)) {
+        pack::Pack white = rings(16, 8);
         std::fill(white.textures[0].texels.begin(), white.textures[0].texels.end(), glm::u8vec4(255));
         Rig rig(256, 160, 16, white, wide(lens).projector);
         const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
@@ -60,8 +61,8 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
             stage.eye_m = {0.15, -0.3, 0.6};
             const Mass truth = cast_mass(cast, stage);
             ASSERT_GT(truth.light, 1000.0);
-            plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-            rig.draw(Redraw::Everything);
+            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            rig.draw(render::Redraw::Everything);
             const Mass shown = shown_mass(rig.picture());
             EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << lens.k1;
             EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.1) << lens.k1;
@@ -76,7 +77,7 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
 
 TEST(BentPicture, CullingTakesNothingAway) {
     std::mt19937 random(12);
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
         for (int pose = 0; pose < 12; ++pose) {
             Stage stage = wide(lens);
@@ -85,11 +86,11 @@ TEST(BentPicture, CullingTakesNothingAway) {
             if (pose % 4 == 3) { // at the picture's edge
                 stage.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
             }
-            plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-            rig.draw(Redraw::Everything);
-            const Image8 culled_picture = rig.picture();
+            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            rig.draw(render::Redraw::Everything);
+            const image::Image8 culled_picture = rig.picture();
             draw_everything(rig.plan, rig.pack.levels[0].indices);
-            rig.draw(Redraw::Everything);
+            rig.draw(render::Redraw::Everything);
             ASSERT_EQ(rig.picture().texels, culled_picture.texels) << lens.k1 << ' ' << pose;
         }
     }
@@ -97,7 +98,7 @@ TEST(BentPicture, CullingTakesNothingAway) {
 
 /// Light of a pixel on a surface square to it at 1 m, relative to a pixel of the ideal lens: it fills the
 /// solid angle between its corners' rays.
-double light_of_pixel(const Pinhole& pinhole, int x, int y) {
+double light_of_pixel(const geometry::Pinhole& pinhole, int x, int y) {
     const auto ray = [&](double u, double v) { return glm::dvec2(pinhole.ray({u, v})); };
     const glm::dvec2 across = ray(x + 1.0, y + 0.5) - ray(x, y + 0.5);
     const glm::dvec2 down = ray(x + 0.5, y + 1.0) - ray(x + 0.5, y);
@@ -105,35 +106,35 @@ double light_of_pixel(const Pinhole& pinhole, int x, int y) {
 }
 
 TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
-        rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
+        rig.pack.textures[0] = image::Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
         Stage stage = wide(lens);
-        stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
+        stage.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
         stage.eye_m = {0.0, -0.45, 0.5};
         constexpr double aim = 0.5; // relative to the light at 1 m; the lens is half a metre above the table
-        plan_frame(stage.prop, rig.level, stage.view(LightCompensation{aim}), rig.plan);
+        scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{aim}), rig.plan);
         rig.plan.feathers.clear();
-        rig.draw(Redraw::Everything);
-        const Image8 picture = rig.picture();
-        const RigidTransform prop_from_projector =
+        rig.draw(render::Redraw::Everything);
+        const image::Image8 picture = rig.picture();
+        const geometry::RigidTransform prop_from_projector =
             stage.table_from_prop.inverse() * stage.table_from_projector;
         double least = 10.0;
         double most = 0.0;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
-                PropHit lit;
+                geometry::PropHit lit;
                 const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray({x + 0.5, y + 0.5}));
                 if (picture.at(x, y).g == 0 ||
-                    !intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+                    !geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
                     continue;
                 }
                 const glm::dvec3 to_light = -lit.t * ray;
                 const double d = glm::length(to_light);
                 const double cosine =
                     glm::dot(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal, to_light / d);
-                const double light = linear_from_srgb(picture.at(x, y).g / 255.0) * cosine / (d * d) *
+                const double light = image::linear_from_srgb(picture.at(x, y).g / 255.0) * cosine / (d * d) *
                                      light_of_pixel(stage.projector, x, y);
                 least = std::min(least, light);
                 most = std::max(most, light);

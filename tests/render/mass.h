@@ -34,27 +34,27 @@ inline Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
     return cast_mass(cast, stage, [](const glm::dvec2&) { return 1.0; });
 }
 
-inline Mass shown_mass(const Image8& picture) {
+inline Mass shown_mass(const image::Image8& picture) {
     Mass mass;
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
-            mass.add({x + 0.5, y + 0.5}, linear_from_srgb(picture.at(x, y).g / 255.0));
+            mass.add({x + 0.5, y + 0.5}, image::linear_from_srgb(picture.at(x, y).g / 255.0));
         }
     }
     return mass;
 }
 
 /// Makes every face draw the whole level, over the whole picture.
-inline void draw_everything(FramePlan& plan, const std::vector<std::uint32_t>& all) {
+inline void draw_everything(scene::FramePlan& plan, const std::vector<std::uint32_t>& all) {
     const PixelRectangle picture{0, 0, plan.projector.width, plan.projector.height};
     plan.indices = all;
     plan.lit.begin(picture.width, picture.height);
     plan.lit.light(picture);
     plan.lit.finish();
-    for (FacePlan& face : plan.faces) {
+    for (scene::FacePlan& face : plan.faces) {
         face.bounds = picture;
     }
-    for (Draw& draw : plan.draws) {
+    for (scene::Draw& draw : plan.draws) {
         draw.range = {0, static_cast<std::uint32_t>(all.size())};
         draw.bounds = picture;
     }

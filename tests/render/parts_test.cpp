@@ -9,15 +9,17 @@ namespace {
 
 /// Two artifacts of different sizes, one inside the other.
 struct NestedRig : Rig {
-    Pack inner_pack = rings(16, 8);
-    PlacedLevel inner;
+    pack::Pack inner_pack = rings(16, 8);
+    scene::PlacedLevel inner;
 
     NestedRig() : Rig(256, 160) {
-        inner = placed(inner_pack, 0, 0.7 * level.metres_per_box,
-                       renderer->store().upload(inner_pack, 0).value());
-        plan = make_plan(prop, level.triangles->indices.size() + inner.triangles->indices.size(), 2);
+        inner = scene::placed(inner_pack, 0, 0.7 * level.metres_per_box,
+                              renderer->store().upload(inner_pack, 0).value());
+        plan = scene::make_plan(prop, level.triangles->indices.size() + inner.triangles->indices.size(), 2);
     }
-    [[nodiscard]] std::array<Part, 2> parts() const { return {Part{level, {}}, Part{inner, {}}}; }
+    [[nodiscard]] std::array<scene::Part, 2> parts() const {
+        return {scene::Part{level, {}}, scene::Part{inner, {}}};
+    }
 };
 
 /// The first hit of either artifact.
@@ -40,7 +42,7 @@ TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
     std::mt19937 random(7);
     for (int pose = 0; pose < 5; ++pose) {
         stage.shuffle(random);
-        plan_frame(stage.prop, rig.parts(), stage.view(), rig.plan);
+        scene::plan_frame(stage.prop, rig.parts(), stage.view(), rig.plan);
         const Comparison c = compare(stage, cast, rig.places());
         EXPECT_GT(c.both, 600U) << pose;
         EXPECT_LT(c.worst_mm, 0.02) << pose;
@@ -54,12 +56,12 @@ TEST(Parts, TheirOrderDoesNotShow) {
     std::mt19937 random(22);
     for (int pose = 0; pose < 5; ++pose) {
         stage.shuffle(random);
-        plan_frame(stage.prop, rig.parts(), stage.view(LightCompensation{}), rig.plan);
-        rig.draw(Redraw::Everything);
-        const Image8 picture = rig.picture();
-        const std::array<Part, 2> turned{rig.parts()[1], rig.parts()[0]};
-        plan_frame(stage.prop, turned, stage.view(LightCompensation{}), rig.plan);
-        rig.draw(Redraw::Everything);
+        scene::plan_frame(stage.prop, rig.parts(), stage.view(scene::LightCompensation{}), rig.plan);
+        rig.draw(render::Redraw::Everything);
+        const image::Image8 picture = rig.picture();
+        const std::array<scene::Part, 2> turned{rig.parts()[1], rig.parts()[0]};
+        scene::plan_frame(stage.prop, turned, stage.view(scene::LightCompensation{}), rig.plan);
+        rig.draw(render::Redraw::Everything);
         EXPECT_EQ(rig.picture().texels, picture.texels) << pose;
     }
 }
@@ -67,22 +69,22 @@ TEST(Parts, TheirOrderDoesNotShow) {
 TEST(Parts, OfOneArtifactShowItWhole) {
     Rig rig(320, 200, 4);
     Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{}), rig.plan);
     rig.draw();
-    const Image8 whole = rig.picture();
-    std::array<Part, 2> halves{Part{rig.level, {}}, Part{rig.level, {}}};
+    const image::Image8 whole = rig.picture();
+    std::array<scene::Part, 2> halves{scene::Part{rig.level, {}}, scene::Part{rig.level, {}}};
     for (std::size_t half = 0; half < halves.size(); ++half) {
-        PackLevel level = rig.pack.levels[0];
+        pack::PackLevel level = rig.pack.levels[0];
         const auto middle = level.clusters.begin() + static_cast<std::ptrdiff_t>(level.clusters.size() / 2);
         level.clusters = half == 0 ? std::vector(level.clusters.begin(), middle)
                                    : std::vector(middle, level.clusters.end());
         halves[half].level.triangles =
-            std::make_shared<LevelTriangles>(triangles_of(level, rig.pack.box_size));
+            std::make_shared<scene::LevelTriangles>(scene::triangles_of(level, rig.pack.box_size));
     }
-    rig.plan = make_plan(rig.prop, 2 * rig.pack.levels[0].indices.size(), 2);
-    plan_frame(stage.prop, halves, stage.view(LightCompensation{}), rig.plan);
+    rig.plan = scene::make_plan(rig.prop, 2 * rig.pack.levels[0].indices.size(), 2);
+    scene::plan_frame(stage.prop, halves, stage.view(scene::LightCompensation{}), rig.plan);
     EXPECT_GT(rig.plan.draws.size(), rig.plan.faces.size());
-    EXPECT_TRUE(rig.draw(Redraw::Everything).drawn);
+    EXPECT_TRUE(rig.draw(render::Redraw::Everything).drawn);
     EXPECT_EQ(rig.picture().texels, whole.texels);
 }
 
@@ -91,20 +93,21 @@ TEST(Parts, AndACaptionAllocateNothing) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
     NestedRig rig;
-    const TextureId caption = rig.renderer->store().upload(Image<std::uint8_t>(64, 32, 255)).value();
+    const scene::TextureId caption =
+        rig.renderer->store().upload(image::Image<std::uint8_t>(64, 32, 255)).value();
     Stage stage(256, 160);
     std::mt19937 random(5);
     long counted = 0;
     for (int k = 0; k < 60; ++k) {
         stage.shuffle(random);
-        PlanView view = stage.view(LightCompensation{});
-        view.caption = TablePicture{{glm::dvec3(-0.2, 0.13, 0.0), glm::dvec3(-0.1, 0.13, 0.0),
-                                     glm::dvec3(-0.1, 0.09, 0.0), glm::dvec3(-0.2, 0.09, 0.0)},
-                                    1.0,
-                                    caption};
-        const std::array<Part, 2> parts = rig.parts();
+        scene::PlanView view = stage.view(scene::LightCompensation{});
+        view.caption = scene::TablePicture{{glm::dvec3(-0.2, 0.13, 0.0), glm::dvec3(-0.1, 0.13, 0.0),
+                                            glm::dvec3(-0.1, 0.09, 0.0), glm::dvec3(-0.2, 0.09, 0.0)},
+                                           1.0,
+                                           caption};
+        const std::array<scene::Part, 2> parts = rig.parts();
         const long before = allocations_so_far();
-        plan_frame(rig.prop, parts, view, rig.plan);
+        scene::plan_frame(rig.prop, parts, view, rig.plan);
         counted += allocations_so_far() - before;
         const long before_draw = allocations_so_far();
         rig.draw();

@@ -16,7 +16,7 @@ TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
     std::mt19937 random(7);
     for (int pose = 0; pose < 8; ++pose) {
         stage.shuffle(random);
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         const Comparison c = compare(stage, cast, rig.places());
         EXPECT_GT(c.both, 600U) << pose;
         EXPECT_LT(c.worst_mm, 0.02) << pose;
@@ -43,7 +43,7 @@ TEST(Picture, HoldsForExtremeEyesAndProjectors) {
         glm::angleAxis(lean, glm::dvec3(1, 0, 0)) * oblique.table_from_projector.rotation;
     oblique.table_from_projector.translation = {0.0, -0.9 * std::sin(lean), 0.05 + 0.9 * std::cos(lean)};
     for (const Stage& stage : {overhead, far, close, shifted, oblique}) {
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         const Comparison c = compare(stage, cast, rig.places());
         const std::string which = ::testing::PrintToString(&stage - &overhead);
         EXPECT_GT(c.both, 300U) << which;
@@ -61,8 +61,8 @@ TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
         std::fill(rig.pack.textures[0].texels.begin(), rig.pack.textures[0].texels.end(),
                   glm::u8vec4(c, inverse, 128, 255));
         rig.upload_again();
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        rig.draw(Redraw::Everything);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        rig.draw(render::Redraw::Everything);
         std::size_t shown = 0;
         for (const glm::u8vec4& texel : rig.picture().texels) {
             if (texel != glm::u8vec4(0, 0, 0, 255)) {
@@ -85,20 +85,20 @@ TEST(Picture, CullingTakesNothingAway) {
         if (pose % 4 == 3) { // at the picture's edge
             stage.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
         }
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         drawn += rig.plan.indices.size();
-        rig.draw(Redraw::Everything);
-        const Image8 culled_picture = rig.picture();
+        rig.draw(render::Redraw::Everything);
+        const image::Image8 culled_picture = rig.picture();
         draw_everything(rig.plan, rig.pack.levels[0].indices);
         possible += rig.plan.indices.size();
-        rig.draw(Redraw::Everything);
+        rig.draw(render::Redraw::Everything);
         ASSERT_EQ(rig.picture().texels, culled_picture.texels) << pose;
     }
     EXPECT_LT(drawn * 10, possible * 6) << "culling leaves out less than 40 % of the triangles";
 }
 
 TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
-    Pack white = rings(16, 8);
+    pack::Pack white = rings(16, 8);
     std::fill(white.textures[0].texels.begin(), white.textures[0].texels.end(), glm::u8vec4(255));
     Rig rig(256, 160, 16, white);
     const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
@@ -107,8 +107,8 @@ TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
     for (int pose = 0; pose < 2; ++pose) {
         const Mass truth = cast_mass(cast, stage);
         ASSERT_GT(truth.light, 400.0);
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        rig.draw(Redraw::Everything);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        rig.draw(render::Redraw::Everything);
         const Mass shown = shown_mass(rig.picture());
         EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << pose;
         EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.05) << pose;
@@ -119,13 +119,13 @@ TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
 TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     Rig sharp(256, 160, 1);
     Stage stage(256, 160);
-    plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
+    scene::plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
     sharp.draw();
-    const Image8 one = sharp.picture();
+    const image::Image8 one = sharp.picture();
     Rig smooth(256, 160, 4);
-    plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
+    scene::plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
     smooth.draw();
-    const Image8 four = smooth.picture();
+    const image::Image8 four = smooth.picture();
     std::size_t same = 0;
     std::size_t between = 0;
     for (std::size_t k = 0; k < one.texels.size(); ++k) {

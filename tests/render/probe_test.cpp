@@ -11,16 +11,17 @@ namespace {
 TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
     Rig rig(320, 200);
     Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    const DrawResult drawn = rig.draw();
-    const Image8 plain = rig.picture();
-    EXPECT_FALSE(read_probe(plain)); // the offline renderer's pictures have none
-    EXPECT_FALSE(read_probe(rig.display->framebuffer()));
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    const render::DrawResult drawn = rig.draw();
+    const image::Image8 plain = rig.picture();
+    EXPECT_FALSE(render::read_probe(plain)); // the offline renderer's pictures have none
+    EXPECT_FALSE(render::read_probe(rig.display->framebuffer()));
     for (unsigned code = 0; code < 256; ++code) {
-        ASSERT_TRUE(write_probe(rig.display->framebuffer(), static_cast<std::uint8_t>(code), drawn.lit));
-        Image8 picture = rig.picture();
-        ASSERT_EQ(read_probe(picture), static_cast<std::uint8_t>(code));
-        ASSERT_EQ(read_probe(rig.display->framebuffer()), static_cast<std::uint8_t>(code));
+        ASSERT_TRUE(
+            render::write_probe(rig.display->framebuffer(), static_cast<std::uint8_t>(code), drawn.lit));
+        image::Image8 picture = rig.picture();
+        ASSERT_EQ(render::read_probe(picture), static_cast<std::uint8_t>(code));
+        ASSERT_EQ(render::read_probe(rig.display->framebuffer()), static_cast<std::uint8_t>(code));
         int changed = 0;
         int brightest = 0;
         for (std::size_t k = 0; k < plain.texels.size(); ++k) {
@@ -31,7 +32,7 @@ TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
         }
         ASSERT_EQ(changed, probe_pixels);
         ASSERT_LE(brightest, 2); // of 255
-        erase_probe(picture);
+        render::erase_probe(picture);
         ASSERT_EQ(picture.texels, plain.texels);
     }
 }
@@ -41,30 +42,30 @@ TEST(Probe, NeverTouchesWhatThePictureMayLight) {
     Stage stage(320, 200);
     // The prop in the picture's top left corner.
     stage.table_from_prop.translation = {-0.19, 0.12, 0.0};
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    const DrawResult drawn = rig.draw();
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    const render::DrawResult drawn = rig.draw();
     ASSERT_EQ(drawn.lit.x, 0);
     ASSERT_EQ(drawn.lit.y, 0);
-    const Image8 plain = rig.picture();
-    EXPECT_FALSE(write_probe(rig.display->framebuffer(), 5, drawn.lit));
+    const image::Image8 plain = rig.picture();
+    EXPECT_FALSE(render::write_probe(rig.display->framebuffer(), 5, drawn.lit));
     EXPECT_EQ(rig.picture().texels, plain.texels);
 }
 
 TEST(Probe, IsNotReadFromBlackWhiteOrTinyPictures) {
-    EXPECT_FALSE(read_probe(Image8(320, 200)));
-    EXPECT_FALSE(read_probe(Image8(320, 200, {255, 255, 255, 255})));
-    EXPECT_FALSE(read_probe(Image8(320, 200, {1, 2, 1, 255})));
-    EXPECT_FALSE(read_probe(Image8(3, 1, {1, 1, 1, 255})));
-    EXPECT_EQ(read_probe(Image8(8, 1, {2, 2, 2, 255})), std::uint8_t{255});
+    EXPECT_FALSE(render::read_probe(image::Image8(320, 200)));
+    EXPECT_FALSE(render::read_probe(image::Image8(320, 200, {255, 255, 255, 255})));
+    EXPECT_FALSE(render::read_probe(image::Image8(320, 200, {1, 2, 1, 255})));
+    EXPECT_FALSE(render::read_probe(image::Image8(3, 1, {1, 1, 1, 255})));
+    EXPECT_EQ(render::read_probe(image::Image8(8, 1, {2, 2, 2, 255})), std::uint8_t{255});
 }
 
 TEST(Rest, APictureShownAgainIsNotDrawnAgain) {
     Rig rig(320, 200, 4);
     Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     rig.draw();
-    const Image8 shown = rig.picture();
-    const DrawResult again = rig.draw(Redraw::Again);
+    const image::Image8 shown = rig.picture();
+    const render::DrawResult again = rig.draw(render::Redraw::Again);
     EXPECT_TRUE(again.drawn);
     EXPECT_TRUE(again.redrawn.empty());
     EXPECT_EQ(again.draw_calls, 0);
@@ -76,23 +77,23 @@ TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
     Rig rig(320, 200);
     Stage stage(320, 200);
     const unsigned framebuffer = rig.display->framebuffer();
-    const auto draw = [&](int age, Redraw redraw) {
+    const auto draw = [&](int age, render::Redraw redraw) {
         return rig.renderer->draw(rig.plan, {framebuffer, age}, redraw);
     };
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    draw(0, Redraw::Changes);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    draw(0, render::Redraw::Changes);
     stage.table_from_prop.translation.x = 0.01;
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    draw(0, Redraw::Changes);
-    EXPECT_FALSE(draw(2, Redraw::Again).redrawn.empty()); // this buffer still holds the first picture
-    EXPECT_TRUE(draw(2, Redraw::Again).redrawn.empty());
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    draw(0, render::Redraw::Changes);
+    EXPECT_FALSE(draw(2, render::Redraw::Again).redrawn.empty()); // this buffer still holds the first picture
+    EXPECT_TRUE(draw(2, render::Redraw::Again).redrawn.empty());
 }
 
 /// Counts pixels: all others are filled with a grey that is never drawn, and must keep it.
 TEST(Rest, AMovedPropRedrawsItsOwnRectangleAlone) {
     Rig rig(640, 400);
     Stage stage(640, 400, false);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     const PixelRectangle before = rig.draw().lit;
     glBindFramebuffer(GL_FRAMEBUFFER, rig.display->framebuffer());
     glDisable(GL_SCISSOR_TEST);
@@ -100,12 +101,12 @@ TEST(Rest, AMovedPropRedrawsItsOwnRectangleAlone) {
     glClear(GL_COLOR_BUFFER_BIT);
     const glm::u8vec4 grey = rig.picture().at(0, 0);
     stage.table_from_prop.translation.x += 0.004;
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-    const PixelRectangle after = lit_bounds(rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    const PixelRectangle after = scene::lit_bounds(rig.plan);
     rig.draw();
     int drawn = 0;
     int outside = 0;
-    const Image8 picture = rig.picture();
+    const image::Image8 picture = rig.picture();
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const auto in = [&](const PixelRectangle& r) {

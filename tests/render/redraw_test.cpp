@@ -8,8 +8,8 @@ namespace {
 class Redrawing : public ::testing::TestWithParam<int> {};
 
 TEST_P(Redrawing, PartialRedrawEqualsFullRedrawOverARandomWalk) {
-    std::vector<Image8> shown;
-    for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
+    std::vector<image::Image8> shown;
+    for (const render::Redraw redraw : {render::Redraw::Everything, render::Redraw::Changes}) {
         Rig rig(320, 200, GetParam());
         Stage stage(320, 200, false);
         std::mt19937 random(3);
@@ -19,9 +19,9 @@ TEST_P(Redrawing, PartialRedrawEqualsFullRedrawOverARandomWalk) {
                 stage.shuffle(random);
             }
             stage.table_from_prop.translation += glm::dvec3(step(random), step(random), 0.0);
-            plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
-            const DrawResult result = rig.draw(redraw);
-            if (redraw == Redraw::Everything) {
+            scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{}), rig.plan);
+            const render::DrawResult result = rig.draw(redraw);
+            if (redraw == render::Redraw::Everything) {
                 shown.push_back(rig.picture());
                 continue;
             }
@@ -36,29 +36,29 @@ TEST_P(Redrawing, PartialRedrawEqualsFullRedrawOverARandomWalk) {
 TEST_P(Redrawing, NothingIsDrawnWhenNothingChanged) {
     Rig rig(320, 200, GetParam());
     Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
     for (int k = 0; k < 3; ++k) {
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const DrawResult result = rig.draw();
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const render::DrawResult result = rig.draw();
         EXPECT_FALSE(result.drawn);
         EXPECT_EQ(result.draw_calls, 0);
     }
     stage.eye_m.x += 1e-4;
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
     rig.level.drawable = rig.renderer->store().upload(rig.pack, 0).value(); // another artifact
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
 }
 
 TEST_P(Redrawing, NothingIsLeftOfAnArtifactThatIsPutAway) {
     Rig rig(320, 200, GetParam());
     Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     rig.draw();
     EXPECT_GT(lit_pixels(rig.picture()), 1000U);
-    plan_frame(stage.prop, PlacedLevel{}, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, scene::PlacedLevel{}, stage.view(), rig.plan);
     EXPECT_TRUE(rig.draw().drawn);
     EXPECT_EQ(lit_pixels(rig.picture()), 0U);
     EXPECT_FALSE(rig.draw().drawn);
@@ -74,8 +74,9 @@ TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
     PixelRectangle last;
     for (int k = 0; k < 6; ++k) {
         stage.table_from_prop.translation = {0.03 * k - 0.1, 0.0, 0.0};
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const DrawResult result = rig.renderer->draw(rig.plan, {rig.display->framebuffer(), k < 2 ? 0 : 2});
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        const render::DrawResult result =
+            rig.renderer->draw(rig.plan, {rig.display->framebuffer(), k < 2 ? 0 : 2});
         if (k >= 2) {
             EXPECT_EQ(result.redrawn, united(before_last, rig.plan.lit.bounds()));
         }

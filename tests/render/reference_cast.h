@@ -11,8 +11,8 @@ namespace frustumscreen::synthetic {
 
 class ReferenceCast {
 public:
-    ReferenceCast(const Pack& pack, double metres) : level_(pack.levels[0]) {
-        for (const PackVertex& v : level_.vertices) {
+    ReferenceCast(const pack::Pack& pack, double metres) : level_(pack.levels[0]) {
+        for (const pack::PackVertex& v : level_.vertices) {
             const glm::dvec3 box =
                 glm::dvec3(v.position[0], v.position[1], v.position[2]) / 65535.0 * pack.box_size -
                 glm::dvec3(0.5 * pack.box_size.x, 0.5 * pack.box_size.y, 0.0);
@@ -54,11 +54,11 @@ public:
 
     /// The hit shown by `pixel`, in the prop frame.
     [[nodiscard]] Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
-        const RigidTransform prop_from_projector =
+        const geometry::RigidTransform prop_from_projector =
             stage.table_from_prop.inverse() * stage.table_from_projector;
         const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
-        PropHit lit;
-        if (!intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+        geometry::PropHit lit;
+        if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
             return {};
         }
         const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    const PackLevel& level_;
+    const pack::PackLevel& level_;
     std::vector<glm::dvec3> points_;
 };
 

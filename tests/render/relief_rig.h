@@ -11,10 +11,11 @@
 
 namespace frustumscreen::synthetic {
 
-inline constexpr std::array<Lens, 4> lenses{Lens{}, Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
+inline constexpr std::array<geometry::Lens, 4> lenses{geometry::Lens{}, geometry::Lens{0.1, 0.0},
+                                                      geometry::Lens{-0.12, 0.04}, geometry::Lens{0.3, -0.2}};
 
 /// A lens with distortion is a wide one: 0.3 and -0.2 move the picture's corner by 3 pixels.
-inline Stage stage_of(const Lens& lens) {
+inline Stage stage_of(const geometry::Lens& lens) {
     Stage stage(320, 200);
     if (!lens.is_plain()) {
         stage.projector.fx = stage.projector.fy = 450.0;
@@ -23,46 +24,49 @@ inline Stage stage_of(const Lens& lens) {
     return stage;
 }
 
-inline RenderNeeds needs_with_reliefs(int samples, const Pinhole& projector) {
-    RenderNeeds all = needs(samples, true);
-    all.bent_by = if_it_bends(projector);
-    all.draws.insert({raster_shader(false), raster_shader(true)});
+inline scene::RenderNeeds needs_with_reliefs(int samples, const geometry::Pinhole& projector) {
+    scene::RenderNeeds all = needs(samples, true);
+    all.bent_by = scene::if_it_bends(projector);
+    all.draws.insert({scene::raster_shader(false), scene::raster_shader(true)});
     all.relief_draws = 2;
-    for (ShaderKey key : needs(samples, true).draws) {
-        key.blocks = key.pass == ShaderKey::Pass::Surface;
+    for (scene::ShaderKey key : needs(samples, true).draws) {
+        key.blocks = key.pass == scene::ShaderKey::Pass::Surface;
         all.draws.insert(key);
     }
     return all;
 }
 
 struct ReliefRig : Rig {
-    std::shared_ptr<const BlockRelief> relief;
-    PlacedLevel raster, drawn; ///< one relief: rasterized on the processor, and drawn by the GPU
+    std::shared_ptr<const relief::BlockRelief> relief;
+    scene::PlacedLevel raster, drawn; ///< one relief: rasterized on the processor, and drawn by the GPU
 
-    explicit ReliefRig(int samples, int texels = 256, const Pack& shown = rings(), const Lens& lens = {})
-        : Rig(320, 200, samples, shown, if_it_bends(stage_of(lens).projector)) {
+    explicit ReliefRig(int samples, int texels = 256, const pack::Pack& shown = rings(),
+                       const geometry::Lens& lens = {})
+        : Rig(320, 200, samples, shown, scene::if_it_bends(stage_of(lens).projector)) {
         EXPECT_TRUE(renderer->prepare(needs_with_reliefs(samples, stage_of(lens).projector)));
-        hit_points = HitPointRenderer::create(*renderer).value();
+        hit_points = render::HitPointRenderer::create(*renderer).value();
         relief = relief_of(pack, texels);
-        raster = placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
-        drawn = placed(pack, relief, level.metres_per_box, renderer->store().upload(relief).value());
+        raster = scene::placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
+        drawn = scene::placed(pack, relief, level.metres_per_box, renderer->store().upload(relief).value());
         drawn.on_gpu = true;
         level.samples = raster.samples = drawn.samples = samples;
-        plan = make_plan(prop, 2 * level.triangles->indices.size(), 2);
+        plan = scene::make_plan(prop, 2 * level.triangles->indices.size(), 2);
     }
-    Image8 one(const Stage& stage, const PlacedLevel& which, std::optional<LightCompensation> light = {}) {
-        plan_frame(prop, which, stage.view(light), plan);
-        draw(Redraw::Everything);
+    image::Image8 one(const Stage& stage, const scene::PlacedLevel& which,
+                      std::optional<scene::LightCompensation> light = {}) {
+        scene::plan_frame(prop, which, stage.view(light), plan);
+        draw(render::Redraw::Everything);
         return picture();
     }
-    Image8 fading(const Stage& stage, const PlacedLevel& from, const PlacedLevel& to, double share) {
-        plan_frame(prop, fade(from, to, share), stage.view(LightCompensation{}), plan);
-        EXPECT_TRUE(draw(Redraw::Everything).drawn);
+    image::Image8 fading(const Stage& stage, const scene::PlacedLevel& from, const scene::PlacedLevel& to,
+                         double share) {
+        scene::plan_frame(prop, scene::fade(from, to, share), stage.view(scene::LightCompensation{}), plan);
+        EXPECT_TRUE(draw(render::Redraw::Everything).drawn);
         return picture();
     }
 };
 
-inline Pack white(Pack pack) {
+inline pack::Pack white(pack::Pack pack) {
     std::fill(pack.textures[0].texels.begin(), pack.textures[0].texels.end(), glm::u8vec4(255));
     return pack;
 }

@@ -26,16 +26,16 @@ std::vector<ReferenceCast::Hit> hits_of(const ReferenceCast& truth, const Stage&
 
 TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
     std::mt19937 random(3);
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const ReferenceCast truth(rig.pack, rig.level.metres_per_box);
         Stage stage = stage_of(lens);
         for (int pose = 0; pose < 3; ++pose) {
             stage.shuffle(random);
             const std::vector<ReferenceCast::Hit> hits = hits_of(truth, stage);
-            for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
-                const Image8 picture = rig.one(stage, which);
-                const ImageFloat places = rig.places();
+            for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
+                const image::Image8 picture = rig.one(stage, which);
+                const image::ImageFloat places = rig.places();
                 std::size_t both = 0;
                 std::size_t one = 0;
                 double mm = 0.0;
@@ -63,10 +63,11 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
 /// Light that a place needs for uniform reflected light: incident light falls with the square of the distance
 /// and with the angle of incidence.
 double evened(const Stage& stage, const glm::dvec2& pixel) {
-    const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
+    const geometry::RigidTransform prop_from_projector =
+        stage.table_from_prop.inverse() * stage.table_from_projector;
     const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
-    PropHit lit;
-    if (!intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+    geometry::PropHit lit;
+    if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
         return 0.0;
     }
     const double d = lit.t * glm::length(ray);
@@ -80,15 +81,15 @@ TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
     Stage stage(320, 200);
     const Mass plain = cast_mass(cast, stage);
     ASSERT_GT(plain.light, 400.0);
-    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
+    for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
         const Mass shown = shown_mass(rig.one(stage, which));
         EXPECT_NEAR(shown.light, plain.light, 0.01 * plain.light) << which.on_gpu;
         EXPECT_LT(glm::distance(shown.centre(), plain.centre()), 0.05) << which.on_gpu;
     }
-    rig.prop = stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
+    rig.prop = stage.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
     const Mass even = cast_mass(cast, stage, [&](const glm::dvec2& at) { return evened(stage, at); });
-    for (const PlacedLevel& which : {rig.raster, rig.drawn, rig.level}) {
-        const Mass lit = shown_mass(rig.one(stage, which, LightCompensation{}));
+    for (const scene::PlacedLevel& which : {rig.raster, rig.drawn, rig.level}) {
+        const Mass lit = shown_mass(rig.one(stage, which, scene::LightCompensation{}));
         EXPECT_LT(glm::distance(lit.centre(), even.centre()), 0.05)
             << (which.relief ? "relief" : "mesh") << which.on_gpu;
     }
@@ -98,12 +99,12 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
     ReliefRig rig(1);
     Stage stage(320, 200);
     std::mt19937 random(4);
-    for (const std::optional<LightCompensation> light :
-         {std::optional<LightCompensation>(), std::optional(LightCompensation{})}) {
+    for (const std::optional<scene::LightCompensation> light :
+         {std::optional<scene::LightCompensation>(), std::optional(scene::LightCompensation{})}) {
         stage.shuffle(random);
-        const Image8 mesh = rig.one(stage, rig.level, light);
-        for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
-            const Image8 relief = rig.one(stage, which, light);
+        const image::Image8 mesh = rig.one(stage, rig.level, light);
+        for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
+            const image::Image8 relief = rig.one(stage, which, light);
             std::size_t lit = 0;
             std::size_t off = 0;
             glm::dvec3 sum(0.0);
@@ -129,23 +130,23 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
 /// processor. Where the prop's faces meet, a rasterizer's grid of 1/256 pixel may assign a pixel to the other
 /// face.
 TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 128, white(rings()), lens);
         Stage stage = stage_of(lens);
         std::mt19937 random(9);
-        for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
+        for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
             std::size_t both = 0;
             std::size_t soft = 0;
             std::size_t off = 0;
             for (int pose = 0; pose < 10; ++pose) {
                 stage.shuffle(random);
-                const LightCompensation light{pose % 2 == 0 ? 0.25 : 1.5};
-                const Image8 mesh = rig.one(stage, rig.level, light);
-                const Image8 relief = rig.one(stage, which, light);
-                plan_frame(rig.prop, which, stage.view(light), rig.plan);
+                const scene::LightCompensation light{pose % 2 == 0 ? 0.25 : 1.5};
+                const image::Image8 mesh = rig.one(stage, rig.level, light);
+                const image::Image8 relief = rig.one(stage, which, light);
+                scene::plan_frame(rig.prop, which, stage.view(light), rig.plan);
                 rig.plan.feathers.clear();
-                rig.draw(Redraw::Everything);
-                const Image8 sharp = rig.picture();
+                rig.draw(render::Redraw::Everything);
+                const image::Image8 sharp = rig.picture();
                 for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
                     if (mesh.texels[k].g > 0 && relief.texels[k].g > 0) {
                         both += 1;
@@ -164,17 +165,17 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
 
 /// Arbitrary codes, on and off the faces, in compensated light and with soft edges.
 TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
-    for (const Lens& lens : lenses) {
+    for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const Stage stage = stage_of(lens);
-        plan_frame(rig.prop, rig.raster, stage.view(LightCompensation{1.5}), rig.plan);
+        scene::plan_frame(rig.prop, rig.raster, stage.view(scene::LightCompensation{1.5}), rig.plan);
         std::mt19937 random(11);
         std::vector<glm::u8vec4> codes(static_cast<std::size_t>(stage.projector.width));
         for (glm::u8vec4& each : codes) {
             each = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
         }
-        RasterLight best;
-        RasterLight plain(Instructions::Plain);
+        scene::RasterLight best;
+        scene::RasterLight plain(relief::Instructions::Plain);
         best.begin(rig.plan, 0);
         plain.begin(rig.plan, 0);
         std::size_t shown = 0;
@@ -194,16 +195,16 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
 TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
-    const Image8 alone = rig.one(stage, rig.raster, LightCompensation{});
-    TablePicture everywhere;
+    const image::Image8 alone = rig.one(stage, rig.raster, scene::LightCompensation{});
+    scene::TablePicture everywhere;
     everywhere.corners_m = {glm::dvec3(-0.4, 0.4, 0.0), {0.4, 0.4, 0.0}, {0.4, -0.4, 0.0}, {-0.4, -0.4, 0.0}};
-    everywhere.texture = rig.renderer->store().upload(Image<std::uint8_t>(16, 16, 255)).value();
+    everywhere.texture = rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
     everywhere.on_prop = true;
-    PlanView view = stage.view(LightCompensation{});
+    scene::PlanView view = stage.view(scene::LightCompensation{});
     view.on_table = {&everywhere, 1};
-    plan_frame(rig.prop, rig.raster, view, rig.plan);
-    rig.draw(Redraw::Everything);
-    const Image8 both = rig.picture();
+    scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
+    rig.draw(render::Redraw::Everything);
+    const image::Image8 both = rig.picture();
     std::size_t shown = 0;
     for (std::size_t k = 0; k < alone.texels.size(); ++k) {
         const bool dark = alone.texels[k].r + alone.texels[k].g + alone.texels[k].b == 0;
@@ -220,32 +221,33 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     Stage stage(320, 200);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place_m(-0.12, 0.12);
-    const TextureId texture = rig.renderer->store().upload(Image<std::uint8_t>(16, 16, 255)).value();
+    const scene::TextureId texture =
+        rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
     std::size_t drawn = 0;
     std::size_t copied = 0;
     std::size_t beside = 0;
     for (int pose = 0; pose < 30; ++pose) {
         stage.shuffle(random);
-        PlanView view = stage.view(LightCompensation{});
-        plan_frame(rig.prop, rig.raster, view, rig.plan);
-        EXPECT_EQ(rig.draw(Redraw::Everything).draw_calls, 0);
-        const Image8 alone = rig.picture();
+        scene::PlanView view = stage.view(scene::LightCompensation{});
+        scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
+        EXPECT_EQ(rig.draw(render::Redraw::Everything).draw_calls, 0);
+        const image::Image8 alone = rig.picture();
         const double half_m = pose == 0 ? 0.4 : 0.03;
         const glm::dvec2 middle_m =
             pose == 0 ? glm::dvec2(0.0) : glm::dvec2(place_m(random), place_m(random));
-        TablePicture lying;
+        scene::TablePicture lying;
         lying.texture = texture;
         for (std::size_t k = 0; k < 4; ++k) {
             lying.corners_m[k] = {middle_m.x + (k == 1 || k == 2 ? half_m : -half_m),
                                   middle_m.y + (k < 2 ? half_m : -half_m), 0.0};
         }
         view.on_table = {&lying, 1};
-        plan_frame(rig.prop, PlacedLevel{}, view, rig.plan);
-        const int without = rig.draw(Redraw::Everything).draw_calls;
-        const Image8 table = rig.picture();
-        plan_frame(rig.prop, rig.raster, view, rig.plan);
-        const int with = rig.draw(Redraw::Everything).draw_calls;
-        const Image8 both = rig.picture();
+        scene::plan_frame(rig.prop, scene::PlacedLevel{}, view, rig.plan);
+        const int without = rig.draw(render::Redraw::Everything).draw_calls;
+        const image::Image8 table = rig.picture();
+        scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
+        const int with = rig.draw(render::Redraw::Everything).draw_calls;
+        const image::Image8 both = rig.picture();
         (with > without ? drawn : copied) += 1;
         for (std::size_t k = 0; k < both.texels.size(); ++k) {
             const bool lit = alone.texels[k].r + alone.texels[k].g + alone.texels[k].b > 0;
@@ -265,10 +267,10 @@ TEST(Relief, LeavesNothingBehindWhereItWas) {
     std::mt19937 random(12);
     for (int pose = 0; pose < 8; ++pose) {
         stage.shuffle(random);
-        plan_frame(rig.prop, rig.raster, stage.view(LightCompensation{}), rig.plan);
-        ASSERT_TRUE(rig.draw(Redraw::Changes).drawn);
-        const Image8 moved = rig.picture();
-        rig.draw(Redraw::Everything);
+        scene::plan_frame(rig.prop, rig.raster, stage.view(scene::LightCompensation{}), rig.plan);
+        ASSERT_TRUE(rig.draw(render::Redraw::Changes).drawn);
+        const image::Image8 moved = rig.picture();
+        rig.draw(render::Redraw::Everything);
         ASSERT_EQ(moved.texels, rig.picture().texels) << pose;
         EXPECT_GT(lit_pixels(moved), 500U);
     }
@@ -277,19 +279,19 @@ TEST(Relief, LeavesNothingBehindWhereItWas) {
 TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
     for (const auto& [samples, on_gpu] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
         ReliefRig rig(samples);
-        const PlacedLevel& which = on_gpu ? rig.drawn : rig.raster;
+        const scene::PlacedLevel& which = on_gpu ? rig.drawn : rig.raster;
         Stage stage(320, 200);
         std::mt19937 random(7);
         stage.shuffle(random);
-        const Image8 mesh = rig.one(stage, rig.level, LightCompensation{});
-        const Image8 relief = rig.one(stage, which, LightCompensation{});
+        const image::Image8 mesh = rig.one(stage, rig.level, scene::LightCompensation{});
+        const image::Image8 relief = rig.one(stage, which, scene::LightCompensation{});
         for (const bool comes : {true, false}) {
-            const Image8& from = comes ? mesh : relief;
-            const Image8& to = comes ? relief : mesh;
+            const image::Image8& from = comes ? mesh : relief;
+            const image::Image8& to = comes ? relief : mesh;
             std::size_t last = 0;
             for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-                const Image8 middle = comes ? rig.fading(stage, rig.level, which, share)
-                                            : rig.fading(stage, which, rig.level, share);
+                const image::Image8 middle = comes ? rig.fading(stage, rig.level, which, share)
+                                                   : rig.fading(stage, which, rig.level, share);
                 std::size_t arrived = 0;
                 std::size_t neither = 0;
                 for (std::size_t k = 0; k < middle.texels.size(); ++k) {
@@ -309,17 +311,17 @@ TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
 
 TEST(Relief, TwoOfThemFadeIntoEachOther) {
     ReliefRig rig(1);
-    const std::shared_ptr<const BlockRelief> coarse = relief_of(rig.pack, 64);
-    PlacedLevel other =
-        placed(rig.pack, coarse, rig.level.metres_per_box, rig.renderer->store().keep(coarse));
+    const std::shared_ptr<const relief::BlockRelief> coarse = relief_of(rig.pack, 64);
+    scene::PlacedLevel other =
+        scene::placed(rig.pack, coarse, rig.level.metres_per_box, rig.renderer->store().keep(coarse));
     other.samples = 1;
     Stage stage(320, 200);
     std::mt19937 random(8);
     stage.shuffle(random);
-    const Image8 from = rig.one(stage, rig.raster, LightCompensation{});
-    const Image8 to = rig.one(stage, other, LightCompensation{});
+    const image::Image8 from = rig.one(stage, rig.raster, scene::LightCompensation{});
+    const image::Image8 to = rig.one(stage, other, scene::LightCompensation{});
     ASSERT_NE(from.texels, to.texels);
-    const Image8 middle = rig.fading(stage, rig.raster, other, 0.5);
+    const image::Image8 middle = rig.fading(stage, rig.raster, other, 0.5);
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
         ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
     }
@@ -328,7 +330,7 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
 TEST(Relief, IsGoneWhenItWasReleased) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
-    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
+    for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
         ASSERT_GT(lit_pixels(rig.one(stage, which)), 1000U);
         rig.renderer->store().release(which.drawable);
         EXPECT_EQ(lit_pixels(rig.one(stage, which)), 0U);
@@ -347,12 +349,12 @@ TEST(Relief, AFrameOfItAllocatesNothing) {
         stage.shuffle(random);
         stages.push_back(stage);
     }
-    for (const PlacedLevel& which : {rig.raster, rig.drawn}) {
+    for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
         long counted = 0;
         for (int k = 0; k < 60; ++k) { // the first rounds reserve memory for the fullest view
             const Stage& from = stages[static_cast<std::size_t>(k) % stages.size()];
             const long before = allocations_so_far();
-            plan_frame(from.prop, which, from.view(LightCompensation{}), rig.plan);
+            scene::plan_frame(from.prop, which, from.view(scene::LightCompensation{}), rig.plan);
             rig.draw();
             counted += k < 40 ? 0 : allocations_so_far() - before;
         }

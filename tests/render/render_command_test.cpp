@@ -39,8 +39,8 @@ protected:
         const Result<Bytes> bytes = read_file(folder / name);
         return bytes ? std::string(as_text(*bytes)) : std::string();
     }
-    Image8 picture(const std::string& name) const {
-        return decode_png8(read_file(folder / name).value()).value();
+    image::Image8 picture(const std::string& name) const {
+        return image::decode_png8(read_file(folder / name).value()).value();
     }
     std::string usual(const std::string& out) const {
         return fmt::format(
@@ -54,7 +54,7 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
     EXPECT_TRUE(fs::exists(folder / "a/frame_00001.png"));
     EXPECT_TRUE(fs::exists(folder / "a/frame_00001.pfm"));
     EXPECT_FALSE(fs::exists(folder / "a/frame_00002.png"));
-    const Image8 image = picture("a/frame_00000.png");
+    const image::Image8 image = picture("a/frame_00000.png");
     EXPECT_EQ(image.width, 320);
     EXPECT_EQ(image.height, 200);
     EXPECT_GT(lit_pixels(image), 1000U);
@@ -70,11 +70,12 @@ TEST_F(RenderCommand, MakesAPictureForEveryTimeOfTheProp) {
 TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
     EXPECT_EQ(run(usual("none") + "--technique relief"), 1);
     EXPECT_NE(text("err.txt").find("bake it again for relief"), std::string::npos) << text("err.txt");
-    Pack pack = rings();
+    pack::Pack pack = rings();
     complete(pack);
-    put_reliefs(pack, std::vector<MeasuredRelief>{{*relief_of(pack, 96), {1e-3F, 2e-3F, 3e-3F, 0.0F}},
-                                                  {*relief_of(pack, 192), {5e-4F, 1e-3F, 2e-3F, 0.0F}}});
-    ASSERT_TRUE(write_file(folder / "rings.fspack", write_pack(pack).value()));
+    pack::put_reliefs(
+        pack, std::vector<pack::MeasuredRelief>{{*relief_of(pack, 96), {1e-3F, 2e-3F, 3e-3F, 0.0F}},
+                                                {*relief_of(pack, 192), {5e-4F, 1e-3F, 2e-3F, 0.0F}}});
+    ASSERT_TRUE(write_file(folder / "rings.fspack", pack::write_pack(pack).value()));
     const std::string small = "--width 320 --height 200 ";
     ASSERT_EQ(run(usual("relief") + small + "--technique relief192 --aov"), 0) << text("err.txt");
     ASSERT_EQ(run(usual("gpu") + small + "--technique relief192-gpu --aov"), 0) << text("err.txt");
@@ -86,9 +87,9 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
     EXPECT_NE(text("large/frames.csv").find(",relief192,"), std::string::npos) << "of the 1280 in near.toml";
     EXPECT_TRUE(fs::exists(folder / "relief/frame_00001.pfm"));
     EXPECT_NE(text("gpu/frames.csv").find(",relief192-gpu,"), std::string::npos) << text("gpu/frames.csv");
-    const Image8 mesh = picture("mesh/frame_00000.png");
+    const image::Image8 mesh = picture("mesh/frame_00000.png");
     for (const char* way : {"relief", "gpu"}) {
-        const Image8 relief = picture(fmt::format("{}/frame_00000.png", way));
+        const image::Image8 relief = picture(fmt::format("{}/frame_00000.png", way));
         std::size_t off = 0;
         for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
             const glm::ivec3 difference = glm::abs(glm::ivec3(relief.texels[k]) - glm::ivec3(mesh.texels[k]));

@@ -9,15 +9,15 @@
 
 namespace frustumscreen::synthetic {
 
-inline std::shared_ptr<const BlockRelief> relief_of(const Pack& pack, int texels) {
-    const SourceMesh mesh = textured_source(pack.levels[0], pack.textures[0], pack.box_size);
-    const SourceScene surface(mesh, mesh.positions, Sides::Front);
-    return std::make_shared<const BlockRelief>(
-        bake_blocks({surface,
-                     pack.box_size,
-                     {ReliefDirection::PlusX, ReliefDirection::MinusX, ReliefDirection::PlusY,
-                      ReliefDirection::MinusY, ReliefDirection::PlusZ},
-                     texels}));
+inline std::shared_ptr<const relief::BlockRelief> relief_of(const pack::Pack& pack, int texels) {
+    const bake::SourceMesh mesh = bake::textured_source(pack.levels[0], pack.textures[0], pack.box_size);
+    const bake::SourceScene surface(mesh, mesh.positions, bake::Sides::Front);
+    return std::make_shared<const relief::BlockRelief>(bake::bake_blocks(
+        {surface,
+         pack.box_size,
+         {pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX, pack::ReliefDirection::PlusY,
+          pack::ReliefDirection::MinusY, pack::ReliefDirection::PlusZ},
+         texels}));
 }
 
 } // namespace frustumscreen::synthetic

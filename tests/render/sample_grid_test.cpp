@@ -9,16 +9,17 @@ namespace frustumscreen::synthetic {
 namespace {
 
 TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
-    const auto display = SurfacelessDisplay::create(64, 64).value();
-    const SampleGrid grid = SampleGrid::create({1000, 800}, {300, 200}, 4).value(); // 600 x 400 fragments
+    const auto display = display::SurfacelessDisplay::create(64, 64).value();
+    const render::SampleGrid grid =
+        render::SampleGrid::create({1000, 800}, {300, 200}, 4).value(); // 600 x 400 fragments
     const PixelRectangle prop{500, 300, 280, 190};
     const auto raster = [&](const PixelRectangle& lit, const PixelRectangle& around, int samples) {
         return grid.raster(lit, around, samples);
     };
-    const Raster usual = raster({550, 350, 100, 90}, prop, 4);
+    const render::Raster usual = raster({550, 350, 100, 90}, prop, 4);
     EXPECT_EQ(usual.fragments, glm::ivec2(2, 2));
     EXPECT_EQ(usual.corner, glm::ivec2(500, 300)) << "that of the prop, whatever is lit";
-    const Raster many = raster({550, 350, 100, 90}, prop, 8);
+    const render::Raster many = raster({550, 350, 100, 90}, prop, 8);
     EXPECT_EQ(many.fragments, glm::ivec2(2, 4));
     EXPECT_EQ(many.corner, glm::ivec2(550, 350)) << "all of the prop has no room with eight";
     EXPECT_EQ(raster({550, 310, 100, 180}, prop, 8).fragments, glm::ivec2(4, 2)) << "too high for 2 x 4";
@@ -31,7 +32,7 @@ TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
 }
 
 /// But for rounding: where a grid has another size, a driver's viewport may round otherwise.
-void expect_same(const Image8& picture, const Image8& other) {
+void expect_same(const image::Image8& picture, const image::Image8& other) {
     std::size_t different = 0;
     for (std::size_t k = 0; k < other.texels.size(); ++k) {
         const int off = farthest_channel(picture.texels[k], other.texels[k]);
@@ -46,16 +47,16 @@ TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
     Stage stage(256, 160);
     const auto picture = [&](int samples, std::optional<PixelSize> outline) {
         Rig rig(256, 160);
-        RenderNeeds all = needs(4);
+        scene::RenderNeeds all = needs(4);
         all.outline = outline;
         EXPECT_TRUE(rig.renderer->prepare(all));
         rig.level.samples = samples;
-        plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         EXPECT_EQ(rig.plan.samples, samples);
-        rig.draw(Redraw::Everything);
+        rig.draw(render::Redraw::Everything);
         return rig.picture();
     };
-    const Image8 four = picture(4, std::nullopt);
+    const image::Image8 four = picture(4, std::nullopt);
     EXPECT_GT(lit_pixels(four), 900U);
     expect_same(picture(4, PixelSize{8, 8}), picture(1, std::nullopt));
     expect_same(picture(4, PixelSize{200, 150}), four);

@@ -15,21 +15,21 @@ std::size_t programs_that_exist() {
 
 TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
     Rig rig(64, 40);
-    GpuStore& store = rig.renderer->store();
+    render::GpuStore& store = rig.renderer->store();
     const std::uint64_t bytes = store.bytes();
-    const Drawable first = store.upload(rig.pack, 0).value();
-    const GpuStore::Mesh* const mesh = store.find(first.mesh);
+    const scene::Drawable first = store.upload(rig.pack, 0).value();
+    const render::GpuStore::Mesh* const mesh = store.find(first.mesh);
     ASSERT_NE(mesh, nullptr);
     const GLuint buffer = mesh->vertices.get();
     const GLuint texture = store.find(first.material.texture)->texels.get();
     EXPECT_EQ(store.bytes(), bytes + store.bytes(first));
-    EXPECT_EQ(store.bytes(first), gpu_bytes(whole_level(rig.pack, 0), rig.pack.textures[0]));
+    EXPECT_EQ(store.bytes(first), scene::gpu_bytes(scene::whole_level(rig.pack, 0), rig.pack.textures[0]));
     store.release(first);
     EXPECT_EQ(store.bytes(), bytes);
     EXPECT_EQ(store.find(first.mesh), nullptr);
     EXPECT_EQ(store.find(first.material.texture), nullptr);
     EXPECT_FALSE(glIsBuffer(buffer) == GL_TRUE || glIsTexture(texture) == GL_TRUE);
-    const Drawable second = store.upload(rig.pack, 0).value();
+    const scene::Drawable second = store.upload(rig.pack, 0).value();
     EXPECT_NE(second.mesh, first.mesh);
     EXPECT_NE(second.material.texture, first.material.texture);
     store.release(first); // released again: unknown
@@ -39,42 +39,44 @@ TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
 TEST(Store, WhatIsReleasedIsGoneFromTheNextPicture) {
     Rig rig(320, 200);
     const Stage stage(320, 200);
-    plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     rig.draw();
     EXPECT_GT(lit_pixels(rig.picture()), 1000U);
     rig.renderer->store().release(rig.level.drawable);
-    const DrawResult drawn = rig.draw(Redraw::Everything);
+    const render::DrawResult drawn = rig.draw(render::Redraw::Everything);
     EXPECT_EQ(lit_pixels(rig.picture()), 0U);
     EXPECT_EQ(drawn.draw_calls, static_cast<int>(rig.plan.faces.size())); // the faces' outlines
 }
 
 TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
     Rig rig(320, 200);
-    EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(1)));
+    EXPECT_EQ(rig.renderer->shaders(), scene::shaders_of(needs(1)));
     ASSERT_TRUE(rig.renderer->prepare(needs(4, true)));
-    EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(4, true)));
-    rig.hit_points = HitPointRenderer::create(*rig.renderer).value();
+    EXPECT_EQ(rig.renderer->shaders(), scene::shaders_of(needs(4, true)));
+    rig.hit_points = render::HitPointRenderer::create(*rig.renderer).value();
     const std::size_t programs = programs_that_exist();
-    EXPECT_GE(programs, shaders_of(needs(4, true)).size());
-    const TextureId caption = rig.renderer->store().upload(Image<std::uint8_t>(16, 16, 255)).value();
+    EXPECT_GE(programs, scene::shaders_of(needs(4, true)).size());
+    const scene::TextureId caption =
+        rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
     Stage stage(320, 200);
     std::mt19937 random(3);
     for (int k = 0; k < 24; ++k) {
         stage.shuffle(random);
-        PlanView view = stage.view(k % 2 == 0 ? std::optional(LightCompensation{}) : std::nullopt);
+        scene::PlanView view =
+            stage.view(k % 2 == 0 ? std::optional(scene::LightCompensation{}) : std::nullopt);
         if (k % 3 == 0) {
-            view.caption = TablePicture{{glm::dvec3(-0.2, 0.1, 0.0), glm::dvec3(-0.1, 0.1, 0.0),
-                                         glm::dvec3(-0.1, 0.0, 0.0), glm::dvec3(-0.2, 0.0, 0.0)},
-                                        1.0,
-                                        caption};
+            view.caption = scene::TablePicture{{glm::dvec3(-0.2, 0.1, 0.0), glm::dvec3(-0.1, 0.1, 0.0),
+                                                glm::dvec3(-0.1, 0.0, 0.0), glm::dvec3(-0.2, 0.0, 0.0)},
+                                               1.0,
+                                               caption};
         }
         rig.level.samples = k % 4 == 0 ? 1 : 4;
-        const std::array<Part, 2> fading = fade(rig.level, rig.level, 0.5);
-        plan_frame(stage.prop, std::span(fading).first(k % 5 == 0 ? 1 : 2), view, rig.plan);
-        for (const Draw& draw : rig.plan.draws) {
-            EXPECT_EQ(rig.renderer->shaders().count(draw.shader), 1U) << name_of(draw.shader);
+        const std::array<scene::Part, 2> fading = scene::fade(rig.level, rig.level, 0.5);
+        scene::plan_frame(stage.prop, std::span(fading).first(k % 5 == 0 ? 1 : 2), view, rig.plan);
+        for (const scene::Draw& draw : rig.plan.draws) {
+            EXPECT_EQ(rig.renderer->shaders().count(draw.shader), 1U) << scene::name_of(draw.shader);
         }
-        rig.draw(Redraw::Everything);
+        rig.draw(render::Redraw::Everything);
         EXPECT_GT(lit_pixels(rig.picture()), 500U);
         static_cast<void>(rig.places());
     }

@@ -46,14 +46,15 @@ inline void add_torus(Soup& soup, const glm::dvec3& centre, const glm::dmat3& tu
 }
 
 /// Clusters are plain runs of triangles with meshoptimizer's bounds.
-inline std::vector<PackCluster> cluster(const std::vector<glm::vec3>& points,
-                                        const std::vector<std::uint32_t>& indices, std::size_t triangles) {
-    std::vector<PackCluster> clusters;
+inline std::vector<pack::PackCluster> cluster(const std::vector<glm::vec3>& points,
+                                              const std::vector<std::uint32_t>& indices,
+                                              std::size_t triangles) {
+    std::vector<pack::PackCluster> clusters;
     for (std::size_t first = 0; first < indices.size(); first += 3 * triangles) {
         const std::size_t count = std::min(3 * triangles, indices.size() - first);
         const meshopt_Bounds b = meshopt_computeClusterBounds(indices.data() + first, count, &points[0].x,
                                                               points.size(), sizeof(glm::vec3));
-        PackCluster c;
+        pack::PackCluster c;
         c.first_index = static_cast<std::uint32_t>(first);
         c.index_count = static_cast<std::uint32_t>(count);
         c.centre = {b.center[0], b.center[1], b.center[2]};
@@ -67,7 +68,7 @@ inline std::vector<PackCluster> cluster(const std::vector<glm::vec3>& points,
 }
 
 /// Three linked rings: concave, in several parts, occluding each other.
-inline Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
+inline pack::Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
     Soup soup;
     const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
     const glm::dmat3 sideways(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
@@ -83,13 +84,13 @@ inline Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
     }
     const glm::dvec3 extent = high - low;
     const double longest = std::max(extent.x, std::max(extent.y, extent.z));
-    Pack pack;
+    pack::Pack pack;
     pack.box_size = extent / longest;
-    PackLevel level;
+    pack::PackLevel level;
     std::vector<glm::vec3> box_points;
     for (const glm::dvec3& p : soup.points) {
         const glm::dvec3 unit = (p - low) / extent;
-        PackVertex v;
+        pack::PackVertex v;
         for (std::size_t k = 0; k < 3; ++k) {
             v.position[k] = static_cast<std::uint16_t>(std::lround(unit[static_cast<int>(k)] * 65535.0));
         }
@@ -102,7 +103,7 @@ inline Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
     level.indices = soup.indices;
     level.clusters = cluster(box_points, level.indices, 32);
     pack.levels.push_back(level);
-    Image8 texture(64, 64);
+    image::Image8 texture(64, 64);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
             texture.at(x, y) = {40 + 3 * x, 60 + 2 * y, ((x / 4 + y / 4) & 1) != 0 ? 230 : 90, 255};
@@ -113,23 +114,23 @@ inline Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
 }
 
 /// The scale at which the box's corners stay inside the default prop.
-inline double metres_per_box(const Pack& pack, const PropShape& prop) {
+inline double metres_per_box(const pack::Pack& pack, const geometry::PropShape& prop) {
     std::vector<glm::dvec3> corners;
     for (unsigned k = 0; k < 8; ++k) {
         corners.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
                              ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
                              (k & 4U) != 0 ? pack.box_size.z : 0.0);
     }
-    return largest_scale_inside(prop, corners);
+    return geometry::largest_scale_inside(prop, corners);
 }
 
 /// A projector above the table that looks straight down; if `near`, the prop covers about a quarter of the
 /// picture.
 struct Stage {
-    PropShape prop = make_frustum({});
-    Pinhole projector;
-    RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 0.9}};
-    RigidTransform table_from_prop;
+    geometry::PropShape prop = geometry::make_frustum({});
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 0.9}};
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.1, -0.5, 0.45};
 
     explicit Stage(int width, int height, bool near = true)
@@ -139,7 +140,7 @@ struct Stage {
                     width / 1280.0 * (near ? 3010.0 : 1400.0),
                     width * 0.5,
                     height * 0.5} {}
-    [[nodiscard]] PlanView view(std::optional<LightCompensation> light = std::nullopt) const {
+    [[nodiscard]] scene::PlanView view(std::optional<scene::LightCompensation> light = std::nullopt) const {
         return {projector, table_from_projector, table_from_prop, std::span(&eye_m, 1), light};
     }
     /// A prop at any yaw near the middle, and an eye anywhere above the table.
@@ -157,7 +158,7 @@ struct Stage {
 };
 
 /// Adds the parts of a file that are not drawn.
-inline void complete(Pack& pack) {
+inline void complete(pack::Pack& pack) {
     pack.provenance.source_name = "rings.glb";
     pack.provenance.source_sha256 = std::string(64, 'a');
     pack.relief_size = 512;

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 namespace {
 
 const std::string settings =
@@ -16,10 +16,10 @@ const std::string settings =
     "\"Anna's\"\npublic_key = \"RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3\"\n"
     "[table]\nwidth_m = 0.7\n";
 
-class ReportProgram : public ProgramFolder {
+class ReportProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
+        programs::ProgramFolder::SetUp();
         for (const char* name : {"bin", "stick", "report"}) {
             std::filesystem::create_directories(folder / name);
         }
@@ -34,7 +34,7 @@ protected:
     }
     void TearDown() override {
         ::setenv("PATH", path_.c_str(), 1);
-        ProgramFolder::TearDown();
+        programs::ProgramFolder::TearDown();
     }
     void put(const std::string& file, std::string_view content) const {
         ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
@@ -58,13 +58,13 @@ protected:
         return files;
     }
     /// What the importer tells of the stick.
-    [[nodiscard]] std::vector<ImportedPack> told() const {
+    [[nodiscard]] std::vector<library::ImportedPack> told() const {
         static_cast<void>(run("frustumscreen-import --from stick --into library --unsigned allow --report "
                               "report/report.json --stick-report report/outcome.json"));
         EXPECT_FALSE(std::filesystem::exists(folder / "report/outcome.json"));
-        const Result<ImportReport> report = parse_import_report(text("report/report.json"));
+        const Result<library::ImportReport> report = library::parse_import_report(text("report/report.json"));
         EXPECT_TRUE(report) << text("err.txt");
-        return report ? report->packs : std::vector<ImportedPack>();
+        return report ? report->packs : std::vector<library::ImportedPack>();
     }
     std::string path_;
 };
@@ -111,21 +111,21 @@ TEST_F(ReportProgram, TheImporterTellsTheFolder) {
         run(command(place, "--id stick1 --outcome report/outcome.json --import-report report/report.json")),
         0)
         << text("err.txt");
-    const Result<ImportReport> meanwhile = parse_import_report(text("report/report.json"));
+    const Result<library::ImportReport> meanwhile = library::parse_import_report(text("report/report.json"));
     ASSERT_TRUE(meanwhile);
-    EXPECT_EQ(meanwhile->stage, ImportStage::Found);
+    EXPECT_EQ(meanwhile->stage, library::ImportStage::Found);
     EXPECT_EQ(meanwhile->import_id, "stick1");
-    const std::vector<ImportedPack> lines = told();
+    const std::vector<library::ImportedPack> lines = told();
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0].file, "frustumscreen-report-2031-05-04-120000");
-    EXPECT_EQ(lines[0].outcome, ImportOutcome::Written);
+    EXPECT_EQ(lines[0].outcome, library::ImportOutcome::Written);
     EXPECT_NE(text("out.txt").find("written"), std::string::npos) << text("out.txt");
 }
 
 TEST_F(ReportProgram, AFullStickAndAReadOnlyOneAreTold) {
     put("stick/frustumscreen-report.toml", "");
-    for (const auto& [options, refusal] :
-         {std::pair("rw,size=600k", ImportRefusal::NoRoom), std::pair("ro", ImportRefusal::Unwritable)}) {
+    for (const auto& [options, refusal] : {std::pair("rw,size=600k", library::ImportRefusal::NoRoom),
+                                           std::pair("ro", library::ImportRefusal::Unwritable)}) {
         std::filesystem::create_directories(folder / "place");
         static_cast<void>(
             std::system(fmt::format("cd '{}' && unshare --mount --map-root-user sh -c 'mount -t tmpfs -o {} "
@@ -133,10 +133,10 @@ TEST_F(ReportProgram, AFullStickAndAReadOnlyOneAreTold) {
                                     folder.string(), options, bin_dir(),
                                     command("place", "--outcome report/outcome.json"))
                             .c_str()));
-        const std::vector<ImportedPack> lines = told();
+        const std::vector<library::ImportedPack> lines = told();
         ASSERT_EQ(lines.size(), 1U) << text("err.txt");
         EXPECT_EQ(lines[0].file, "frustumscreen-report.toml");
-        EXPECT_EQ(lines[0].outcome, ImportOutcome::NotWritten);
+        EXPECT_EQ(lines[0].outcome, library::ImportOutcome::NotWritten);
         EXPECT_EQ(lines[0].refusal, refusal) << lines[0].reason;
         EXPECT_NE(text("err.txt").find("not written"), std::string::npos) << text("err.txt");
     }
@@ -145,11 +145,11 @@ TEST_F(ReportProgram, AFullStickAndAReadOnlyOneAreTold) {
 TEST_F(ReportProgram, AFileThatAsksForMoreThanThereIsIsTold) {
     const std::string name = "stick/frustumscreen-report.toml";
     put(name, "");
-    EXPECT_EQ(told().at(0).outcome, ImportOutcome::NotWritten) << "the writer has left nothing";
+    EXPECT_EQ(told().at(0).outcome, library::ImportOutcome::NotWritten) << "the writer has left nothing";
     put(name, "days = 7\nlanguage = \"de\"\n");
-    std::vector<ImportedPack> lines = told();
+    std::vector<library::ImportedPack> lines = told();
     ASSERT_EQ(lines.size(), 2U);
-    EXPECT_EQ(lines[1].outcome, ImportOutcome::Refused);
+    EXPECT_EQ(lines[1].outcome, library::ImportOutcome::Refused);
     EXPECT_NE(lines[1].reason.find("days"), std::string::npos) << lines[1].reason;
     EXPECT_NE(lines[1].reason.find("language"), std::string::npos) << lines[1].reason;
     put(name, std::string(4097, '#'));
@@ -166,7 +166,7 @@ TEST_F(ReportProgram, AFileThatAsksForMoreThanThereIsIsTold) {
 TEST_F(ReportProgram, ANearlyRightNameIsTold) {
     for (const std::string name : {"frustumscreen-report.toml.txt", "Frustumscreen-Report.toml"}) {
         put("stick/" + name, "");
-        const std::vector<ImportedPack> lines = told();
+        const std::vector<library::ImportedPack> lines = told();
         ASSERT_EQ(lines.size(), 1U) << name;
         EXPECT_EQ(lines[0].file, name);
         EXPECT_NE(lines[0].reason.find("is called frustumscreen-report.toml"), std::string::npos)
@@ -182,8 +182,8 @@ TEST_F(ReportProgram, ANearlyRightNameIsTold) {
     EXPECT_EQ(
         run("frustumscreen-import --from stick --into library --unsigned allow --report report/report.json"),
         0);
-    EXPECT_TRUE(parse_import_report(text("report/report.json"))->packs.empty());
+    EXPECT_TRUE(library::parse_import_report(text("report/report.json"))->packs.empty());
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::report

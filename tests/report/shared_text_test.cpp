@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 namespace {
 
 TEST(SharedText, TheJournalLosesSerialNumbersAndLabelsAlone) {
@@ -45,4 +45,4 @@ TEST(SharedText, FaultsComeInTheOrderOfTheirNumbers) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::report

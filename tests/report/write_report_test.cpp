@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::report {
 namespace {
 
 using testing_disk::FaultPlan;
@@ -44,7 +44,7 @@ int operations_of_a_report() {
     return disk.operations;
 }
 
-void expect_one_line(const ImportFailure& failure) {
+void expect_one_line(const library::ImportFailure& failure) {
     EXPECT_FALSE(failure.reason.empty());
     EXPECT_EQ(failure.reason.find('\n'), std::string::npos);
 }
@@ -69,9 +69,9 @@ TEST(WriteReport, PulledOutAtEachOperationWhatHasANameIsWhole) {
                 disk.plan.fail_from = k;
                 disk.plan.error = error;
                 disk.plan.done_all_the_same = done;
-                const tl::expected<void, ImportFailure> written = write_report(disk, report());
+                const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
                 ASSERT_FALSE(written) << k;
-                EXPECT_EQ(written.error().refusal, ImportRefusal::Unreadable);
+                EXPECT_EQ(written.error().refusal, library::ImportRefusal::Unreadable);
                 expect_one_line(written.error());
                 disk.cut_power(64, static_cast<unsigned>(k), [](VolatileDisk& after) { whole_files(after); });
             }
@@ -96,9 +96,9 @@ TEST(WriteReport, AFullStickGetsItsRoomBack) {
         disk.plan.fail_from = k;
         disk.plan.fail_to = k + 1;
         disk.plan.error = ENOSPC;
-        const tl::expected<void, ImportFailure> written = write_report(disk, report());
+        const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
         ASSERT_FALSE(written) << k;
-        EXPECT_EQ(written.error().refusal, ImportRefusal::NoRoom);
+        EXPECT_EQ(written.error().refusal, library::ImportRefusal::NoRoom);
         EXPECT_EQ(whole_files(disk), 0);
         EXPECT_FALSE(text_of(disk, "frustumscreen.part"));
     }
@@ -107,9 +107,9 @@ TEST(WriteReport, AFullStickGetsItsRoomBack) {
 TEST(WriteReport, WithoutRoomNothingIsBegun) {
     VolatileDisk disk;
     disk.free = 300'000;
-    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().refusal, ImportRefusal::NoRoom);
+    EXPECT_EQ(written.error().refusal, library::ImportRefusal::NoRoom);
     EXPECT_NE(written.error().reason.find(" 2 MB"), std::string::npos) << written.error().reason;
     EXPECT_TRUE(disk.list("", [](const FolderEntry& entry) {
         ADD_FAILURE() << entry.name;
@@ -121,20 +121,20 @@ TEST(WriteReport, AReadOnlyStickIsTold) {
     VolatileDisk disk;
     disk.plan.fail_from = 2; // it can be read
     disk.plan.error = EROFS;
-    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().refusal, ImportRefusal::Unwritable);
+    EXPECT_EQ(written.error().refusal, library::ImportRefusal::Unwritable);
     expect_one_line(written.error());
 }
 
 TEST(WriteReport, AFolderWithFilesIsLeftAsItIs) {
     VolatileDisk disk;
     disk.put("status.txt", "mine");
-    const tl::expected<void, ImportFailure> written = write_report(disk, report());
+    const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
     ASSERT_FALSE(written);
     EXPECT_EQ(text_of(disk, "status.txt"), "mine");
     EXPECT_FALSE(text_of(disk, "version.txt"));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::report

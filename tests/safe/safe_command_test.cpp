@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,16 +40,16 @@ protected:
         EXPECT_TRUE(end);
         return *std::move(end);
     }
-    Image8 picture(std::vector<std::string> arguments) {
+    image::Image8 picture(std::vector<std::string> arguments) {
         const fs::path png = folder / "out.png";
         arguments.insert(arguments.end(), {"--png", png.string()});
         const ProgramEnd end = run(std::move(arguments));
         EXPECT_EQ(end.status, 0) << end.complaint;
         const Result<Bytes> bytes = read_file(png);
-        const Result<Image8> read =
-            bytes ? decode_png8(*bytes) : bad_input("test.refusal", "nothing was written");
+        const Result<image::Image8> read =
+            bytes ? image::decode_png8(*bytes) : bad_input("test.refusal", "nothing was written");
         EXPECT_TRUE(read);
-        return read.value_or(Image8(1, 1));
+        return read.value_or(image::Image8(1, 1));
     }
     std::string write(const std::string& name, const std::string& text) {
         std::ofstream(folder / name, std::ios::binary) << text;
@@ -87,12 +87,12 @@ TEST_F(SafeCommand, HasNoReaderOfPacksOrSettings) {
 }
 
 TEST_F(SafeCommand, DrawsAnySizeAndTheSameTwice) {
-    const Image8 landscape = picture({"--size", "1280x800"});
+    const image::Image8 landscape = picture({"--size", "1280x800"});
     EXPECT_EQ(landscape.width, 1280);
     EXPECT_EQ(landscape.height, 800);
     EXPECT_EQ(picture({"--size", "1280x800"}).texels, landscape.texels);
     EXPECT_EQ(landscape.at(0, 0), glm::u8vec4(0, 0, 0, 255));
-    const Image8 portrait = picture({"--size", "800x1280"});
+    const image::Image8 portrait = picture({"--size", "800x1280"});
     EXPECT_EQ(portrait.height, 1280);
     EXPECT_NE(picture({"--size", "1280x800", "--language", "ja"}).texels, landscape.texels);
 }
@@ -132,7 +132,7 @@ TEST_F(SafeCommand, SaysWhatIsWrongWithHowItIsCalled) {
 
 /// Without a graphics card it waits for one: it reports ready, feeds the watchdog, and is small.
 TEST_F(SafeCommand, WaitsForACardUnderAServiceManagerUntilItIsStopped) {
-    const NotifySocket socket;
+    const service::NotifySocket socket;
     ASSERT_TRUE(socket.bound());
     const std::string alive = folder / "alive";
     const pid_t process = ::fork();
@@ -172,4 +172,4 @@ TEST_F(SafeCommand, WaitsForACardUnderAServiceManagerUntilItIsStopped) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -6,18 +6,18 @@
 
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 using std::chrono::minutes;
 
 /// `GetParam`: whether the driver has atomic commits.
-class SafeOnCard : public Desk, public testing::WithParamInterface<bool> {
+class SafeOnCard : public display::Desk, public testing::WithParamInterface<bool> {
 protected:
     SafeOnCard() { desk.card.atomic = GetParam(); }
 
     [[nodiscard]] std::vector<std::uint32_t> on_screen() const {
-        const std::optional<FakeCard::Shown> shown = desk.card.shown(desk.hdmi);
+        const std::optional<display::FakeCard::Shown> shown = desk.card.shown(desk.hdmi);
         if (!shown) {
             return {};
         }
@@ -59,7 +59,7 @@ unsigned take_code(std::vector<std::uint32_t>& pixels) {
 }
 
 TEST_P(SafeOnCard, EachPictureIsThePageOfItsTextWithANewCode) {
-    const auto screen = SafeScreen::open(card_path, safe_languages());
+    const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
     std::set<unsigned> codes;
     for (int k = 0; k < 6; ++k) {
@@ -78,7 +78,7 @@ TEST_P(SafeOnCard, EachPictureIsThePageOfItsTextWithANewCode) {
 }
 
 TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
-    const auto screen = SafeScreen::open(card_path, safe_languages());
+    const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
     ASSERT_TRUE((*screen)->show({}).value_or(false));
     desk.card.unplug(desk.hdmi);
@@ -90,7 +90,7 @@ TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
     EXPECT_NE((*screen)->state().find("no projector is connected"), std::string_view::npos)
         << (*screen)->state();
     EXPECT_TRUE(on_screen().empty());
-    desk.card.plug(desk.hdmi, {kernel_mode(256, 192, 60.0, true)});
+    desk.card.plug(desk.hdmi, {display::kernel_mode(256, 192, 60.0, true)});
     ASSERT_TRUE((*screen)->show({"Again.", minutes(1)}).value_or(false)) << (*screen)->state();
     std::vector<std::uint32_t> pixels = on_screen();
     ASSERT_EQ(pixels.size(), 256U * 192U);
@@ -101,7 +101,7 @@ TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
 TEST_P(SafeOnCard, AnotherProgramsScreenIsNotTaken) {
     const int other = kernel.open_file(&desk.card, nullptr, 0);
     ASSERT_EQ(desk.card.become_master(*kernel.file(other)), 0);
-    const auto screen = SafeScreen::open(card_path, safe_languages());
+    const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_FALSE(screen);
     EXPECT_EQ(screen.error().kind, ErrorKind::DeviceLost) << "it may end";
     EXPECT_EQ(screen.error().id, "safe.screen_held") << screen.error().message;
@@ -110,7 +110,7 @@ TEST_P(SafeOnCard, AnotherProgramsScreenIsNotTaken) {
 
 TEST_P(SafeOnCard, ACardWithoutMemorySaysSo) {
     kernel.fail_always("drmModeCreateDumbBuffer", ENOSYS);
-    const auto screen = SafeScreen::open(card_path, safe_languages());
+    const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
     EXPECT_FALSE((*screen)->show({}).value());
     EXPECT_NE((*screen)->state().find("the graphics card has no memory for "), std::string_view::npos)
@@ -126,13 +126,13 @@ TEST_P(SafeOnCard, AnyCallMayFailOnce) {
         std::string wrongs;
     };
     const auto once = [this](std::size_t call, int error) {
-        FakeKernel own;
-        CardOnDesk card(own.add_card(card_path));
+        display::FakeKernel own;
+        display::CardOnDesk card(own.add_card(display::card_path));
         card.card.atomic = GetParam();
         own.fail(call, error);
         std::string wrong;
         {
-            const auto screen = SafeScreen::open(card_path, safe_languages());
+            const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
             bool shown = false;
             bool ended = !screen;
             for (int k = 0; k < 12 && !ended && !(shown && k > 1); ++k) {
@@ -153,7 +153,7 @@ TEST_P(SafeOnCard, AnyCallMayFailOnce) {
     std::size_t runs = 0;
     for (std::size_t k = 1; k <= undisturbed.calls.size(); ++k) {
         const std::string& call = undisturbed.calls[k - 1];
-        for (const int error : FakeKernel::errors_of(call)) {
+        for (const int error : display::FakeKernel::errors_of(call)) {
             const Outcome disturbed = once(k, error);
             EXPECT_EQ(disturbed.wrongs, "") << "call " << k << ", " << call << ": " << error;
             ++runs;
@@ -163,4 +163,4 @@ TEST_P(SafeOnCard, AnyCallMayFailOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 const SafeText usual{"The exhibit ended five times within ten minutes.", std::chrono::minutes(83)};
@@ -146,4 +146,4 @@ TEST(SafePage, SaysHowLongTheComputerRuns) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

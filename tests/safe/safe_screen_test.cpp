@@ -12,7 +12,7 @@
 
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ TEST_F(SafeScreenTest, ACardThatIsNotThereIsNamed) {
         {folder / "none", (folder / "none").string()},
         {folder, folder.string()}};
     for (const auto& [card, named] : cards) {
-        const auto screen = SafeScreen::open(card, safe_languages());
+        const auto screen = programs::SafeScreen::open(card, safe_languages());
         ASSERT_FALSE(screen) << card;
         EXPECT_EQ(screen.error().kind, ErrorKind::DeviceLost) << "it may come";
         EXPECT_EQ(screen.error().message.find("display: " + named + " cannot be opened: "), 0U)
@@ -48,7 +48,7 @@ TEST_F(SafeScreenTest, ACardThatIsNotThereIsNamed) {
 TEST_F(SafeScreenTest, WhatIsNoCardIsSaid) {
     std::ofstream(folder / "file") << "no card";
     for (const std::string& card : {std::string("/dev/null"), (folder / "file").string()}) {
-        const auto screen = SafeScreen::open(card, safe_languages());
+        const auto screen = programs::SafeScreen::open(card, safe_languages());
         ASSERT_FALSE(screen) << card;
         EXPECT_EQ(screen.error().kind, ErrorKind::DeviceLost);
         EXPECT_NE(screen.error().message.find(card + " has no connectors"), std::string::npos)
@@ -64,7 +64,7 @@ TEST_F(SafeScreenTest, ACardThatThisUserMayNotOpenIsSaid) {
         if (::geteuid() == 0 && ::setuid(nobody) != 0) {
             ::_exit(2);
         }
-        const auto screen = SafeScreen::open(folder / "card", safe_languages());
+        const auto screen = programs::SafeScreen::open(folder / "card", safe_languages());
         ::_exit(!screen && screen.error().kind == ErrorKind::BadConfiguration &&
                         screen.error().message.find("group video") != std::string::npos
                     ? 0
@@ -75,8 +75,8 @@ TEST_F(SafeScreenTest, ACardThatThisUserMayNotOpenIsSaid) {
 
 TEST_F(SafeScreenTest, MemoryThatTheCardDoesNotGiveIsSaidWithItsSize) {
     const int file = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    const SafePicture picture{safe_languages(), {}, 0};
-    const auto scanout = SafeScanout::make(file, {1280, 800}, picture);
+    const programs::SafePicture picture{safe_languages(), {}, 0};
+    const auto scanout = programs::SafeScanout::make(file, {1280, 800}, picture);
     ::close(file);
     ASSERT_FALSE(scanout);
     EXPECT_EQ(scanout.error().kind, ErrorKind::BadConfiguration);
@@ -86,21 +86,21 @@ TEST_F(SafeScreenTest, MemoryThatTheCardDoesNotGiveIsSaidWithItsSize) {
 TEST_F(SafeScreenTest, TheReasonIsTheBeginningOfItsFileOrNothing) {
     const auto with = [this](const std::string& bytes) {
         std::ofstream(folder / "reason", std::ios::binary) << bytes;
-        return read_reason(folder / "reason");
+        return programs::read_reason(folder / "reason");
     };
     EXPECT_EQ(with("The disk is full.\nMore"), "The disk is full.\nMore");
     EXPECT_EQ(with(""), "");
     EXPECT_EQ(with(std::string("\0\xff", 2)), std::string("\0\xff", 2));
     EXPECT_EQ(with(std::string(1 << 20, 'x')), std::string(4096, 'x'));
-    EXPECT_EQ(read_reason({}), "");
-    EXPECT_EQ(read_reason(folder), "");
-    EXPECT_EQ(read_reason(folder / "none"), "");
-    EXPECT_EQ(read_reason("/dev/zero"), "");
+    EXPECT_EQ(programs::read_reason({}), "");
+    EXPECT_EQ(programs::read_reason(folder), "");
+    EXPECT_EQ(programs::read_reason(folder / "none"), "");
+    EXPECT_EQ(programs::read_reason("/dev/zero"), "");
     ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
-    EXPECT_EQ(read_reason(folder / "fifo"), "") << "nobody writes into it";
+    EXPECT_EQ(programs::read_reason(folder / "fifo"), "") << "nobody writes into it";
     fs::create_symlink(folder / "reason", folder / "link");
-    EXPECT_EQ(read_reason(folder / "link"), std::string(4096, 'x'));
+    EXPECT_EQ(programs::read_reason(folder / "link"), std::string(4096, 'x'));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::safe {
 namespace {
 
 struct Ink {
@@ -50,7 +50,7 @@ struct Unref {
     void operator()(void* object) const { g_object_unref(object); }
 };
 
-Coverage drawn_by_pango(const std::string& text, const std::string& language, const Fonts& fonts,
+Coverage drawn_by_pango(const std::string& text, const std::string& language, const texts::Fonts& fonts,
                         double em_px) {
     const std::unique_ptr<PangoFontMap, Unref> map(pango_ft2_font_map_new());
     pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map.get()), fonts.config());
@@ -89,9 +89,9 @@ Coverage drawn_by_us(const std::string& language, double& em_px) {
     std::vector<std::uint8_t> greys(std::size_t{1600} * 1000);
     draw_safe_rows(page, 0, greys);
     Coverage coverage{1600, 1000, std::vector<float>(greys.size())};
-    const double full = linear_from_srgb(page.letters.front().grey / 255.0);
+    const double full = image::linear_from_srgb(page.letters.front().grey / 255.0);
     std::transform(greys.begin(), greys.end(), coverage.share.begin(), [&](std::uint8_t grey) {
-        return static_cast<float>(linear_from_srgb(grey / 255.0) / full);
+        return static_cast<float>(image::linear_from_srgb(grey / 255.0) / full);
     });
     return coverage;
 }
@@ -125,7 +125,7 @@ double best_correlation(const Coverage& a, const Coverage& b) {
 
 TEST(SafeWords, HaveTheLanguagesThatTheExhibitHas) {
     std::set<std::string_view> exhibit;
-    for (const BuiltinWords& words : builtin_words()) {
+    for (const texts::BuiltinWords& words : texts::builtin_words()) {
         exhibit.insert(words.language);
     }
     const std::vector<std::string_view> names = safe_languages();
@@ -135,7 +135,7 @@ TEST(SafeWords, HaveTheLanguagesThatTheExhibitHas) {
 
 TEST(SafeWords, AreInThePictureAsPangoDrawsThem) {
     const toml::table words = toml::parse_file(source_dir() + "/assets_baked/safe/words.toml");
-    const Result<Fonts> fonts = Fonts::open();
+    const Result<texts::Fonts> fonts = texts::Fonts::open();
     ASSERT_TRUE(fonts) << fonts.error().message;
     int languages = 0;
     for (const auto& [key, table] : words) {
@@ -172,4 +172,4 @@ TEST(SafeWords, TheComparisonTellsMirroredAndOtherWordsApart) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::safe

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 TEST(DevicePlan, OpensWhatIsConfigured) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     settings.exhibit.packs = {"a.fspack", "b.fspack"};
     const DevicePlan bare = plan_devices(settings, false, false);
     EXPECT_TRUE(bare.head);
@@ -23,7 +23,7 @@ TEST(DevicePlan, OpensWhatIsConfigured) {
     EXPECT_EQ(languages.threads.size(), 2U);
     settings.panel.script = {{1.0, 1}};
     EXPECT_TRUE(plan_devices(settings, false, false).other_packs);
-    EXPECT_TRUE(plan_devices(Settings(), true, false).other_packs);
+    EXPECT_TRUE(plan_devices(settings::Settings(), true, false).other_packs);
     settings.camera.visitor = true;
     EXPECT_TRUE(plan_devices(settings, false, false).visitor);
     EXPECT_EQ(plan_devices(settings, false, false).threads.back(),
@@ -31,9 +31,9 @@ TEST(DevicePlan, OpensWhatIsConfigured) {
     settings.camera.tags = true;
     EXPECT_EQ(plan_devices(settings, false, false).threads.back(),
               "the camera's reader, which finds the prop's tags and sees who stands at the table");
-    settings.tracker.kind = TrackerKind::None;
+    settings.tracker.kind = settings::TrackerKind::None;
     EXPECT_FALSE(plan_devices(settings, false, false).head);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

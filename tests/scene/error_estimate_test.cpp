@@ -7,25 +7,25 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 /// A triangle in the prop, facing up, under a projector that looks straight down.
 struct Kiosk {
-    PropShape prop = make_frustum({});
+    geometry::PropShape prop = geometry::make_frustum({});
     PlacedLevel artifact;
     glm::dvec3 eye{0.0, -0.6, 0.6};
     PlanView view{
         {1280, 800, 1872.0, 1872.0, 640.0, 400.0}, {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.2}}, {}, {}, {}};
 
     Kiosk() {
-        PackLevel level;
+        pack::PackLevel level;
         for (const auto& [x, y] : {std::array{0, 0}, {65535, 0}, {32768, 65535}}) {
             level.vertices.push_back(
                 {{static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), 32768}, 0, {}});
         }
         level.indices = {0, 1, 2};
-        PackCluster all;
+        pack::PackCluster all;
         all.index_count = 3;
         all.centre = {0.0F, 0.0F, 0.5F};
         all.radius = 0.87F;
@@ -44,15 +44,15 @@ struct Kiosk {
 };
 
 /// The eye sees a single patch, at the middle of the box.
-SeenEye eye_at(const glm::dvec3& towards) {
-    SeenEye eye;
+pack::SeenEye eye_at(const glm::dvec3& towards) {
+    pack::SeenEye eye;
     eye.towards = towards;
     eye.patches[0] = {{0.0, 0.0, 0.5}, 1.0};
     return eye;
 }
 
-SeenError seen_of(float mean_box) {
-    SeenError seen{mean_box, 3.0F * mean_box, 0.0F, 0.0F, {}};
+pack::SeenError seen_of(float mean_box) {
+    pack::SeenError seen{mean_box, 3.0F * mean_box, 0.0F, 0.0F, {}};
     seen.patches_box.fill(mean_box);
     return seen;
 }
@@ -88,7 +88,7 @@ TEST(ErrorEstimate, IsThatOfTheEyeThatLooks) {
 
 TEST(ErrorEstimate, OfALevelWithoutErrorIsAShareOfAPixelAsItLandsOnTheArtifact) {
     Kiosk kiosk;
-    const SeenLevel exact{{eye_at({0, 0, 1})}, {SeenError{}}};
+    const SeenLevel exact{{eye_at({0, 0, 1})}, {pack::SeenError{}}};
     const double near_mm = kiosk.estimate(exact)->mean_mm;
     EXPECT_GT(near_mm, 0.0);
     kiosk.view.projector.fx /= 2.0; // pixels twice as large
@@ -117,12 +117,12 @@ TEST(ErrorEstimate, OfNothingIsNone) {
 TEST(ErrorEstimate, CountsAPatchByThePixelsOfTheFaceThatItIsSeenThrough) {
     Kiosk kiosk;
     kiosk.eye = {0.0, -0.3, 0.7};
-    SeenEye eye = eye_at({0, -1, 0});
+    pack::SeenEye eye = eye_at({0, -1, 0});
     eye.patches[0] = {{0.0, 0.0, 1.4}, 0.5};  // 0.112 m high: through the top
     eye.patches[1] = {{0.0, -0.3, 0.1}, 0.5}; // low and in front: through the side
-    SeenError above = seen_of(1e-3F);
+    pack::SeenError above = seen_of(1e-3F);
     above.patches_box[1] = 0.0F;
-    SeenError below = seen_of(1e-3F);
+    pack::SeenError below = seen_of(1e-3F);
     below.patches_box[0] = 0.0F;
     const double of_top = kiosk.estimate({{eye}, {above}})->mean_mm;
     const double of_side = kiosk.estimate({{eye}, {below}})->mean_mm;
@@ -145,8 +145,8 @@ TEST(ErrorEstimate, CountsAPatchByThePixelsOfTheFaceThatItIsSeenThrough) {
 }
 
 TEST(ErrorEstimate, TheWorstIsTheGreatestOfEachFigure) {
-    const SeenError worst =
-        worst_of({{SeenEye{}, SeenEye{}}, {{1.0F, 2.0F, 3.0F, 4.0F, {}}, {2.0F, 1.0F, 5.0F, 0.0F, {}}}});
+    const pack::SeenError worst = worst_of(
+        {{pack::SeenEye{}, pack::SeenEye{}}, {{1.0F, 2.0F, 3.0F, 4.0F, {}}, {2.0F, 1.0F, 5.0F, 0.0F, {}}}});
     EXPECT_EQ(worst.mean_box, 2.0F);
     EXPECT_EQ(worst.p95_box, 2.0F);
     EXPECT_EQ(worst.outline_shift_box, 5.0F);
@@ -154,7 +154,7 @@ TEST(ErrorEstimate, TheWorstIsTheGreatestOfEachFigure) {
 }
 
 TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
-    PackOutline outline;
+    pack::PackOutline outline;
     outline.levels.resize(2);
     outline.levels[1].error = {1e-3F, 4e-3F, 1.0F, 0.0F};
     const std::vector<SeenLevel> seen = seen_by_eyes(outline).value().levels;
@@ -163,12 +163,12 @@ TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
     EXPECT_FLOAT_EQ(worst_of(seen[1]).p95_box, 8e-3F);
     Kiosk kiosk;
     EXPECT_NEAR(kiosk.estimate(seen[1])->mean_mm, 0.16, 2e-3);
-    put_seen_errors({{eye_at({0.0, 0.6, 0.8})}, {{seen_of(0.5F)}, {seen_of(0.25F)}}, {}},
-                    outline.description);
+    pack::put_seen_errors({{eye_at({0.0, 0.6, 0.8})}, {{seen_of(0.5F)}, {seen_of(0.25F)}}, {}},
+                          outline.description);
     EXPECT_FLOAT_EQ(worst_of(seen_by_eyes(outline).value().levels[1]).mean_box, 0.25F);
     outline.levels.resize(3);
     EXPECT_FALSE(seen_by_eyes(outline));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

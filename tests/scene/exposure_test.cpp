@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 double linear(int code) {
@@ -15,8 +15,8 @@ double linear(int code) {
 /// Two adjacent squares; the left one, `share` of the area, has the texture's left half, the right one its
 /// right half.
 struct Pair {
-    PackLevel level;
-    Image8 texture{2, 1};
+    pack::PackLevel level;
+    image::Image8 texture{2, 1};
 
     Pair(double share, int left, int right, int right_alpha = 255) {
         const auto at = [](double x) { return static_cast<std::uint16_t>(std::lround(65535.0 * x)); };
@@ -54,9 +54,9 @@ TEST(Exposure, WhatIsCutOutDoesNotCount) {
 
 TEST(Exposure, LeavesAloneWhatItIsToldToOrCannotJudge) {
     EXPECT_EQ(Pair(0.5, 100, 50).exposure(0), 1.0);
-    EXPECT_EQ(exposure_of({}, {1.0, 1.0, 1.0}, Image8(1, 1), 235), 1.0);
+    EXPECT_EQ(exposure_of({}, {1.0, 1.0, 1.0}, image::Image8(1, 1), 235), 1.0);
     EXPECT_EQ(Pair(0.5, 0, 0).exposure(235), max_exposure) << "black stays black";
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

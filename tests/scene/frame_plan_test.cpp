@@ -7,19 +7,19 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 /// A closed surface of one cluster in the pack's box, and a projector that looks straight down.
 struct Kiosk {
-    PropShape prop = make_frustum({});
+    geometry::PropShape prop = geometry::make_frustum({});
     PlacedLevel artifact;
     glm::dvec3 eye{0.05, -0.5, 0.45};
     PlanView view{
         {1280, 800, 1872.0, 1872.0, 640.0, 400.0}, {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.2}}, {}, {}, {}};
 
     Kiosk() {
-        PackLevel ball;
+        pack::PackLevel ball;
         for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}) {
             ball.vertices.push_back(
                 {{static_cast<std::uint16_t>(65535 * x), static_cast<std::uint16_t>(65535 * y),
@@ -28,7 +28,7 @@ struct Kiosk {
                  {}});
         }
         ball.indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 4, 2, 3, 4, 3, 1, 4}; // two tetrahedra, base to base
-        PackCluster all;
+        pack::PackCluster all;
         all.index_count = static_cast<std::uint32_t>(ball.indices.size());
         all.centre = {0.0F, 0.0F, 0.5F};
         all.radius = 0.87F;
@@ -185,7 +185,7 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
     int compared = 0;
     for (const Draw& draw : plan.draws) {
         const auto face = static_cast<std::size_t>(plan.faces[static_cast<std::size_t>(draw.face)].face);
-        const Plane& plane = kiosk.prop.faces[face].plane;
+        const geometry::Plane& plane = kiosk.prop.faces[face].plane;
         const double metres = draw.drawable.mesh == MeshId{7} ? 0.13 : 0.16;
         for (int k = 0; k < 500; ++k) {
             const glm::dvec3 unit(u(random), u(random), u(random));
@@ -327,4 +327,4 @@ TEST(FramePlan, TheHashTellsPicturesApart) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
-LevelOutline level_of(std::uint64_t triangles) {
-    LevelOutline level;
+pack::LevelOutline level_of(std::uint64_t triangles) {
+    pack::LevelOutline level;
     level.triangles = triangles;
     return level;
 }
@@ -26,21 +26,23 @@ MonotonicTime at_seconds(double seconds) {
 constexpr double deadline_ms = 1000.0 / 60.0;
 
 TEST(Tolerance, IsOfWhatTheWorstEyeSeesOnThisPropAndOfTheWorstPlace) {
-    const LevelError error{1e-4F, 3e-4F, 5e-3F, 0.0F};
-    const SeenError worst{2e-3F, 9e-3F, 1e-3F, 0.5F}; // on a prop of 120 mm: 0.24 mm, outline 0.12 mm
+    const pack::LevelError error{1e-4F, 3e-4F, 5e-3F, 0.0F};
+    const pack::SeenError worst{2e-3F, 9e-3F, 1e-3F, 0.5F}; // on a prop of 120 mm: 0.24 mm, outline 0.12 mm
     EXPECT_TRUE(within_tolerance(error, worst, 120.0, 0.25));
     EXPECT_FALSE(within_tolerance(error, worst, 120.0, 0.23));
     EXPECT_FALSE(within_tolerance(error, worst, 130.0, 0.25)); // a larger prop magnifies the error
-    EXPECT_FALSE(within_tolerance(error, {2e-3F, 0.0F, 1.1e-3F, 0.0F}, 120.0, 0.25));    // the outline is off
-    EXPECT_FALSE(within_tolerance({0.0F, 0.0F, 9e-3F, 0.0F}, SeenError{}, 120.0, 0.25)); // a part is lost
+    EXPECT_FALSE(within_tolerance(error, {2e-3F, 0.0F, 1.1e-3F, 0.0F}, 120.0, 0.25)); // the outline is off
+    EXPECT_FALSE(
+        within_tolerance({0.0F, 0.0F, 9e-3F, 0.0F}, pack::SeenError{}, 120.0, 0.25)); // a part is lost
     const float nan = std::nanf("");
-    EXPECT_FALSE(within_tolerance({0.0F, 0.0F, nan, 0.0F}, SeenError{}, 120.0, 0.25));
+    EXPECT_FALSE(within_tolerance({0.0F, 0.0F, nan, 0.0F}, pack::SeenError{}, 120.0, 0.25));
     EXPECT_FALSE(within_tolerance(error, {nan, 0.0F, 0.0F, 0.0F}, 120.0, 0.25));
     EXPECT_FALSE(within_tolerance(error, worst, 120.0, std::nan("")));
 }
 
 TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
-    const std::vector<LevelOutline> levels{level_of(1000), level_of(2000), level_of(8000), level_of(30000)};
+    const std::vector<pack::LevelOutline> levels{level_of(1000), level_of(2000), level_of(8000),
+                                                 level_of(30000)};
     const std::vector<QualityLevel> quality_levels = ladder(levels, {false, true, true, true}, 4);
     ASSERT_EQ(quality_levels.size(), 6U);
     EXPECT_EQ(quality_levels[0].level, 1U);
@@ -55,7 +57,7 @@ TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
 }
 
 TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
-    const std::vector<LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
+    const std::vector<pack::LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
     const std::vector<QualityLevel> quality_levels = ladder(levels, {false, false, false}, 1);
     ASSERT_EQ(quality_levels.size(),
               2U); // 1000 triangles do not justify a quality level of their own next to 1200
@@ -66,10 +68,10 @@ TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
 }
 
 TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
-    std::vector<LevelOutline> levels{level_of(1000), level_of(2000)};
+    std::vector<pack::LevelOutline> levels{level_of(1000), level_of(2000)};
     levels[0].error.p95_box = 4e-3F;
     levels[1].error.p95_box = 2e-3F;
-    ReliefOutline relief{384, 5000, 2'000'000, {1e-4F, 5e-4F, 1e-3F, 0.0F}, "r"};
+    pack::ReliefOutline relief{384, 5000, 2'000'000, {1e-4F, 5e-4F, 1e-3F, 0.0F}, "r"};
     const std::vector<QualityLevel> quality_levels = ladder(levels, {false, true}, 4, relief);
     ASSERT_EQ(quality_levels.size(), 8U);
     EXPECT_TRUE(quality_levels[0].relief && quality_levels[0].enough && quality_levels[0].level == 384 &&
@@ -82,8 +84,8 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
 }
 
 TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
-    const std::vector<LevelOutline> levels{level_of(2000)};
-    const ReliefOutline relief{384, 5000, 2'000'000, {}, "r"};
+    const std::vector<pack::LevelOutline> levels{level_of(2000)};
+    const pack::ReliefOutline relief{384, 5000, 2'000'000, {}, "r"};
     const std::vector<QualityLevel> both = ladder(levels, {true}, 4, relief, true);
     std::size_t on_gpu = 0;
     for (const QualityLevel& quality_level : both) {
@@ -125,11 +127,11 @@ TEST(Cost, OfReliefsAndMeshesIsApart) {
 }
 
 TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
-    const Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
-    const RigidTransform projector_from_prop =
-        RigidTransform{{0.0, 1.0, 0.0, 0.0}, {0.1, 0.0, 1.2}}.inverse();
-    EXPECT_NEAR(pixel_on_prop_m(make_frustum({}), pinhole, projector_from_prop), (1.2 - 0.12) / 1920.0,
-                1e-12);
+    const geometry::Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
+    const geometry::RigidTransform projector_from_prop =
+        geometry::RigidTransform{{0.0, 1.0, 0.0, 0.0}, {0.1, 0.0, 1.2}}.inverse();
+    EXPECT_NEAR(pixel_on_prop_m(geometry::make_frustum({}), pinhole, projector_from_prop),
+                (1.2 - 0.12) / 1920.0, 1e-12);
 }
 
 /// A GPU whose frames take fixed + per_triangle * triangles + per_sample * pixels * samples, in milliseconds.
@@ -450,4 +452,4 @@ TEST(FrameTimeModel, ForetellsOtherQualityLevelsAtAnotherPose) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
-const Pinhole pinhole{1280, 800, 1900.0, 1850.0, 600.0, 450.0};
+const geometry::Pinhole pinhole{1280, 800, 1900.0, 1850.0, 600.0, 450.0};
 
 struct Lit {
-    PropShape prop = make_frustum({});
-    RigidTransform projector_from_prop{{0.0, 1.0, 0.0, 0.0}, {0.03, -0.02, 0.9}}; // looking down
+    geometry::PropShape prop = geometry::make_frustum({});
+    geometry::RigidTransform projector_from_prop{{0.0, 1.0, 0.0, 0.0}, {0.03, -0.02, 0.9}}; // looking down
     glm::dvec3 projector() const { return projector_from_prop.inverse().translation; }
 };
 
@@ -23,7 +23,7 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
     const Lit lit;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> u(0.0, 1.0);
-    for (const PropFace& face : lit.prop.faces) {
+    for (const geometry::PropFace& face : lit.prop.faces) {
         const double reference = 0.2;
         const FaceLight light = face_light(face, lit.projector_from_prop.matrix(), reference);
         for (int k = 0; k < 200; ++k) {
@@ -34,7 +34,7 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
             const glm::dvec3 to_light = lit.projector() - p;
             const double d = glm::length(to_light);
             const double received = glm::dot(face.plane.normal, to_light / d) / (d * d);
-            ASSERT_NEAR(received_light(face.plane, p, lit.projector()), received, 1e-12);
+            ASSERT_NEAR(settings::received_light(face.plane, p, lit.projector()), received, 1e-12);
             const auto pixel = pinhole.pixel(lit.projector_from_prop.point(p));
             ASSERT_TRUE(pixel);
             ASSERT_NEAR(gain(light, pinhole, *pixel) * received,
@@ -43,7 +43,7 @@ TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
     }
 }
 
-double dimmest_corner(const PropFace& face, const glm::dvec3& lens) {
+double dimmest_corner(const geometry::PropFace& face, const glm::dvec3& lens) {
     double dimmest = 1e9;
     for (const glm::dvec3& corner : face.corners) {
         const glm::dvec3 to_light = lens - corner;
@@ -53,9 +53,9 @@ double dimmest_corner(const PropFace& face, const glm::dvec3& lens) {
     return dimmest;
 }
 
-std::vector<SeenFace> all_faces(const PropShape& prop, const glm::dvec3& eye) {
+std::vector<SeenFace> all_faces(const geometry::PropShape& prop, const glm::dvec3& eye) {
     std::vector<SeenFace> faces;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         faces.push_back({&face, eye});
     }
     return faces;
@@ -64,7 +64,7 @@ std::vector<SeenFace> all_faces(const PropShape& prop, const glm::dvec3& eye) {
 TEST(Light, TheReferenceStandsWhereEveryFaceReachesIt) {
     const Lit lit;
     double least = 1e9;
-    for (const PropFace& face : lit.prop.faces) {
+    for (const geometry::PropFace& face : lit.prop.faces) {
         least = std::min(least, dimmest_corner(face, lit.projector()));
     }
     for (const glm::dvec3 eye :
@@ -75,7 +75,7 @@ TEST(Light, TheReferenceStandsWhereEveryFaceReachesIt) {
 
 TEST(Light, TheWholeArtifactDimsWithAFaceThatTheEyeSeesInFull) {
     const Lit lit;
-    const PropFace& front = lit.prop.faces[3];
+    const geometry::PropFace& front = lit.prop.faces[3];
     const double reached = dimmest_corner(front, lit.projector());
     const glm::dvec3 square_before = front.middle() + 0.6 * front.plane.normal;
     const auto reference = [&](double aim, double min_share) {
@@ -103,7 +103,7 @@ TEST(Light, AFaceThatTheEyeDoesNotSeeCountsForNothing) {
 
 TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
     const Lit lit;
-    const PropFace& front = lit.prop.faces[3];
+    const geometry::PropFace& front = lit.prop.faces[3];
     const glm::dvec3 middle = front.middle();
     const glm::dvec3 along = glm::normalize(front.corners[3] - front.corners[0]);
     double before = -1.0;
@@ -115,11 +115,11 @@ TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
         const FaceLight light = face_light(front, projector_from_prop, 0.2);
         EXPECT_GE(light.most, before) << sine;
         EXPECT_LT(light.most - before, k > 0 ? 0.01 : 2.0) << sine;
-        EXPECT_EQ(light.most == 0.0F, sine <= min_sine_of_light) << sine;
+        EXPECT_EQ(light.most == 0.0F, sine <= settings::min_sine_of_light) << sine;
         EXPECT_EQ(light.most == 1.0F, sine >= full_sine_of_light) << sine;
         before = light.most;
     }
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

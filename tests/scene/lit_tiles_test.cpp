@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 TEST(LitTiles, HoldEveryPixelLitOnceAndNoneOutsideThePicture) {
@@ -69,4 +69,4 @@ TEST(LitTiles, AreLargerInALargePicture) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

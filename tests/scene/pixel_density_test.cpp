@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 // A surface of half the density has a quarter of the pixels of a frontal view: the bake's samples allow for
@@ -38,7 +38,7 @@ TEST(SamplesAt, WhereNothingIsAskedForOrSeenAreAsTheyWere) {
 }
 
 TEST(PixelDensityOfFaces, IsAMeanByTheirAreas) {
-    const Pinhole projector{640, 400, 1000.0, 1000.0, 320.0, 200.0};
+    const geometry::Pinhole projector{640, 400, 1000.0, 1000.0, 320.0, 200.0};
     PixelDensity density;
     EXPECT_EQ(density.share(0.5, projector), 1.0); // no face
     density.add({0, 0, 30, 10}, 2000.0);           // as dense as a frontal view at 0.5 m
@@ -48,4 +48,4 @@ TEST(PixelDensityOfFaces, IsAMeanByTheirAreas) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

@@ -12,26 +12,27 @@
 #include <filesystem>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
-Settings settings_of(const char* file) {
-    return **load_settings(std::filesystem::path(source_dir()) / "config" / file);
+settings::Settings settings_of(const char* file) {
+    return **settings::load_settings(std::filesystem::path(source_dir()) / "config" / file);
 }
 
 /// Upright, somewhere on the table.
-RigidTransform slid(const Settings& settings, std::mt19937& random) {
+geometry::RigidTransform slid(const settings::Settings& settings, std::mt19937& random) {
     std::uniform_real_distribution<double> u(-0.5, 0.5);
     return {glm::angleAxis(7.0 * u(random), glm::dvec3(0.0, 0.0, 1.0)),
             {u(random) * settings.table.width_m, u(random) * settings.table.depth_m, 0.0}};
 }
 
 /// Size of the part inside the picture.
-glm::dvec2 size_in_picture(const Settings& settings, const RigidTransform& table_from_prop) {
-    const Pinhole& pinhole = settings.projector.pinhole;
+glm::dvec2 size_in_picture(const settings::Settings& settings,
+                           const geometry::RigidTransform& table_from_prop) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
-    for (const glm::dvec3& corner : make_prop(settings.prop).corners) {
+    for (const glm::dvec3& corner : settings::make_prop(settings.prop).corners) {
         const glm::dvec3 seen =
             settings.projector.table_from_projector.inverse().point(table_from_prop.point(corner));
         const glm::dvec2 pixel = pinhole.pixel(seen).value();
@@ -44,7 +45,7 @@ glm::dvec2 size_in_picture(const Settings& settings, const RigidTransform& table
 
 TEST(PropOutline, HoldsThePropWhereverItStandsAndHardlyMore) {
     for (const char* file : {"near.toml", "kiosk.toml"}) {
-        const Settings settings = settings_of(file);
+        const settings::Settings settings = settings_of(file);
         const PixelSize room =
             largest_outline(settings, settings.projector.pinhole, visibility_of(settings)).value();
         std::mt19937 random(3);
@@ -60,7 +61,7 @@ TEST(PropOutline, HoldsThePropWhereverItStandsAndHardlyMore) {
 }
 
 TEST(PropOutline, OfKnownViewsIsTheirLargest) {
-    const Settings settings = settings_of("kiosk.toml");
+    const settings::Settings settings = settings_of("kiosk.toml");
     std::mt19937 random(4);
     std::vector<KnownView> views;
     glm::dvec2 largest(0.0);
@@ -75,7 +76,7 @@ TEST(PropOutline, OfKnownViewsIsTheirLargest) {
 }
 
 TEST(PropOutline, OfAPropInTheHandIsThePicture) {
-    const Settings settings = settings_of("cube.toml");
+    const settings::Settings settings = settings_of("cube.toml");
     EXPECT_FALSE(largest_outline(settings, settings.projector.pinhole, visibility_of(settings)));
 }
 
@@ -92,8 +93,8 @@ TEST(PropOutline, OfTwoNeedsHoldsBoth) {
 /// Headroom for eight samples in the whole picture would take 65.5 and 147.5 MB.
 TEST(PropOutline, KeepsTheMemoryOfSamplesToWhatThePropTakes) {
     for (const auto& [file, max_mb] : {std::pair("near.toml", 18.0), std::pair("kiosk.toml", 35.0)}) {
-        const Settings settings = settings_of(file);
-        const Pinhole& pinhole = settings.projector.pinhole;
+        const settings::Settings settings = settings_of(file);
+        const geometry::Pinhole& pinhole = settings.projector.pinhole;
         RenderNeeds needs{4, {}};
         needs.outline = largest_outline(settings, pinhole, visibility_of(settings));
         const double mb = 1e-6 * static_cast<double>(gpu_bytes(needs, pinhole.width, pinhole.height));
@@ -103,4 +104,4 @@ TEST(PropOutline, KeepsTheMemoryOfSamplesToWhatThePropTakes) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

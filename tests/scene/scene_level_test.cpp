@@ -17,7 +17,7 @@ namespace {
 using Corner = std::array<std::uint16_t, 3>;
 using Triangle = std::array<Corner, 3>;
 
-std::vector<Triangle> triangles_in(const PackLevel& level) {
+std::vector<Triangle> triangles_in(const pack::PackLevel& level) {
     std::vector<Triangle> triangles;
     for (std::size_t k = 0; k < level.indices.size(); k += 3) {
         triangles.push_back({level.vertices[level.indices[k]].position,
@@ -27,21 +27,21 @@ std::vector<Triangle> triangles_in(const PackLevel& level) {
     return triangles;
 }
 
-glm::dvec3 metres(const Corner& corner, const Pack& pack, double metres_per_box) {
+glm::dvec3 metres(const Corner& corner, const pack::Pack& pack, double metres_per_box) {
     const glm::dvec3 unit = glm::dvec3(corner[0], corner[1], corner[2]) / 65535.0;
     return metres_per_box * (unit - glm::dvec3(0.5, 0.5, 0.0)) * pack.box_size;
 }
 
 /// Signed height of the eye above the triangle's plane, metres.
-double above(const Triangle& triangle, const glm::dvec3& eye, const Pack& pack, double scale) {
+double above(const Triangle& triangle, const glm::dvec3& eye, const pack::Pack& pack, double scale) {
     const glm::dvec3 a = metres(triangle[0], pack, scale);
     const glm::dvec3 n =
         glm::cross(metres(triangle[1], pack, scale) - a, metres(triangle[2], pack, scale) - a);
     return glm::dot(glm::normalize(n), eye - a);
 }
 
-Pack placed_rings() {
-    Pack pack = rings(32, 16);
+pack::Pack placed_rings() {
+    pack::Pack pack = rings(32, 16);
     for (unsigned k = 0; k < 8; ++k) {
         pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
                                    ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
@@ -50,17 +50,17 @@ Pack placed_rings() {
     return pack;
 }
 
-ScenePlan plan_for(const Settings& settings, const Pack& pack) {
-    SceneRequest request;
-    request.visibility = visibility_of(settings);
-    return plan_scene(settings, outline_of(pack), request).value();
+scene::ScenePlan plan_for(const settings::Settings& settings, const pack::Pack& pack) {
+    scene::SceneRequest request;
+    request.visibility = scene::visibility_of(settings);
+    return scene::plan_scene(settings, pack::outline_of(pack), request).value();
 }
 
 TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
-    const Settings settings = steep_table();
-    const Pack pack = placed_rings();
-    const ScenePlan plan = plan_for(settings, pack);
-    const SceneLevel level = scene_level(pack, 0, plan);
+    const settings::Settings settings = settings::steep_table();
+    const pack::Pack pack = placed_rings();
+    const scene::ScenePlan plan = plan_for(settings, pack);
+    const scene::SceneLevel level = scene::scene_level(pack, 0, plan);
     EXPECT_GT(level.unseen_triangles, 50U); // the rings' undersides
     const std::vector<Triangle> all = triangles_in(pack.levels[0]);
     const std::vector<Triangle> kept = triangles_in(level.mesh);
@@ -97,15 +97,15 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
 }
 
 TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     settings.eye.tracked = false;
-    settings.tracker.kind = TrackerKind::None;
-    const Pack pack = placed_rings();
-    const SceneLevel level = scene_level(pack, 0, plan_for(settings, pack));
+    settings.tracker.kind = settings::TrackerKind::None;
+    const pack::Pack pack = placed_rings();
+    const scene::SceneLevel level = scene::scene_level(pack, 0, plan_for(settings, pack));
     EXPECT_GT(level.unseen_triangles, pack.levels[0].indices.size() / 3 / 3); // one eye: about half
     EXPECT_GT(level.unseen_clusters, 0U);
     std::uint32_t next = 0;
-    for (const PackCluster& cluster : level.mesh.clusters) {
+    for (const pack::PackCluster& cluster : level.mesh.clusters) {
         EXPECT_EQ(cluster.first_index, next);
         EXPECT_GT(cluster.index_count, 0U);
         next += cluster.index_count;
@@ -117,24 +117,24 @@ TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
 }
 
 TEST(SceneLevel, OfARecordingOrWithoutCullKindsIsWhole) {
-    Settings settings = steep_table();
-    const Pack pack = placed_rings();
-    settings.tracker.kind = TrackerKind::Replay;
-    EXPECT_EQ(scene_level(pack, 0, plan_for(settings, pack)).mesh.indices, pack.levels[0].indices);
-    ScenePlan plan = plan_for(Settings(), pack);
+    settings::Settings settings = settings::steep_table();
+    const pack::Pack pack = placed_rings();
+    settings.tracker.kind = settings::TrackerKind::Replay;
+    EXPECT_EQ(scene::scene_level(pack, 0, plan_for(settings, pack)).mesh.indices, pack.levels[0].indices);
+    scene::ScenePlan plan = plan_for(settings::Settings(), pack);
     plan.cull_kinds = 0;
-    EXPECT_EQ(scene_level(pack, 0, plan).mesh.indices, pack.levels[0].indices);
+    EXPECT_EQ(scene::scene_level(pack, 0, plan).mesh.indices, pack.levels[0].indices);
 }
 
 TEST(MipLevel, IsTheFirstOfWhichNoSampleSkipsATexel) {
-    EXPECT_EQ(mip_level(100.0, 200.0), 0);
-    EXPECT_EQ(mip_level(200.0, 200.0), 0);
-    EXPECT_EQ(mip_level(201.0, 200.0), 1);
-    EXPECT_EQ(mip_level(400.0, 200.0), 1);
-    EXPECT_EQ(mip_level(401.0, 200.0), 2);
-    EXPECT_EQ(mip_level(1e9, 1.0), coarsest_mip_level);
-    EXPECT_EQ(mip_level(100.0, 0.0), coarsest_mip_level);
-    EXPECT_EQ(mip_level(std::nan(""), 1.0), 0);
+    EXPECT_EQ(scene::mip_level(100.0, 200.0), 0);
+    EXPECT_EQ(scene::mip_level(200.0, 200.0), 0);
+    EXPECT_EQ(scene::mip_level(201.0, 200.0), 1);
+    EXPECT_EQ(scene::mip_level(400.0, 200.0), 1);
+    EXPECT_EQ(scene::mip_level(401.0, 200.0), 2);
+    EXPECT_EQ(scene::mip_level(1e9, 1.0), scene::coarsest_mip_level);
+    EXPECT_EQ(scene::mip_level(100.0, 0.0), scene::coarsest_mip_level);
+    EXPECT_EQ(scene::mip_level(std::nan(""), 1.0), 0);
 }
 
 } // namespace

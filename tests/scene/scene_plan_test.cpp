@@ -9,15 +9,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 /// Four levels; the placement makes one box unit 0.06 m. Errors p95: 0.48, 0.24, 0.108, 0.012 mm at 120 mm.
-PackOutline outline() {
-    PackOutline pack;
+pack::PackOutline outline() {
+    pack::PackOutline pack;
     for (const auto& [triangles, p95_box] : {std::pair(1000U, 4e-3F), std::pair(2000U, 2e-3F),
                                              std::pair(8000U, 9e-4F), std::pair(30000U, 1e-4F)}) {
-        LevelOutline level;
+        pack::LevelOutline level;
         level.error = {p95_box / 3.0F, p95_box, 4.0F * p95_box, 0.0F};
         level.triangles = triangles;
         pack.levels.push_back(level);
@@ -30,9 +30,9 @@ PackOutline outline() {
 }
 
 /// Adds reliefs of these texels, each with this error in box units; a small error from `good` texels on.
-PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float error_box,
-                                 std::uint32_t good = 1U << 31U) {
-    PackOutline pack = outline();
+pack::PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float error_box,
+                                       std::uint32_t good = 1U << 31U) {
+    pack::PackOutline pack = outline();
     std::string reliefs;
     std::vector<std::string> parts;
     for (const std::uint32_t each : texels) {
@@ -47,7 +47,7 @@ PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float
     return pack;
 }
 
-SceneRequest request(const Settings& settings) {
+SceneRequest request(const settings::Settings& settings) {
     SceneRequest request;
     request.captions = {0, 1};
     request.visibility = visibility_of(settings);
@@ -71,18 +71,18 @@ bool has_captions(const ScenePlan& plan) {
 }
 
 TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
-    Settings settings = steep_table();
-    settings.prop = cube_settings();
+    settings::Settings settings = settings::steep_table();
+    settings.prop = settings::cube_settings();
     const ScenePlan held = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(held.faces, 0b111111U);
-    settings.prop.zone = PropZone::Table;
+    settings.prop.zone = settings::PropZone::Table;
     const ScenePlan standing = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(standing.faces, 0b011111U);
     EXPECT_TRUE(leaves_out(standing, UnseenFaces, "face -Z"));
 }
 
 TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
-    const Settings settings = steep_table();
+    const settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     for (const auto& [technique, level] :
          {std::pair("level0", 0U), std::pair("level3", 3U), std::pair("finest", 3U)}) {
@@ -101,9 +101,9 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
 }
 
 TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
-    const Settings settings =
-        steep_table(); // a pixel is 0.56 mm on the prop, the artifact 120 mm: 214 pixels
-    const PackOutline pack = outline_with_reliefs({48, 96, 192, 384}, 1e-4F);
+    const settings::Settings settings =
+        settings::steep_table(); // a pixel is 0.56 mm on the prop, the artifact 120 mm: 214 pixels
+    const pack::PackOutline pack = outline_with_reliefs({48, 96, 192, 384}, 1e-4F);
     SceneRequest asked = request(settings);
     for (const auto& [technique, texels] :
          {std::pair("relief", 192U), std::pair("relief48", 48U), std::pair("relief384", 384U)}) {
@@ -137,8 +137,8 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
 }
 
 TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
-    const Settings settings = steep_table();
-    const PackOutline pack = outline_with_reliefs({96, 192}, 1e-4F);
+    const settings::Settings settings = settings::steep_table();
+    const pack::PackOutline pack = outline_with_reliefs({96, 192}, 1e-4F);
     SceneRequest asked = request(settings);
     for (const std::string_view technique : {"relief-gpu", "relief192-gpu"}) {
         asked.technique = technique;
@@ -169,7 +169,7 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
                              [](const QualityLevel& quality_level) { return quality_level.on_gpu; });
     };
     EXPECT_EQ(ways_on_gpu(), 0);
-    const std::uint32_t blocks = reliefs_of(pack.description).value().back().blocks;
+    const std::uint32_t blocks = pack::reliefs_of(pack.description).value().back().blocks;
     asked.max_blocks_on_gpu = blocks;
     EXPECT_GT(ways_on_gpu(), 0);
     asked.max_blocks_on_gpu = blocks - 1;
@@ -177,7 +177,7 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
 }
 
 TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
-    const Settings settings = steep_table();
+    const settings::Settings settings = settings::steep_table();
     const ScenePlan plan =
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 1e-4F), request(settings)).value();
     ASSERT_EQ(plan.reliefs.size(), 1U);
@@ -196,27 +196,27 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     ASSERT_EQ(finer.reliefs.size(), 1U);
     EXPECT_EQ(finer.reliefs.front().texels, 384U)
         << "the pixel's own strays too far: the next finer one is good";
-    PackOutline damaged = outline_with_reliefs({96}, 1e-4F);
+    pack::PackOutline damaged = outline_with_reliefs({96}, 1e-4F);
     damaged.description.sections.front().data = "{}";
     EXPECT_FALSE(plan_scene(settings, damaged, request(settings)));
 }
 
 TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
-    const Settings settings =
+    const settings::Settings settings = settings::
         steep_table(); // half a pixel is 0.28 mm: level 1 is within it, off by 0.16 mm along the rays
     const ScenePlan plan = plan_scene(settings, outline(), request(settings)).value();
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
     EXPECT_TRUE(fades(plan));
     EXPECT_TRUE(leaves_out(plan, UnusedLevels, "levels 2 and 3"));
-    PackOutline garbage = outline();
-    for (LevelOutline& level : garbage.levels) {
+    pack::PackOutline garbage = outline();
+    for (pack::LevelOutline& level : garbage.levels) {
         level.error.mean_box = std::nanf("");
     }
     EXPECT_EQ(plan_scene(settings, garbage, request(settings)).value().levels.front(), 3U);
 }
 
 TEST(ScenePlan, WithoutCullKindsHoldsEverythingAndDrawsTheSame) {
-    const Settings settings = steep_table();
+    const settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     const ScenePlan lean = plan_scene(settings, outline(), asked).value();
     asked.cull_kinds = 0;
@@ -233,7 +233,7 @@ TEST(ScenePlan, WithoutCullKindsHoldsEverythingAndDrawsTheSame) {
 }
 
 TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     EXPECT_TRUE(has_captions(plan_scene(settings, outline(), asked).value()));
     asked.captions = {1};
@@ -248,7 +248,7 @@ TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
     settings.exhibit.zone_frame = false;
     EXPECT_TRUE(leaves_out(off, UnusedCaptions, "typeface"));
     settings.exhibit.captions = true;
-    PackOutline silent = outline();
+    pack::PackOutline silent = outline();
     silent.description.captions.clear();
     asked.captions.clear();
     EXPECT_FALSE(has_captions(plan_scene(settings, silent, asked).value()));
@@ -258,7 +258,7 @@ TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
 }
 
 TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
-    const Settings settings = steep_table();
+    const settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     asked.technique = "level0";
     asked.captions.clear();
@@ -313,11 +313,11 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
 }
 
 TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // the prop may be
                                                                                       // turned
     settings.eye.tracked = false;
-    settings.tracker.kind = TrackerKind::None;
+    settings.tracker.kind = settings::TrackerKind::None;
     // Sides lean by 0.035 / 0.12. From (0, -0.55, 0.5): -Y and the top; +-X, which lean back far enough; not
     // +Y.
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b11011U);
@@ -330,4 +330,4 @@ TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

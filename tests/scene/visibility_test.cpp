@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 struct Draw {
@@ -35,7 +35,7 @@ template <typename Point> double drawn_reach(const glm::dvec3& n, int draws, Poi
 }
 
 TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     settings.eye.default_m = {0.0, -0.3, 0.4}; // inside the zone for every pose of the prop
     const Visibility visibility = visibility_of(settings);
     Draw draw;
@@ -57,7 +57,7 @@ TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
 }
 
 TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     settings.eye.tracked = false;
     settings.eye.default_m = {0.1, -0.5, 0.45};
     const Visibility visibility = visibility_of(settings);
@@ -80,9 +80,9 @@ TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
 }
 
 TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
-    Settings settings = steep_table();
+    settings::Settings settings = settings::steep_table();
     settings.eye.tracked = false;
-    settings.tracker.kind = TrackerKind::None;
+    settings.tracker.kind = settings::TrackerKind::None;
     const Visibility visibility = visibility_of(settings);
     ASSERT_EQ(visibility.views.size(), 1U);
     EXPECT_EQ(visibility.views[0].eye_m, settings.eye.default_m);
@@ -91,8 +91,9 @@ TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
 }
 
 TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
-    for (const TrackerKind kind : {TrackerKind::Replay, TrackerKind::Usb, TrackerKind::SpaceMouse}) {
-        Settings settings = steep_table();
+    for (const settings::TrackerKind kind :
+         {settings::TrackerKind::Replay, settings::TrackerKind::Usb, settings::TrackerKind::SpaceMouse}) {
+        settings::Settings settings = settings::steep_table();
         settings.tracker.kind = kind;
         const Visibility visibility = visibility_of(settings);
         EXPECT_TRUE(std::isinf(visibility.eyes.reach({0.0, 0.0, -1.0})));
@@ -101,4 +102,4 @@ TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

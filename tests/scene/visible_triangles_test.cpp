@@ -5,22 +5,22 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::scene {
 namespace {
 
 /// One cluster of triangles scattered over the unit box.
 LevelTriangles scattered(std::mt19937& random, int triangles) {
     std::uniform_int_distribution<int> code(0, 65535);
-    PackLevel level;
+    pack::PackLevel level;
     for (int k = 0; k < 3 * triangles; ++k) {
-        PackVertex vertex;
+        pack::PackVertex vertex;
         for (std::uint16_t& axis : vertex.position) {
             axis = static_cast<std::uint16_t>(code(random));
         }
         level.vertices.push_back(vertex);
         level.indices.push_back(static_cast<std::uint32_t>(k));
     }
-    PackCluster all;
+    pack::PackCluster all;
     all.index_count = static_cast<std::uint32_t>(level.indices.size());
     all.centre = {0.0F, 0.0F, 0.5F};
     all.radius = 0.87F;
@@ -89,7 +89,7 @@ LevelTriangles one_triangle(const glm::vec3& centre, float radius) {
     level.normal_y = {0.0F};
     level.normal_z = {1.0F};
     level.distance = {0.5F};
-    PackCluster cluster;
+    pack::PackCluster cluster;
     cluster.index_count = 3;
     cluster.centre = centre;
     cluster.radius = radius;
@@ -122,4 +122,4 @@ TEST(VisibleTriangles, ADegenerateHalfSpaceHidesNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::scene

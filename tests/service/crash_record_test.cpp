@@ -19,7 +19,7 @@
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,6 +187,6 @@ TEST_F(CrashRecord, AFolderThatCannotBeWrittenCostsOnlyTheFile) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service
 
 #endif

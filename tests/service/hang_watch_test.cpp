@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 using std::chrono::milliseconds;
@@ -79,4 +79,4 @@ TEST(HangWatch, SaysWhatTheThreadWasDoingAndThatItIsHeardAgain) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST(Journal, GetsFieldsWhereStandardErrorIsTheJournal) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

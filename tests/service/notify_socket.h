@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 
 class NotifySocket {
 public:
@@ -51,4 +51,4 @@ private:
     bool bound_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 class ServiceManagerTest : public ::testing::Test {
@@ -76,4 +76,4 @@ TEST(ServiceManager, IsNotMissed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

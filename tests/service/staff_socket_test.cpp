@@ -17,7 +17,7 @@
 #include <fstream>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,4 +220,4 @@ TEST_F(StaffSocketTest, EndsWhileAClientStalls) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

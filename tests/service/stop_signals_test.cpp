@@ -11,7 +11,7 @@
 #include <functional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 /// How a child that does `work` and then exits with 7 ends.
@@ -104,4 +104,4 @@ TEST(StopSignals, AThreadThatHangsDoesNotHoldTheEnd) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::service {
 namespace {
 
 using std::chrono::milliseconds;
@@ -180,4 +180,4 @@ TEST(WatchdogPolicy, SaysEachTroubleInAnotherSentence) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::service

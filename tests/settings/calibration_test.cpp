@@ -12,7 +12,7 @@
 #include <limits>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 using testing_disk::Stopped;
@@ -36,7 +36,7 @@ Calibration calibration(int places) {
     return c;
 }
 
-double distance(const RigidTransform& a, const RigidTransform& b) {
+double distance(const geometry::RigidTransform& a, const geometry::RigidTransform& b) {
     return glm::distance(a.translation, b.translation) +
            glm::length(glm::dvec4(a.rotation.w - b.rotation.w, a.rotation.x - b.rotation.x,
                                   a.rotation.y - b.rotation.y, a.rotation.z - b.rotation.z));
@@ -261,4 +261,4 @@ TEST_F(Calibrated, MendsAProjectorThatIsDescribedWrongly) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 nlohmann::json report_of(const std::string& text) {
@@ -78,4 +78,4 @@ TEST(ConfigJson, PathsThatAreNotUtf8DoNotStopTheReport) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

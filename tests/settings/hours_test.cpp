@@ -4,7 +4,7 @@
 #include "app/settings/missing_files.h"
 #include "tests/settings/settings_text.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 TEST(Hours, AreReadAsWritten) {
@@ -78,4 +78,4 @@ TEST(Hours, MayBeWrittenWithoutAZeroInFront) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

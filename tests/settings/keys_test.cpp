@@ -3,7 +3,7 @@
 #include "firmware_host/base/json.h"
 #include "tests/settings/settings_text.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 constexpr std::string_view line =
@@ -18,8 +18,8 @@ std::string with_line(const std::string& before, const std::string& after = {}) 
 
 TEST(Keys, AreNoneAndUnsignedPacksAreRefusedUnlessItIsSaid) {
     EXPECT_TRUE(parsed("").exhibit.keys.empty());
-    EXPECT_EQ(parsed("").exhibit.unsigned_packs, UnsignedPacks::Refuse);
-    EXPECT_EQ(parsed("[exhibit]\nunsigned = \"allow\"\n").exhibit.unsigned_packs, UnsignedPacks::Allow);
+    EXPECT_EQ(parsed("").exhibit.unsigned_packs, pack::UnsignedPacks::Refuse);
+    EXPECT_EQ(parsed("[exhibit]\nunsigned = \"allow\"\n").exhibit.unsigned_packs, pack::UnsignedPacks::Allow);
     EXPECT_NE(refusal("[exhibit]\nunsigned = \"yes\"\n")
                   .find("set/kiosk.toml:2: exhibit.unsigned is the text \"yes\""),
               std::string::npos);
@@ -30,10 +30,10 @@ TEST(Keys, HaveANameAndPerhapsALastDay) {
         with_line("name = \"House\"\n", "until = \"2030-12-31\"\n[[exhibit.keys]]\nname = \"Lab\"\n"
                                         "public_key = \"" +
                                             std::string(line) + "\"\n");
-    const std::vector<TrustedKey> keys = parsed(text).exhibit.keys;
+    const std::vector<pack::TrustedKey> keys = parsed(text).exhibit.keys;
     ASSERT_EQ(keys.size(), 2U);
     EXPECT_EQ(keys[0].name, "House");
-    EXPECT_EQ(public_key_line(keys[0].key), line);
+    EXPECT_EQ(pack::public_key_line(keys[0].key), line);
     using std::chrono::year;
     EXPECT_EQ(keys[0].until, std::chrono::sys_days(year(2030) / 12 / 31));
     EXPECT_EQ(keys[1].until, std::nullopt);
@@ -70,4 +70,4 @@ TEST(Keys, ThatAreNoneAreRefusedWithTheirLine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 /// The prop's faces in the table's frame, computed by plain rotation.
@@ -16,13 +16,13 @@ struct StandingFace {
     std::vector<glm::dvec3> corners;
     glm::dvec3 middle{0.0};
 };
-std::vector<StandingFace> standing(const PropShape& prop, const glm::dvec2& place, double yaw) {
+std::vector<StandingFace> standing(const geometry::PropShape& prop, const glm::dvec2& place, double yaw) {
     const auto turned = [yaw](const glm::dvec3& v) {
         return glm::dvec3(std::cos(yaw) * v.x - std::sin(yaw) * v.y,
                           std::sin(yaw) * v.x + std::cos(yaw) * v.y, v.z);
     };
     std::vector<StandingFace> faces;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         StandingFace one{turned(face.plane.normal), {}, {}};
         for (const glm::dvec3& corner : face.corners) {
             one.corners.push_back(turned(corner) + glm::dvec3(place, 0.0));
@@ -41,7 +41,7 @@ double light_at(const glm::dvec3& normal, const glm::dvec3& point, const glm::dv
 }
 
 TEST(LightRange, HoldsEveryPlaceOfEveryPoseOnTheTable) {
-    const PropShape prop = make_frustum({0.2, 0.08, 0.1});
+    const geometry::PropShape prop = geometry::make_frustum({0.2, 0.08, 0.1});
     const glm::dvec3 lens(0.05, -0.1, 1.1);
     const glm::dvec2 reach(0.2, 0.1);
     const LightRange range = light_range(prop, lens, reach);
@@ -76,7 +76,7 @@ TEST(LightRange, HoldsEveryPlaceOfEveryPoseOnTheTable) {
 }
 
 TEST(LightRange, AFaceThatLooksAwayIsNotEven) {
-    const LightRange range = light_range(make_frustum({}), {0.0, 0.0, 0.5}, {0.4, 0.0});
+    const LightRange range = light_range(geometry::make_frustum({}), {0.0, 0.0, 0.5}, {0.4, 0.0});
     EXPECT_LT(range.evenness, 0.0);
     EXPECT_LT(range.least, 0.0);
 }
@@ -115,4 +115,4 @@ TEST(LightRange, ASetUpInWhichAFaceStaysDarkIsNotDarkEverywhere) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

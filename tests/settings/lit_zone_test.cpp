@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 /// Written out independently: the prop's eight corners turned and moved, planes through three corners, the pinhole.
@@ -56,7 +56,7 @@ Slack slack_of(const Settings& s, double x, double y, double yaw, const glm::dve
         slack.light = std::min(slack.light, glm::dot(normal, lens - corners[0]) - grazing);
         for (const glm::dvec3& c : corners) {
             const glm::dvec3 ray = c - lens;
-            const Pinhole& p = s.projector.pinhole;
+            const geometry::Pinhole& p = s.projector.pinhole;
             const double u = p.fx * glm::dot(ray, right) / glm::dot(ray, forward) + p.cx;
             const double v = p.fy * glm::dot(ray, down) / glm::dot(ray, forward) + p.cy;
             slack.picture = std::min({slack.picture, u, v, p.width - u, p.height - v});
@@ -129,8 +129,8 @@ TEST(LitZone, OnePosesAnswerIsThatOfPlainArithmetic) {
         const glm::dvec2 place(draw(-0.4, 0.4), draw(-0.3, 0.3));
         const double yaw = draw(-3, 3);
         const Slack slack = slack_of(s, place.x, place.y, yaw, s.eye.default_m);
-        const RigidTransform pose{glm::dquat(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)),
-                                  glm::dvec3(place, 0.0)};
+        const geometry::RigidTransform pose{glm::dquat(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)),
+                                            glm::dvec3(place, 0.0)};
         const bool answer = every_seen_face_is_lit(s, pose, s.eye.default_m);
         lit += answer ? 1 : 0;
         if (std::abs(slack.light) > 1e-9 && std::abs(slack.picture) > 1e-6) {
@@ -239,7 +239,7 @@ TEST(LitZone, InTheHandItIsWhereTheWholePropIsInThePictureHoweverItIsTurned) {
     Settings s = steep_table();
     s.prop = cube_settings(0.12);
     s.projector.pinhole.cx = 500.0; // lens shift
-    const PropShape prop = make_prop(s.prop);
+    const geometry::PropShape prop = make_prop(s.prop);
     const double reach = 0.06 * std::sqrt(3.0);
     const LitZone zone = lit_zone(s);
     ASSERT_GE(zone.any_eye.size(), 4U);
@@ -300,4 +300,4 @@ TEST(LitZone, ThePictureOnTheTableHasTheFootprintsArea) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

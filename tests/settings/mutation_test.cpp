@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 constexpr int mutants = 3000;
@@ -89,7 +89,7 @@ private:
 };
 
 bool finite(const Settings& s) {
-    const Pinhole& p = s.projector.pinhole;
+    const geometry::Pinhole& p = s.projector.pinhole;
     const glm::dmat4 pose = s.projector.table_from_projector.matrix();
     double sum = p.fx + p.fy + p.cx + p.cy + s.prop.base_m + s.prop.top_m + s.prop.height_m +
                  s.table.width_m + s.table.depth_m + s.eye.default_m.x + s.eye.default_m.y +
@@ -143,4 +143,4 @@ TEST(Mutations, DeepNestingIsRefusedNotFollowed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
-void expect_same_pose(const RigidTransform& a, const RigidTransform& b) {
+void expect_same_pose(const geometry::RigidTransform& a, const geometry::RigidTransform& b) {
     for (const glm::dvec3& p :
          {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
         EXPECT_LT(glm::distance(a.point(p), b.point(p)), 1e-12);
@@ -108,7 +108,7 @@ TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
 TEST(Settings, FocalLengthsAndLensShiftAreTakenAsTheyStand) {
     const Settings settings =
         parsed("[projector]\nwidth = 1000\nheight = 500\nfx = 1500\nfy = 1400\ncx = 480.5\ncy = 300\n");
-    const Pinhole& p = settings.projector.pinhole;
+    const geometry::Pinhole& p = settings.projector.pinhole;
     EXPECT_EQ(p.width, 1000);
     EXPECT_EQ(p.height, 500);
     EXPECT_EQ(p.fx, 1500.0);
@@ -214,4 +214,4 @@ TEST(Settings, TakesButtonsOnAGpioChip) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 const Polygon square{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}};
@@ -40,4 +40,4 @@ TEST(Polygon, TheLargestRectangleOfASquareOnItsCornerIsHalfOfIt) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

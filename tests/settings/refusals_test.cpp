@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 TEST(Refusals, NameFileLineKeyFoundAndAllowed) {
@@ -287,4 +287,4 @@ TEST(Refusals, OfAFileThatIsTooLargeOrNotThere) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

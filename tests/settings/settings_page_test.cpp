@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 std::string committed_page() {
@@ -78,4 +78,4 @@ TEST(SettingsPage, HasTheDefaultsThatHold) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

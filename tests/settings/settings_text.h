@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 inline std::string shipped_text() {
     std::ifstream file(source_dir() + "/config/kiosk.toml", std::ios::binary);
@@ -34,4 +34,4 @@ inline std::string refusal(const std::string& text) {
     return test::told(settings.error());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

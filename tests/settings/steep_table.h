@@ -3,7 +3,7 @@
 
 #include "app/settings/settings.h"
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 
 [[nodiscard]] inline Settings steep_table() {
     Settings settings;
@@ -16,4 +16,4 @@ namespace frustumscreen {
     return settings;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::settings {
 namespace {
 
 class Seeded {
@@ -63,11 +63,11 @@ glm::dvec3 eye_around(const EyesAround& eyes, const EyeSettings& settings, Seede
                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
 }
 
-bool is_lit(const Settings& settings, const RigidTransform& table_from_prop, const PropFace& face,
-            const glm::dvec3& place) {
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+bool is_lit(const Settings& settings, const geometry::RigidTransform& table_from_prop,
+            const geometry::PropFace& face, const glm::dvec3& place) {
+    const geometry::RigidTransform& table_from_projector = settings.projector.table_from_projector;
     const glm::dvec3 p = table_from_projector.inverse().point(table_from_prop.point(place));
-    const Pinhole& pinhole = settings.projector.pinhole;
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     const double u = pinhole.fx * p.x / p.z + pinhole.cx;
     const double v = pinhole.fy * p.y / p.z + pinhole.cy;
     const glm::dvec3 lens = table_from_prop.inverse().point(table_from_projector.translation);
@@ -80,9 +80,9 @@ bool is_lit(const Settings& settings, const RigidTransform& table_from_prop, con
 }
 
 /// Number of rays from these eyes to points of the artifact that enter the prop at an unlit point.
-int lost_rays(const Case& shown, const EyesAround& eyes, const RigidTransform& table_from_prop, int rays,
-              Seeded& seeded, int& traced) {
-    const PropShape prop = make_prop(shown.settings.prop);
+int lost_rays(const Case& shown, const EyesAround& eyes, const geometry::RigidTransform& table_from_prop,
+              int rays, Seeded& seeded, int& traced) {
+    const geometry::PropShape prop = make_prop(shown.settings.prop);
     const auto corner = [&] {
         return shown.hull[static_cast<std::size_t>(
             seeded.between(0.0, static_cast<double>(shown.hull.size()) - 1e-6))];
@@ -92,18 +92,18 @@ int lost_rays(const Case& shown, const EyesAround& eyes, const RigidTransform& t
         const glm::dvec3 eye = eye_around(eyes, shown.settings.eye, seeded);
         const double share = std::clamp(seeded.between(-0.3, 1.3), 0.0, 1.0);
         const glm::dvec3 to = glm::mix(corner(), corner(), share);
-        PropHit hit;
-        if (!intersect(prop, eye, to - eye, hit)) {
+        geometry::PropHit hit;
+        if (!geometry::intersect(prop, eye, to - eye, hit)) {
             continue;
         }
         ++traced;
-        const PropFace& face = prop.faces[static_cast<std::size_t>(hit.face)];
+        const geometry::PropFace& face = prop.faces[static_cast<std::size_t>(hit.face)];
         lost += is_lit(shown.settings, table_from_prop, face, eye + hit.t * (to - eye)) ? 0 : 1;
     }
     return lost;
 }
 
-RigidTransform upright_at(const glm::dvec2& at, double yaw) {
+geometry::RigidTransform upright_at(const glm::dvec2& at, double yaw) {
     return {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(at, 0.0)};
 }
 
@@ -208,4 +208,4 @@ TEST(WholeZone, IsEmptyWhereTheLensIsTooLow) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::settings

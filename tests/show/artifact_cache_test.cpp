@@ -10,12 +10,12 @@ using std::chrono::milliseconds;
 
 TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
     start(5, false);
-    EXPECT_EQ(show->artifacts()[0], ArtifactState::Ready);
+    EXPECT_EQ(show->artifacts()[0], exhibit::ArtifactState::Ready);
     EXPECT_EQ(show->state({}).loaded, 1U);
     await(1);
     await(4);
-    EXPECT_EQ(show->artifacts()[2], ArtifactState::Away); // not requested yet
-    EXPECT_EQ(show->artifacts()[3], ArtifactState::Away);
+    EXPECT_EQ(show->artifacts()[2], exhibit::ArtifactState::Away); // not requested yet
+    EXPECT_EQ(show->artifacts()[3], exhibit::ArtifactState::Away);
     EXPECT_EQ(show->state({}).loaded, 3U);
     rest();
     EXPECT_TRUE(shown_blue());
@@ -24,13 +24,14 @@ TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
 TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
     start(5, false);
     rest(); // until the first has faded in
-    const std::array<Command, 2> twice{Command::NextArtifact, Command::NextArtifact};
+    const std::array<settings::Command, 2> twice{settings::Command::NextArtifact,
+                                                 settings::Command::NextArtifact};
     step(twice); // to the third, which was not loaded ahead
     bool stood_in = false;
     double last = 0.0;
     while (true) {
-        const bool was_ready = show->artifacts()[2] == ArtifactState::Ready;
-        const Presentation presentation = step();
+        const bool was_ready = show->artifacts()[2] == exhibit::ArtifactState::Ready;
+        const exhibit::Presentation presentation = step();
         stood_in = stood_in || (presentation.placeholder && presentation.placeholder->artifact == 2);
         if (!was_ready) {
             EXPECT_TRUE(presentation.artifact != 2 || presentation.brightness == 0.0);
@@ -68,8 +69,8 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
     std::filesystem::remove(files.files()[3]);
     await(1);
     await(3);
-    EXPECT_EQ(show->artifacts()[1], ArtifactState::LeftOut);
-    EXPECT_EQ(show->artifacts()[3], ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[3], exhibit::ArtifactState::LeftOut);
     ASSERT_EQ(show->state({}).left_out->size(), 2U);
     EXPECT_EQ(show->state({}).left_out->front().pack, files.files()[1].string());
     EXPECT_NE(show->state({}).left_out->front().reason.find("damaged"), std::string::npos)
@@ -83,12 +84,12 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
 
 TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPlan) {
     start(3, false);
-    Pack other = numbered_pack(1);
+    pack::Pack other = numbered_pack(1);
     other.title = "Another";
-    static_cast<void>(write_file(files.files()[1], write_pack(other).value()));
+    static_cast<void>(write_file(files.files()[1], pack::write_pack(other).value()));
     await(2);
     await(1);
-    EXPECT_EQ(show->artifacts()[1], ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::LeftOut);
 }
 
 TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {
@@ -99,7 +100,7 @@ TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {
     await(1);
     await(2);
     rest();
-    const Presentation presentation = step(next);
+    const exhibit::Presentation presentation = step(next);
     EXPECT_EQ(presentation.artifact, 0U);
     EXPECT_EQ(presentation.brightness, 1.0);
     EXPECT_EQ(presentation.lamps & 3U, 0U);

@@ -16,11 +16,11 @@
 #include <random>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 /// Waits without a limit: a failing test is ended from outside.
-std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
+std::unique_ptr<residency::ArtifactReader::Answer> await(residency::ArtifactReader& reader) {
     while (true) {
         if (auto answer = reader.take()) {
             return answer;
@@ -29,12 +29,12 @@ std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
     }
 }
 
-Result<ArtifactReader::Prepared> numbered(std::size_t artifact) {
+Result<residency::ArtifactReader::Prepared> numbered(std::size_t artifact) {
     return bad_input("test.refusal", std::to_string(artifact)); // the quickest answer
 }
 
 TEST(ArtifactReader, AnswersWhatIsAskedFor) {
-    ArtifactReader reader([](std::size_t artifact, const auto&) { return numbered(artifact); });
+    residency::ArtifactReader reader([](std::size_t artifact, const auto&) { return numbered(artifact); });
     for (const std::size_t artifact : {3U, 0U, 7U, 7U}) {
         reader.request(artifact);
         const auto answer = await(reader);
@@ -48,7 +48,7 @@ TEST(ArtifactReader, AnswersWhatIsAskedFor) {
 TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
     std::atomic<int> begun = 0;
     std::atomic<int> given_up_count = 0;
-    ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
+    residency::ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
         ++begun;
         while (artifact == 1 && !given_up()) { // does not end by itself
             std::this_thread::yield();
@@ -69,7 +69,7 @@ TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
     std::atomic<bool> begun = false;
     std::atomic<bool> gave_up = false;
     {
-        ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
+        residency::ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
             begun = true;
             while (!given_up()) {
                 std::this_thread::yield();
@@ -89,7 +89,7 @@ TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
 TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
     std::mt19937 random(3);
     for (int round = 0; round < 50; ++round) {
-        ArtifactReader reader([](std::size_t artifact, const auto& given_up) {
+        residency::ArtifactReader reader([](std::size_t artifact, const auto& given_up) {
             for (int piece = 0; piece < 20 && !given_up(); ++piece) {
                 std::this_thread::yield();
             }
@@ -109,19 +109,21 @@ TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
 
 TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
     const synthetic::ShownPacks packs(1);
-    const KnownArtifact known = packs.known(0);
-    ArtifactReader reader([&](std::size_t, const auto& given_up) -> Result<ArtifactReader::Prepared> {
-        return prepare_artifact(known, "auto", 16.0, given_up);
-    });
+    const residency::KnownArtifact known = packs.known(0);
+    residency::ArtifactReader reader(
+        [&](std::size_t, const auto& given_up) -> Result<residency::ArtifactReader::Prepared> {
+            return residency::prepare_artifact(known, "auto", 16.0, given_up);
+        });
     reader.request(0);
     const auto answer = await(reader);
     ASSERT_TRUE(answer->prepared) << answer->prepared.error().message;
-    const auto& prepared = std::get<PreparedArtifact>(*answer->prepared);
-    const Result<VerifiedPack> pack = load_pack(known.file);
+    const auto& prepared = std::get<residency::PreparedArtifact>(*answer->prepared);
+    const Result<pack::VerifiedPack> pack = pack::load_pack(known.file);
     ASSERT_EQ(prepared.data.size(), known.plan.levels.size());
     for (std::size_t place = 0; place < known.plan.levels.size(); ++place) {
-        const PreparedLevel level = prepare_level(**pack, known.plan.levels[place], known.plan);
-        const LevelData& data = prepared.data[place];
+        const residency::PreparedLevel level =
+            residency::prepare_level(**pack, known.plan.levels[place], known.plan);
+        const scene::LevelData& data = prepared.data[place];
         EXPECT_EQ(data.vertices.size(), level.data.vertices.size());
         ASSERT_EQ(data.mips.size(), level.data.mips.size());
         for (std::size_t mip = 0; mip < data.mips.size(); ++mip) {
@@ -133,18 +135,19 @@ TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
 /// The relief's own colours are those of a darker artifact, so its own exposure would be much brighter.
 TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
     const synthetic::ShownPacks packs(1);
-    KnownArtifact known = packs.known(0);
-    Pack pack = synthetic::numbered_pack(0);
-    std::shared_ptr<BlockRelief> relief = std::make_shared<BlockRelief>(*synthetic::relief_of(pack, 96));
+    residency::KnownArtifact known = packs.known(0);
+    pack::Pack pack = synthetic::numbered_pack(0);
+    std::shared_ptr<relief::BlockRelief> relief =
+        std::make_shared<relief::BlockRelief>(*synthetic::relief_of(pack, 96));
     std::fill(relief->colours.begin(), relief->colours.end(), glm::u8vec4(60, 60, 60, 255));
-    put_reliefs(pack, std::vector<MeasuredRelief>{{*relief, {1e-3F, 2e-3F, 3e-3F, 0.0F}}});
-    ASSERT_TRUE(write_file(known.file, write_pack(pack).value()));
-    known.outline = outline_of(pack);
+    pack::put_reliefs(pack, std::vector<pack::MeasuredRelief>{{*relief, {1e-3F, 2e-3F, 3e-3F, 0.0F}}});
+    ASSERT_TRUE(write_file(known.file, pack::write_pack(pack).value()));
+    known.outline = pack::outline_of(pack);
     const auto exposure = [&](const std::string& technique) {
-        SceneRequest request;
+        scene::SceneRequest request;
         request.technique = technique;
-        known.plan = plan_scene(steep_table(), known.outline, request).value();
-        return prepare_artifact(known, technique, 16.0, [] { return false; }).value().exposure;
+        known.plan = scene::plan_scene(settings::steep_table(), known.outline, request).value();
+        return residency::prepare_artifact(known, technique, 16.0, [] { return false; }).value().exposure;
     };
     const double of_mesh = exposure(fmt::format("level{}", pack.default_level));
     EXPECT_GT(of_mesh, 0.0);
@@ -155,32 +158,33 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
 /// The governor measures what its quality levels draw; the relief is in the GPU memory only if one of them draws it there.
 TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOther) {
     const synthetic::ShownPacks packs(1);
-    KnownArtifact known = packs.known(0);
-    Pack pack = synthetic::numbered_pack(0);
-    put_reliefs(pack,
-                std::vector<MeasuredRelief>{{*synthetic::relief_of(pack, 96), {1e-6F, 1e-6F, 1e-6F, 0.0F}}});
-    ASSERT_TRUE(write_file(known.file, write_pack(pack).value()));
-    known.outline = outline_of(pack);
-    Settings settings = steep_table();
+    residency::KnownArtifact known = packs.known(0);
+    pack::Pack pack = synthetic::numbered_pack(0);
+    pack::put_reliefs(pack, std::vector<pack::MeasuredRelief>{
+                                {*synthetic::relief_of(pack, 96), {1e-6F, 1e-6F, 1e-6F, 0.0F}}});
+    ASSERT_TRUE(write_file(known.file, pack::write_pack(pack).value()));
+    known.outline = pack::outline_of(pack);
+    settings::Settings settings = settings::steep_table();
     settings.render.error_tolerance_px = 100.0;
-    auto display = SurfacelessDisplay::create(320, 200).value();
-    Renderer renderer = Renderer::create(320, 200).value();
+    auto display = display::SurfacelessDisplay::create(320, 200).value();
+    render::Renderer renderer = render::Renderer::create(320, 200).value();
     const synthetic::Stage stage(320, 200);
     for (const std::uint32_t max_blocks : {0U, 1U << 20U}) {
-        SceneRequest request;
+        scene::SceneRequest request;
         request.light = false;
         request.max_blocks_on_gpu = max_blocks;
-        known.plan = plan_scene(settings, known.outline, request).value();
+        known.plan = scene::plan_scene(settings, known.outline, request).value();
         const std::uint64_t before = renderer.store().bytes();
-        LoadedLevels loaded(prepare_artifact(known, "auto", 1e9, [] { return false; }).value());
-        RunLevels& levels = loaded.artifact.levels;
+        residency::LoadedLevels loaded(
+            residency::prepare_artifact(known, "auto", 1e9, [] { return false; }).value());
+        residency::RunLevels& levels = loaded.artifact.levels;
         ASSERT_TRUE(renderer.prepare(levels.needs()));
         while (!loaded.ready()) {
             ASSERT_TRUE(loaded.upload(renderer.store(), 10'000));
         }
         std::uint64_t planned = 0;
         std::size_t on_gpu = 0;
-        for (const LevelUse& use : levels.uses()) {
+        for (const residency::LevelUse& use : levels.uses()) {
             planned += use.planned_gpu_bytes;
             EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
             on_gpu += use.on_gpu ? 1U : 0U;
@@ -188,13 +192,13 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOthe
         EXPECT_EQ(on_gpu, max_blocks > 0 ? 1U : 0U);
         EXPECT_EQ(renderer.store().bytes() - before, planned);
         levels.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
-        for (const QualityLevelTime& time : levels.times()) {
+        for (const scene::QualityLevelTime& time : levels.times()) {
             EXPECT_GT(time.ms, 0.0);
             EXPECT_LT(time.ms, 60e3) << "it was measured";
         }
         for (const char* way : {"relief96", "relief96-gpu"}) {
-            std::vector<QualityLevelTime> times = levels.times();
-            for (QualityLevelTime& time : times) {
+            std::vector<scene::QualityLevelTime> times = levels.times();
+            for (scene::QualityLevelTime& time : times) {
                 time.ms = time.relief && time.on_gpu == (std::string_view(way) == "relief96-gpu") ? 2.0 : 9.0;
             }
             levels.start(times);
@@ -207,4 +211,4 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOthe
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -10,15 +10,15 @@ namespace {
 using std::chrono::milliseconds;
 
 /// The first pack has the shortest texts.
-Pack narration_pack(std::size_t number) {
-    Pack pack = numbered_pack(number);
+pack::Pack narration_pack(std::size_t number) {
+    pack::Pack pack = numbered_pack(number);
     pack.languages = {"en", "de"};
     std::string description = "A first sentence says what there is to see.";
     for (std::size_t k = 0; k < number; ++k) {
         description += " Another sentence says more of it, and what was meant by it.";
     }
     pack.captions = {{"en", pack.title, "A short text"}, {"de", "Werk " + pack.title, "Ein kurzer Text"}};
-    for (PackCaption& caption : pack.captions) {
+    for (pack::PackCaption& caption : pack.captions) {
         caption.description = description;
     }
     return pack;
@@ -29,7 +29,7 @@ protected:
     TextsComing() {
         settings.exhibit.captions = true;
         for (std::size_t k = 0; k < files.files().size(); ++k) {
-            static_cast<void>(write_file(files.files()[k], write_pack(narration_pack(k)).value()));
+            static_cast<void>(write_file(files.files()[k], pack::write_pack(narration_pack(k)).value()));
         }
     }
     void start(std::size_t packs, bool waits, bool other_languages = true) {
@@ -61,13 +61,13 @@ protected:
         }
         return bytes;
     }
-    [[nodiscard]] Image8 picture() { return read_colour(display->framebuffer(), 320, 200); }
-    const std::array<Command, 1> language{Command::NextLanguage};
+    [[nodiscard]] image::Image8 picture() { return render::read_colour(display->framebuffer(), 320, 200); }
+    const std::array<settings::Command, 1> language{settings::Command::NextLanguage};
 };
 
 TEST_F(TextsComing, AtTheStartThereIsTheCaptionOfTheFirstArtifactInTheHousesLanguage) {
     start(5, false);
-    const ShowUse use = show->use();
+    const show::ShowUse use = show->use();
     EXPECT_EQ(use.text_gpu_bytes, caption_bytes(0, 0));
     EXPECT_EQ(use.gpu_bytes, use.planned_gpu_bytes);
     EXPECT_EQ(use.captions, 10U); // that may be shown
@@ -92,15 +92,15 @@ TEST_F(TextsComing, AnArtifactThatGoesGivesBackTheBytesOfItsTexts) {
     settings.exhibit.memory_mb = 0; // only what is shown
     start(5, true);
     rest();
-    const ShowUse first = show->use();
+    const show::ShowUse first = show->use();
     EXPECT_EQ(first.text_gpu_bytes, bytes_of(0, 0));
     step(next);
     rest();
-    const ShowUse second = show->use();
+    const show::ShowUse second = show->use();
     EXPECT_EQ(second.text_gpu_bytes, bytes_of(1, 0));
     EXPECT_GT(second.text_gpu_bytes, first.text_gpu_bytes);
     EXPECT_EQ(second.gpu_bytes - first.gpu_bytes, second.text_gpu_bytes - first.text_gpu_bytes);
-    const std::array<Command, 1> back{Command::PreviousArtifact};
+    const std::array<settings::Command, 1> back{settings::Command::PreviousArtifact};
     step(back);
     rest();
     EXPECT_EQ(show->use().gpu_bytes, first.gpu_bytes);
@@ -110,7 +110,7 @@ TEST_F(TextsComing, AnotherLanguageComesAndIsTheSamePicture) {
     settings.exhibit.language = "de";
     start(1, true);
     rest();
-    const Image8 german = picture();
+    const image::Image8 german = picture();
     settings.exhibit.language = "en";
     start(1, false);
     while (show->use().text_gpu_bytes < bytes_of(0, 0) + caption_bytes(0, 1)) { // may loop forever
@@ -133,11 +133,11 @@ TEST_F(TextsComing, TheOldLanguageIsSeenUntilItHasFadedOut) {
     settings.exhibit.memory_mb = 0;
     start(3, true);
     rest();
-    const Image8 english = picture();
+    const image::Image8 english = picture();
     step(language);
     step();
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + bytes_of(0, 1));
-    const Image8 fading = picture();
+    const image::Image8 fading = picture();
     long lit = 0;
     long dimmed = 0;
     for (std::size_t k = 0; k < english.texels.size(); ++k) {
@@ -155,12 +155,12 @@ TEST_F(TextsComing, TheOldLanguageIsSeenUntilItHasFadedOut) {
 TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLate) {
     start(1, true);
     rest();
-    const Presentation before = step();
+    const exhibit::Presentation before = step();
     ASSERT_TRUE(before.caption);
     std::filesystem::remove(files.files()[0]);
     step(language);
     rest();
-    EXPECT_EQ(show->artifacts()[0], ArtifactState::Ready);
+    EXPECT_EQ(show->artifacts()[0], exhibit::ArtifactState::Ready);
     EXPECT_TRUE(show->state(step()).left_out->empty());
     EXPECT_TRUE(shown_blue());
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + caption_bytes(0, 1));
@@ -168,18 +168,19 @@ TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLat
 
 TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
     start(1, true);
-    Pack other = narration_pack(0);
+    pack::Pack other = narration_pack(0);
     other.captions[1].text = "Ein anderer, viel längerer Text";
-    const KnownArtifact known{files.files()[0], outline_of(narration_pack(0)), {}, {}};
+    const residency::KnownArtifact known{files.files()[0], pack::outline_of(narration_pack(0)), {}, {}};
     const std::vector<std::size_t> captions{0, 1};
-    const TextStyle style{0.010, 1000.0};
-    const ArtifactTexts texts =
-        lay_out_texts({known.file, known.outline.description, captions}, 1.0, style, false).value();
+    const residency::TextStyle style{0.010, 1000.0};
+    const residency::ArtifactTexts texts =
+        residency::lay_out_texts({known.file, known.outline.description, captions}, 1.0, style, false)
+            .value();
     const auto never = [] { return false; };
-    EXPECT_TRUE(draw_texts({known.file, known.outline.description, captions}, texts, TextPart::Caption, 1,
-                           style, never));
-    const Result<TextPictures> refused =
-        draw_texts({known.file, other, captions}, texts, TextPart::Caption, 1, style, never);
+    EXPECT_TRUE(residency::draw_texts({known.file, known.outline.description, captions}, texts,
+                                      residency::TextPart::Caption, 1, style, never));
+    const Result<residency::TextPictures> refused = residency::draw_texts(
+        {known.file, other, captions}, texts, residency::TextPart::Caption, 1, style, never);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().id, "show.texts_changed") << refused.error().message;
 }
@@ -187,18 +188,18 @@ TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
 TEST_F(TextsComing, WhatHidesHotspotsCountsAndWhatLiesOnTheTableLeavesLessForArtifacts) {
     start(1, true);
     const std::uint64_t without = show->state(step()).loaded_bytes;
-    Pack pointing = narration_pack(0);
+    pack::Pack pointing = narration_pack(0);
     pointing.hotspots = {{{0.0, 0.0, 0.5}, {0.0, 0.0, 1.0}, {{"en", "Here"}, {"de", "Hier"}}}};
-    static_cast<void>(write_file(files.files()[0], write_pack(pointing).value()));
+    static_cast<void>(write_file(files.files()[0], pack::write_pack(pointing).value()));
     start(1, true);
     const std::uint64_t corners = 9 * sizeof(float) * (pointing.levels[0].indices.size() / 3);
     EXPECT_GE(show->state(step()).loaded_bytes, without + corners);
 
     for (const bool on_table : {false, true}) {
         for (std::size_t k = 0; k < 3; ++k) {
-            Pack pack = narration_pack(k);
-            pack.table_picture = Image8(512, 512, {9, 200, 99, 255}); // 1.4 MB of the GPU's memory
-            static_cast<void>(write_file(files.files()[k], write_pack(pack).value()));
+            pack::Pack pack = narration_pack(k);
+            pack.table_picture = image::Image8(512, 512, {9, 200, 99, 255}); // 1.4 MB of the GPU's memory
+            static_cast<void>(write_file(files.files()[k], pack::write_pack(pack).value()));
         }
         settings.exhibit.table_pictures = on_table;
         settings.exhibit.memory_mb = 4;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 using namespace frustumscreen;
+using namespace frustumscreen::show;
 
 namespace {
 
@@ -11,13 +12,14 @@ constexpr double em_m = 0.010;
 constexpr double texels_per_m = 2000.0;
 
 /// A letter that is a filled square as large as the type size, on one line.
-GlyphText letter(const std::string& key) {
-    return {
-        key, TextDirection::LeftToRight, {{4 * em_units, em_units, em_units, {{em_units, 1}}, {{0, 0, 0}}}}};
+pack::GlyphText letter(const std::string& key) {
+    return {key,
+            pack::TextDirection::LeftToRight,
+            {{4 * pack::em_units, pack::em_units, pack::em_units, {{pack::em_units, 1}}, {{0, 0, 0}}}}};
 }
 
-SetLanguage set_language(const std::string& language, std::vector<GlyphText> texts) {
-    SetLanguage set{language, {}, DistanceAtlas(12, 12, 255)};
+pack::SetLanguage set_language(const std::string& language, std::vector<pack::GlyphText> texts) {
+    pack::SetLanguage set{language, {}, pack::DistanceAtlas(12, 12, 255)};
     set.runs.texels_per_em = 8;
     set.runs.spread_texels = 1;
     set.runs.atlas_width = set.runs.atlas_height = 12;
@@ -26,11 +28,13 @@ SetLanguage set_language(const std::string& language, std::vector<GlyphText> tex
     return set;
 }
 
-std::vector<CaptionImage> images_of(const std::vector<SetLanguage>& set, const PackCaption& caption) {
-    CaptionSetter setter({em_m, texels_per_m});
-    Result<std::vector<CaptionImage>> images = setter.set(caption_text(caption), set);
+std::vector<typography::CaptionImage> images_of(const std::vector<pack::SetLanguage>& set,
+                                                const pack::PackCaption& caption) {
+    residency::CaptionSetter setter({em_m, texels_per_m});
+    Result<std::vector<typography::CaptionImage>> images = setter.set(residency::caption_text(caption), set);
     EXPECT_TRUE(images) << images.error().message;
-    return images ? *std::move(images) : std::vector<CaptionImage>(caption_widths_m.size());
+    return images ? *std::move(images)
+                  : std::vector<typography::CaptionImage>(typography::caption_widths_m.size());
 }
 
 } // namespace
@@ -38,21 +42,22 @@ std::vector<CaptionImage> images_of(const std::vector<SetLanguage>& set, const P
 TEST(CaptionSetter, takes_the_glyph_runs_of_the_captions_language) {
     const std::vector set{set_language("ar", {letter("title"), letter("text")}),
                           set_language("hi", {letter("title")})};
-    for (const CaptionImage& image : images_of(set, {"ar", "T", "t"})) {
-        EXPECT_NEAR(image.size_m.x, caption_title_em * em_m, 2.0 / texels_per_m);
+    for (const typography::CaptionImage& image : images_of(set, {"ar", "T", "t"})) {
+        EXPECT_NEAR(image.size_m.x, typography::caption_title_em * em_m, 2.0 / texels_per_m);
         EXPECT_EQ(image.coverage.at(image.coverage.width / 2, 5), 255) << "the title is a bright square";
     }
-    const CaptionImage title = images_of(set, {"hi", "T", ""}).front();
-    EXPECT_NEAR(title.size_m.y, caption_title_em * em_m, 2.0 / texels_per_m);
+    const typography::CaptionImage title = images_of(set, {"hi", "T", ""}).front();
+    EXPECT_NEAR(title.size_m.y, typography::caption_title_em * em_m, 2.0 / texels_per_m);
 }
 
 TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
-    const PackCaption caption{"hi", "Title", "A text of several words."};
-    const std::vector<CaptionImage> plain = images_of({}, caption);
-    const std::vector<CaptionImage> other =
+    const pack::PackCaption caption{"hi", "Title", "A text of several words."};
+    const std::vector<typography::CaptionImage> plain = images_of({}, caption);
+    const std::vector<typography::CaptionImage> other =
         images_of({set_language("ar", {letter("title"), letter("text")})}, caption);
-    const std::vector<CaptionImage> half = images_of({set_language("hi", {letter("title")})}, caption);
-    ASSERT_EQ(plain.size(), caption_widths_m.size());
+    const std::vector<typography::CaptionImage> half =
+        images_of({set_language("hi", {letter("title")})}, caption);
+    ASSERT_EQ(plain.size(), typography::caption_widths_m.size());
     for (std::size_t k = 0; k < plain.size(); ++k) {
         EXPECT_GT(plain[k].coverage.width, 1);
         EXPECT_EQ(plain[k].coverage.texels, other[k].coverage.texels);
@@ -61,20 +66,20 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
 }
 
 TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
-    std::vector<SetLanguage> set{set_language("ar", {letter("title"), letter("text")})};
-    CaptionSetter setter({em_m, texels_per_m});
+    std::vector<pack::SetLanguage> set{set_language("ar", {letter("title"), letter("text")})};
+    residency::CaptionSetter setter({em_m, texels_per_m});
     const auto titled = [](const std::string& language, const std::string& title, const std::string& text) {
-        return caption_text({language, title, text});
+        return residency::caption_text({language, title, text});
     };
-    for (const TableText& text :
+    for (const residency::TableText& text :
          {titled("ar", "T", "t"), titled("hi", "Title", "A text of several words that is broken"),
-          titled("hi", "", "A text"), TableText{"ar", {{CaptionRole::Text, "text", "t"}}},
-          titled("el", "", ""),
-          TableText{
-              "hi",
-              {{CaptionRole::Text, "text", "A text"}, {CaptionRole::Small, "attribution", "A potter"}}}}) {
-        const std::vector<CaptionImage> drawn = setter.set(text, set).value();
-        std::vector<SetLanguage> without_atlas = set;
+          titled("hi", "", "A text"),
+          residency::TableText{"ar", {{typography::CaptionRole::Text, "text", "t"}}}, titled("el", "", ""),
+          residency::TableText{"hi",
+                               {{typography::CaptionRole::Text, "text", "A text"},
+                                {typography::CaptionRole::Small, "attribution", "A potter"}}}}) {
+        const std::vector<typography::CaptionImage> drawn = setter.set(text, set).value();
+        std::vector<pack::SetLanguage> without_atlas = set;
         without_atlas.front().atlas = {};
         const std::vector<glm::dvec2> sizes = setter.sizes_m(text, without_atlas).value();
         ASSERT_EQ(sizes.size(), drawn.size());
@@ -87,13 +92,14 @@ TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
 }
 
 TEST(CaptionSetter, takes_the_attribution_as_one_text_or_in_older_packs_line_by_line) {
-    PackCaption caption{"ar", "T", "t"};
+    pack::PackCaption caption{"ar", "T", "t"};
     caption.maker = "m";
     caption.credit = "c";
-    const ScanRights rights{"CC-BY-4.0", "Ann", {}};
-    const auto keys = [&](const std::vector<SetLanguage>& set) {
+    const pack::ScanRights rights{"CC-BY-4.0", "Ann", {}};
+    const auto keys = [&](const std::vector<pack::SetLanguage>& set) {
         std::vector<std::string> found;
-        for (const TextPiece& piece : attribution_pieces(caption, rights, set, CaptionRole::Small)) {
+        for (const residency::TextPiece& piece :
+             residency::attribution_pieces(caption, rights, set, typography::CaptionRole::Small)) {
             found.push_back(piece.key);
         }
         return found;
@@ -106,5 +112,5 @@ TEST(CaptionSetter, takes_the_attribution_as_one_text_or_in_older_packs_line_by_
         << "nothing is set in it";
     EXPECT_EQ(keys({}), std::vector<std::string>{"attribution"}) << "in the kiosk's own typeface";
     caption.maker = caption.credit = "";
-    EXPECT_TRUE(attribution_pieces(caption, {}, {}, CaptionRole::Small).empty());
+    EXPECT_TRUE(residency::attribution_pieces(caption, {}, {}, typography::CaptionRole::Small).empty());
 }

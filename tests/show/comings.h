@@ -29,23 +29,23 @@ protected:
         options.packs = std::vector(files.files().begin(), files.files().begin() + static_cast<long>(packs));
         options.waits = waits;
         devices.other_packs = true;
-        show = ArtifactShow::create(settings, devices, options, {display->framebuffer(), 0}).value();
-        exhibit.emplace(make_exhibit(settings, *show, now));
+        show = show::ArtifactShow::create(settings, devices, options, {display->framebuffer(), 0}).value();
+        exhibit.emplace(show::make_exhibit(settings, *show, now));
     }
-    Presentation step(std::span<const Command> commands = {}) {
+    exhibit::Presentation step(std::span<const settings::Command> commands = {}) {
         now += std::chrono::milliseconds(20);
-        TrackedState tracked_state;
+        tracking::TrackedState tracked_state;
         tracked_state.prop_known = true;
         tracked_state.eye_m = settings.eye.default_m;
         exhibit->note(show->artifacts());
-        Presentation presentation = exhibit->step(now, commands, tracked_state);
+        exhibit::Presentation presentation = exhibit->step(now, commands, tracked_state);
         static_cast<void>(show->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
-                                     Redraw::Everything));
+                                     render::Redraw::Everything));
         return presentation;
     }
     /// Steps until the artifact is ready; may loop forever.
     void await(std::size_t artifact) {
-        while (show->artifacts()[artifact] == ArtifactState::Away) {
+        while (show->artifacts()[artifact] == exhibit::ArtifactState::Away) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             step();
         }
@@ -57,7 +57,7 @@ protected:
     }
     /// The blue of the brightest texel, which identifies the artifact; nothing if the picture is dark.
     std::optional<int> shown_blue() {
-        const Image8 picture = read_colour(display->framebuffer(), 320, 200);
+        const image::Image8 picture = render::read_colour(display->framebuffer(), 320, 200);
         std::optional<int> blue;
         int most = 60;
         for (const glm::u8vec4& texel : picture.texels) {
@@ -70,14 +70,15 @@ protected:
     }
 
     ShownPacks files{5};
-    Settings settings = steep_table();
-    ArtifactShowOptions options;
-    DevicePlan devices;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    std::unique_ptr<ArtifactShow> show;
-    std::optional<Exhibit> exhibit;
+    settings::Settings settings = settings::steep_table();
+    show::ArtifactShowOptions options;
+    scene::DevicePlan devices;
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(320, 200).value();
+    std::unique_ptr<show::ArtifactShow> show;
+    std::optional<exhibit::Exhibit> exhibit;
     MonotonicTime now{std::chrono::seconds(100)};
-    const std::array<Command, 1> next{Command::NextArtifact};
+    const std::array<settings::Command, 1> next{settings::Command::NextArtifact};
 };
 
 } // namespace frustumscreen::synthetic

@@ -10,20 +10,20 @@
 #include <string_view>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::milliseconds;
 
 /// Answers each poll with these samples, and every other poll with an error as well.
-class FalteringTracker final : public Tracker {
+class FalteringTracker final : public tracker::Tracker {
 public:
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
-        PoseSample sample;
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<tracker::PoseSample>& samples) override {
+        tracker::PoseSample sample;
         sample.time = now;
         sample.position_m = {0.1, 0.2, 0.0};
         samples.push_back(sample);
-        sample.station = head_station;
+        sample.station = tracker::head_station;
         sample.position_m = {0.0, -0.5, 0.6};
         samples.push_back(sample);
         return ++polls_ % 2 == 0 ? fail(ErrorKind::DeviceLost, "test.device", "unplugged") : Result<void>();
@@ -35,14 +35,14 @@ private:
     int polls_ = 0;
 };
 
-class OnePress final : public Panel {
+class OnePress final : public panel::Panel {
 public:
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override {
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<panel::PanelEvent>& events) override {
         if (std::exchange(left_, false)) {
-            events.push_back({now, 1, PressKind::Press});
-            events.push_back({now, 1, PressKind::LongPress});
-            events.push_back({now, 0, PressKind::Chord});
-            events.push_back({now, 0, PressKind::LongPress});
+            events.push_back({now, 1, panel::PressKind::Press});
+            events.push_back({now, 1, panel::PressKind::LongPress});
+            events.push_back({now, 0, panel::PressKind::Chord});
+            events.push_back({now, 0, panel::PressKind::LongPress});
         }
         return {};
     }
@@ -55,24 +55,25 @@ private:
 TEST(DeviceIntake, APressAndAChordAreCommandsOfOneFrame) {
     Inputs inputs;
     inputs.panel = std::make_unique<OnePress>();
-    DeviceIntake intake(Settings{}, inputs);
+    DeviceIntake intake(settings::Settings{}, inputs);
     intake.poll(MonotonicTime{});
-    EXPECT_EQ(intake.commands(), (std::vector{Command::NextArtifact, Command::HoldOther, Command::StaffMode,
-                                              Command::HoldFirst}));
+    EXPECT_EQ(intake.commands(), (std::vector{settings::Command::NextArtifact, settings::Command::HoldOther,
+                                              settings::Command::StaffMode, settings::Command::HoldFirst}));
     intake.poll(MonotonicTime{} + milliseconds(16));
     EXPECT_TRUE(intake.commands().empty());
 }
 
 TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
     Inputs inputs;
-    DeviceIntake intake(Settings{}, inputs);
+    DeviceIntake intake(settings::Settings{}, inputs);
     intake.poll(MonotonicTime{});
     EXPECT_TRUE(intake.tracked_state_at(MonotonicTime{}).prop_known);
 }
 
-class MissingPanel final : public Panel {
+class MissingPanel final : public panel::Panel {
 public:
-    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/, std::vector<PanelEvent>& /*events*/) override {
+    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/,
+                                    std::vector<panel::PanelEvent>& /*events*/) override {
         return {};
     }
     [[nodiscard]] std::string name() const override { return "missing"; }
@@ -83,9 +84,9 @@ public:
 TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
     Inputs inputs;
     inputs.panel = std::make_unique<MissingPanel>();
-    inputs.tracker =
-        std::make_unique<RegisteredTracker>(std::make_unique<FalteringTracker>(), Registration{});
-    DeviceIntake intake(Settings{}, inputs);
+    inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::make_unique<FalteringTracker>(),
+                                                                   geometry::Registration{});
+    DeviceIntake intake(settings::Settings{}, inputs);
     RunStatus status;
     intake.tell({}, status);
     EXPECT_EQ(status.devices.panel.ok, false);
@@ -110,27 +111,27 @@ void expect_conditions(State last, std::string_view subject, Health away) {
 }
 
 TEST(DeviceIntake, EachStateOfATrackerAndACameraHasItsId) {
-    expect_conditions(UsbTrackerState::MetalNear, "tracker.", TrackerHealth::Away);
-    expect_conditions(CameraState::Silent, "camera.", CameraHealth::Away);
-    EXPECT_EQ(condition_of(UsbTrackerState::Streaming).health, DeviceHealth::Well);
-    EXPECT_EQ(condition_of(UsbTrackerState::MetalNear).health, DeviceHealth::Impaired);
-    EXPECT_EQ(condition_of(CameraState::Running).health, DeviceHealth::Well);
-    EXPECT_EQ(condition_of(CameraState::Dark).health, DeviceHealth::Impaired);
+    expect_conditions(tracker::UsbTrackerState::MetalNear, "tracker.", tracker::TrackerHealth::Away);
+    expect_conditions(camera::CameraState::Silent, "camera.", camera::CameraHealth::Away);
+    EXPECT_EQ(tracker::condition_of(tracker::UsbTrackerState::Streaming).health, DeviceHealth::Well);
+    EXPECT_EQ(tracker::condition_of(tracker::UsbTrackerState::MetalNear).health, DeviceHealth::Impaired);
+    EXPECT_EQ(camera::condition_of(camera::CameraState::Running).health, DeviceHealth::Well);
+    EXPECT_EQ(camera::condition_of(camera::CameraState::Dark).health, DeviceHealth::Impaired);
 }
 
 TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
     for (const bool followed : {true, false}) {
-        Settings settings;
+        settings::Settings settings;
         settings.eye.tracked = followed;
         Inputs inputs;
-        inputs.tracker =
-            std::make_unique<RegisteredTracker>(std::make_unique<FalteringTracker>(), Registration{});
+        inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::make_unique<FalteringTracker>(),
+                                                                       geometry::Registration{});
         DeviceIntake intake(settings, inputs);
         MonotonicTime now{};
         for (int k = 0; k < 60; ++k, now += milliseconds(16)) {
             intake.poll(now);
         }
-        const TrackedState tracked_state = intake.tracked_state_at(now);
+        const tracking::TrackedState tracked_state = intake.tracked_state_at(now);
         EXPECT_NEAR(tracked_state.table_from_prop.translation.x, 0.1, 1e-6);
         EXPECT_EQ(tracked_state.head_known, followed) << "a fixed viewer's head is not asked for";
         RunStatus status;
@@ -142,4 +143,4 @@ TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

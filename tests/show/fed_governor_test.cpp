@@ -13,9 +13,9 @@ TEST_F(Comings, FramesThatTakeTooLongLeadToTheCoarserLevel) {
     settings.projector.refresh_hz = 10.0;
     settings.render.error_tolerance_px = 0.12; // of 2.2 mm: the finer level is within it, the coarser is not
     start(1, true);
-    LevelState levels;
+    residency::LevelState levels;
     const auto tell = [&](double ms) {
-        const Presentation presentation = step();
+        const exhibit::Presentation presentation = step();
         show->record_time(now, ms);
         levels = show->state(presentation).levels;
     };
@@ -33,7 +33,7 @@ TEST_F(Comings, FramesThatTakeTooLongLeadToTheCoarserLevel) {
 
 TEST_F(Comings, WhatIsNoTimeIsCounted) {
     start(1, true);
-    Presentation presentation = step();
+    exhibit::Presentation presentation = step();
     rest();
     ASSERT_EQ(show->state(presentation).levels.ignored_times, 0U);
     constexpr std::uint64_t frames = 10;

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 class KeptVolume : public WithTemporaryFolder {
@@ -56,4 +56,4 @@ TEST_F(KeptVolume, WithoutAFolderNothingIsKept) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -5,17 +5,18 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::seconds;
 
 class LastGoodSettings : public WithTemporaryFolder {
 protected:
-    static RunStatus at(int second, Health health = Health::Well, std::string_view artifact = "Rings") {
+    static RunStatus at(int second, service::Health health = service::Health::Well,
+                        std::string_view artifact = "Rings") {
         RunStatus status;
         status.written.monotonic = MonotonicTime(seconds(second));
-        status.health = word_of(health);
+        status.health = service::word_of(health);
         status.artifact = artifact;
         return status;
     }
@@ -31,8 +32,8 @@ TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {
     for (; second < 20; ++second) {
         keeper.note(at(second));
     }
-    keeper.note(at(second++, Health::FrozenCode));
-    keeper.note(at(second++, Health::Well, "")); // the alignment pattern
+    keeper.note(at(second++, service::Health::FrozenCode));
+    keeper.note(at(second++, service::Health::Well, "")); // the alignment pattern
     const int begin = second;
     for (; second < begin + 30; ++second) {
         keeper.note(at(second));
@@ -77,9 +78,9 @@ TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
 }
 
 TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCount) {
-    const Result<CheckedSettings> plain = parse_settings("", folder / "kiosk.toml");
+    const Result<settings::CheckedSettings> plain = settings::parse_settings("", folder / "kiosk.toml");
     ASSERT_TRUE(plain) << plain.error().message;
-    Calibration measured;
+    settings::Calibration measured;
     measured.made = "2026-11-25 10:12 UTC";
     measured.places = 9;
     measured.pinhole = (*plain)->projector.pinhole;
@@ -87,7 +88,8 @@ TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCoun
     measured.table_from_projector = (*plain)->projector.table_from_projector;
     measured.registration = (*plain)->tracker.registration;
     std::filesystem::create_directory(folder / "measured");
-    ASSERT_TRUE(write_file(folder / "measured/calibration-0001.toml", as_bytes(calibration_text(measured))));
+    ASSERT_TRUE(write_file(folder / "measured/calibration-0001.toml",
+                           as_bytes(settings::calibration_text(measured))));
     const std::string text = "[calibration]\nfolder = \"measured\"\n";
     ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes(text)));
     for (const std::string& own : {text, std::string("not TOML")}) {
@@ -101,4 +103,4 @@ TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCoun
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -12,7 +12,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::milliseconds;
@@ -29,28 +29,30 @@ struct Record {
 class RecordingStage final : public ExhibitStage {
 public:
     explicit RecordingStage(Record& record) : record_(record) {}
-    [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
-                                  const RenderTarget& target, Redraw) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
+                                          const render::RenderTarget& target, render::Redraw) override {
         record_.ages.push_back(target.buffer_age);
         return {true, {}, {}, 1};
     }
     void record_time(MonotonicTime, double) override { ++record_.times; }
-    [[nodiscard]] ShowState state(const Presentation&) const override { return {"Cat", "en", {}, true}; }
+    [[nodiscard]] ShowState state(const exhibit::Presentation&) const override {
+        return {"Cat", "en", {}, true};
+    }
 
 private:
     Record& record_;
 };
 
-constexpr std::array chord{Command::StaffMode};
-constexpr std::array next{Command::NextArtifact};
+constexpr std::array chord{settings::Command::StaffMode};
+constexpr std::array next{settings::Command::NextArtifact};
 
 class Live : public ::testing::Test {
 protected:
     void SetUp() override {
-        settings.panel.kind = PanelKind::Gpio;
+        settings.panel.kind = settings::PanelKind::Gpio;
         settings.panel.lines = {"4", "5", "6"};
         settings.projector.pinhole = {320, 200, 480.0, 480.0, 160.0, 100.0};
-        auto made = SurfacelessDisplay::create(320, 200);
+        auto made = display::SurfacelessDisplay::create(320, 200);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
         show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingStage>(record),
@@ -59,13 +61,14 @@ protected:
         frame();
         frame();
     }
-    DrawResult frame(std::span<const Command> commands = {}, const TrackedState& tracked_state = {}) {
+    render::DrawResult frame(std::span<const settings::Command> commands = {},
+                             const tracking::TrackedState& tracked_state = {}) {
         show->step(now, commands, tracked_state);
-        if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
+        if (std::find(commands.begin(), commands.end(), settings::Command::StaffMode) != commands.end()) {
             show->tell(status); // as the run loop does
         }
-        const DrawResult drawn =
-            show->draw(now, tracked_state, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
+        const render::DrawResult drawn = show->draw(
+            now, tracked_state, {display->framebuffer(), display->buffer_age()}, render::Redraw::Changes);
         show->record_time(now, 1.0);
         if (drawn.drawn) {
             EXPECT_TRUE(display->present(now));
@@ -73,23 +76,25 @@ protected:
         now += milliseconds(16);
         return drawn;
     }
-    [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
+    [[nodiscard]] image::Image8 picture() const {
+        return render::read_colour(display->framebuffer(), 320, 200);
+    }
     /// True if the pattern's outermost pixels are white.
     [[nodiscard]] bool pattern_is_on() const {
-        const Image8 now_shown = picture();
+        const image::Image8 now_shown = picture();
         return now_shown.at(0, 100).r == 255 && now_shown.at(319, 199).r == 255;
     }
     /// Presses the second button, and waits until the shown page has followed.
     void turn_page() {
         frame(next);
-        now += StaffTool::between_views;
+        now += exhibit::StaffTool::between_views;
         frame();
     }
 
-    Settings settings;
+    settings::Settings settings;
     Record record;
     RunStatus status;
-    std::unique_ptr<SurfacelessDisplay> display;
+    std::unique_ptr<display::SurfacelessDisplay> display;
     std::unique_ptr<LiveExhibit> show;
     MonotonicTime now = start;
 };
@@ -111,10 +116,10 @@ TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
 TEST_F(Live, EveryPageIsAnotherPicture) {
     frame(chord);
     std::vector<std::vector<glm::u8vec4>> seen{picture().texels};
-    for (std::size_t page = 1; page < staff_page_names.size(); ++page) {
+    for (std::size_t page = 1; page < exhibit::staff_page_names.size(); ++page) {
         turn_page();
         seen.push_back(picture().texels);
-        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen.back()), 1) << staff_page_names.at(page);
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen.back()), 1) << exhibit::staff_page_names.at(page);
     }
     frame(chord);
     frame(chord);
@@ -122,9 +127,9 @@ TEST_F(Live, EveryPageIsAnotherPicture) {
         turn_page();
     }
     const auto all_are = [this](int code) {
-        now += StaffTool::words_stay;
+        now += exhibit::StaffTool::words_stay;
         frame();
-        const Image8 shown = picture();
+        const image::Image8 shown = picture();
         // The first row contains the watchdog's code.
         return std::all_of(shown.texels.begin() + shown.width, shown.texels.end(),
                            [code](const glm::u8vec4& texel) {
@@ -133,15 +138,15 @@ TEST_F(Live, EveryPageIsAnotherPicture) {
     };
     EXPECT_FALSE(all_are(0));
     EXPECT_TRUE(all_are(255));
-    frame(std::array{Command::PreviousArtifact});
+    frame(std::array{settings::Command::PreviousArtifact});
     EXPECT_TRUE(all_are(0));
-    frame(std::array{Command::PreviousArtifact});
+    frame(std::array{settings::Command::PreviousArtifact});
     EXPECT_FALSE(all_are(0));
 }
 
 TEST_F(Live, ThePropsEdgesFollowItWhereThePlaceIsShown) {
     frame(chord);
-    TrackedState moved;
+    tracking::TrackedState moved;
     moved.table_from_prop.translation.x = 0.1;
     EXPECT_FALSE(frame({}, moved).drawn) << "the status has no prop in it";
     turn_page();
@@ -165,7 +170,7 @@ TEST_F(Live, TheTrackersNumbersAreLiveAndKeepAPace) {
 }
 
 TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
-    const MonotonicTime end = now + StaffTool::after_press;
+    const MonotonicTime end = now + exhibit::StaffTool::after_press;
     frame(chord);
     now = end - milliseconds(1);
     frame();
@@ -179,13 +184,13 @@ TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
 
 TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     frame(chord);
-    const Image8 before = read_colour(display->framebuffer(), 320, 200);
+    const image::Image8 before = render::read_colour(display->framebuffer(), 320, 200);
     show->tell(status);
     EXPECT_FALSE(frame().drawn);
     status.tracker = Sentence("no tracker is connected; check its USB cable and its power");
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
-    EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
+    EXPECT_NE(render::read_colour(display->framebuffer(), 320, 200).texels, before.texels);
     status.sound = Sentence("the sound device default is not there");
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
@@ -193,31 +198,32 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
 
 TEST_F(Live, SaysWhatItsWatchdogSaysOfIt) {
     frame(chord);
-    Environment around;
-    around.ends = parse_service_ends("5 watchdog killed KILL\n");
-    status.environment = std::make_shared<const Environment>(around);
+    status::Environment around;
+    around.ends = watch::parse_service_ends("5 watchdog killed KILL\n");
+    status.environment = std::make_shared<const status::Environment>(around);
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
     around.watchdog.fields = {{"faults", {{{"at", "2026-05-01T10:00:00Z"}, {"sentence", "it is hot"}}}}};
-    status.environment = std::make_shared<const Environment>(around);
+    status.environment = std::make_shared<const status::Environment>(around);
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
 }
 
 TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
     frame(chord);
-    const Image8 before = read_colour(display->framebuffer(), 320, 200);
-    settings.exhibit.unsigned_packs = UnsignedPacks::Allow;
+    const image::Image8 before = render::read_colour(display->framebuffer(), 320, 200);
+    settings.exhibit.unsigned_packs = pack::UnsignedPacks::Allow;
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
-    EXPECT_NE(read_colour(display->framebuffer(), 320, 200).texels, before.texels);
+    EXPECT_NE(render::read_colour(display->framebuffer(), 320, 200).texels, before.texels);
 }
 
 /// A stage whose artifacts are fully white everywhere.
 class WhiteStage final : public ExhibitStage {
 public:
-    [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation& presentation, const glm::dvec3&,
-                                  const RenderTarget& target, Redraw) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation& presentation,
+                                          const glm::dvec3&, const render::RenderTarget& target,
+                                          render::Redraw) override {
         const auto brightness = static_cast<float>(presentation.brightness);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         glDisable(GL_SCISSOR_TEST);
@@ -226,7 +232,9 @@ public:
         const PixelRectangle whole{0, 0, 320, 200};
         return {true, whole, whole, 1};
     }
-    [[nodiscard]] ShowState state(const Presentation&) const override { return {"White", "en", {}, true}; }
+    [[nodiscard]] ShowState state(const exhibit::Presentation&) const override {
+        return {"White", "en", {}, true};
+    }
 };
 
 /// WCAG 2.2's relative luminance of an sRGB colour.
@@ -247,15 +255,15 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
         show = std::make_unique<LiveExhibit>(settings, std::make_unique<WhiteStage>(),
                                              sample::exhibit(3, {"en", "de"}), "a driver");
         now = start;
-        ButtonTimes times;
+        panel::ButtonTimes times;
         times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: off
-        Buttons buttons(3, times);
+        panel::Buttons buttons(3, times);
         std::array<bool, 3> levels{};
-        std::vector<PanelEvent> events;
+        std::vector<panel::PanelEvent> events;
         MonotonicTime chord_until = start;
         std::optional<MonotonicTime> lost; // in half of the runs the prop also comes and goes
         MonotonicTime prop_turns = start;
-        std::array<std::vector<Luminance>, 40> places; // spread over the picture and on its border
+        std::array<std::vector<exhibit::Luminance>, 40> places; // spread over the picture and on its border
         while (now < start + seconds(40)) {
             if (now >= chord_until + seconds(1)) {
                 chord_until = now + milliseconds(3000 + random() % 200);
@@ -264,15 +272,16 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
             levels = {chord || random() % 2 == 0, random() % 2 == 0, chord || random() % 2 == 0};
             events.clear();
             buttons.sample(now, levels, events);
-            std::vector<Command> commands;
-            for (const PanelEvent& event : events) { // as the run loop does
-                if (event.kind == PressKind::Chord) {
-                    commands.push_back(Command::StaffMode);
+            std::vector<settings::Command> commands;
+            for (const panel::PanelEvent& event : events) { // as the run loop does
+                if (event.kind == panel::PressKind::Chord) {
+                    commands.push_back(settings::Command::StaffMode);
                     ++patterns;
-                } else if (event.kind == PressKind::Press) {
-                    commands.push_back(*command_of_button(event.button));
-                } else if (event.kind == PressKind::LongPress) {
-                    commands.push_back(event.button == 0 ? Command::HoldFirst : Command::HoldOther);
+                } else if (event.kind == panel::PressKind::Press) {
+                    commands.push_back(*settings::command_of_button(event.button));
+                } else if (event.kind == panel::PressKind::LongPress) {
+                    commands.push_back(event.button == 0 ? settings::Command::HoldFirst
+                                                         : settings::Command::HoldOther);
                 }
             }
             if (now >= prop_turns) {
@@ -280,18 +289,18 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
                 prop_turns += milliseconds(lost ? 2000 + random() % 1300 : random() % 500);
             }
             const MonotonicTime shown = now;
-            TrackedState tracked_state;
+            tracking::TrackedState tracked_state;
             tracked_state.prop_known = !lost;
             tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
             frame(commands, tracked_state);
-            const Image8 picture = read_colour(display->framebuffer(), 320, 200);
+            const image::Image8 picture = render::read_colour(display->framebuffer(), 320, 200);
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const int x = k % 8 == 0 ? 0 : static_cast<int>(k % 8) * 44;
                 places[k].push_back({shown, luminance_of(picture.at(x, 10 + 40 * static_cast<int>(k / 8)))});
             }
         }
-        for (const std::vector<Luminance>& place : places) {
-            most = std::max(most, max_flashes_per_second(place));
+        for (const std::vector<exhibit::Luminance>& place : places) {
+            most = std::max(most, exhibit::max_flashes_per_second(place));
         }
     }
     EXPECT_GT(patterns, 30);
@@ -300,4 +309,4 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -34,8 +34,8 @@ using std::chrono::seconds;
 constexpr int width = 960;
 constexpr int height = 600;
 
-ImportReport report_of(ImportStage stage, std::uint64_t done = 0) {
-    ImportReport report;
+library::ImportReport report_of(library::ImportStage stage, std::uint64_t done = 0) {
+    library::ImportReport report;
     report.import_id = "first";
     report.stick = "MUSEUM";
     report.stage = stage;
@@ -43,16 +43,16 @@ ImportReport report_of(ImportStage stage, std::uint64_t done = 0) {
     report.total_bytes = 1000;
     return report;
 }
-ImportReport done_with(std::size_t packs) {
-    ImportReport report = report_of(ImportStage::Done, 1000);
+library::ImportReport done_with(std::size_t packs) {
+    library::ImportReport report = report_of(library::ImportStage::Done, 1000);
     for (std::size_t k = 0; k < packs; ++k) {
-        report.packs.push_back({fmt::format("{}.fspack", k), fmt::format("Title {}", k), ImportOutcome::Taken,
-                                ImportRefusal::None, ""});
+        report.packs.push_back({fmt::format("{}.fspack", k), fmt::format("Title {}", k),
+                                library::ImportOutcome::Taken, library::ImportRefusal::None, ""});
     }
     return report;
 }
-void put(const fs::path& file, const ImportReport& report) {
-    ASSERT_TRUE(write_file(file, as_bytes(write_import_report(report))));
+void put(const fs::path& file, const library::ImportReport& report) {
+    ASSERT_TRUE(write_file(file, as_bytes(library::write_import_report(report))));
 }
 
 class Notice : public ::testing::Test {
@@ -61,16 +61,16 @@ protected:
         folder = fs::temp_directory_path() / fmt::format("frustumscreen_notice_{}", ::getpid());
         fs::create_directories(folder);
         report = folder / "report.json";
-        LanguageWords words = block_words("en", TextDirection::LeftToRight);
+        pack::LanguageWords words = block_words("en", pack::TextDirection::LeftToRight);
         words.sounds["stick.take_out"] = tone();
-        ASSERT_TRUE(write_file(folder / "own.fswords", *write_words(std::array{words})));
+        ASSERT_TRUE(write_file(folder / "own.fswords", *pack::write_words(std::array{words})));
         start(true);
     }
     void TearDown() override { fs::remove_all(folder); }
     static Bytes tone() { return *read_file(source_dir() + "/tests/sound/fixtures/tone.opus"); }
 
     void start(bool with_words) {
-        settings = **parse_settings(
+        settings = **settings::parse_settings(
             fmt::format(
                 "[projector]\nwidth = {}\nheight = {}\n[exhibit]\nguidance = false\ntable_pictures = false\n"
                 "import_report = \"{}\"\n{}",
@@ -78,27 +78,27 @@ protected:
                 with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
             "kiosk.toml");
         settings.panel.script = {{1.0, 0}, {2.0, 1}};
-        ArtifactShowOptions options{packs.files(), "level0", 1, AllCullKinds}; // no governor
+        show::ArtifactShowOptions options{packs.files(), "level0", 1, scene::AllCullKinds}; // no governor
         options.waits = true;
         now = MonotonicTime(seconds(100));
-        auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
-                                              {display->framebuffer(), 0})
+        auto artifacts = show::ArtifactShow::create(settings, scene::plan_devices(settings, false, false),
+                                                    options, {display->framebuffer(), 0})
                              .value();
-        Exhibit exhibit = make_exhibit(settings, *artifacts, now);
-        show = std::make_unique<LiveExhibit>(settings, std::move(artifacts), std::move(exhibit), "a driver",
-                                             PromptReader::Answer::Always);
+        exhibit::Exhibit exhibit = show::make_exhibit(settings, *artifacts, now);
+        show = std::make_unique<show::LiveExhibit>(settings, std::move(artifacts), std::move(exhibit),
+                                                   "a driver", residency::PromptReader::Answer::Always);
         tracked_state.prop_known = true;
         tracked_state.eye_m = settings.eye.default_m;
         wait(milliseconds(1500));
     }
-    void wait(Nanoseconds time, std::span<const Command> commands = {}) {
+    void wait(Nanoseconds time, std::span<const settings::Command> commands = {}) {
         const MonotonicTime end = now + time;
         while (now < end) {
             now += milliseconds(20);
             tracked_state.table_from_prop.translation.x =
                 now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // a visitor is present
             show->step(now, std::exchange(commands, {}), tracked_state);
-            std::vector<std::int16_t> block(sample_rate_hz / 50);
+            std::vector<std::int16_t> block(sound::sample_rate_hz / 50);
             mixer.mix(block);
             mixer.follow(show->sound_request());
             heard.insert(heard.end(), block.begin(), block.end());
@@ -107,13 +107,14 @@ protected:
         tracked_state.table_from_prop.translation.x = 0.0;
         show->step(now, {}, tracked_state);
     }
-    Image8 picture() {
-        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 0}, Redraw::Everything));
-        return read_colour(display->framebuffer(), width, height);
+    image::Image8 picture() {
+        static_cast<void>(
+            show->draw(now, tracked_state, {display->framebuffer(), 0}, render::Redraw::Everything));
+        return render::read_colour(display->framebuffer(), width, height);
     }
     /// Codes of the pixels in which two pictures differ, by place: 0 where they are equal.
-    static Image<std::uint8_t> difference(const Image8& without, const Image8& with) {
-        Image<std::uint8_t> light(width, height);
+    static image::Image<std::uint8_t> difference(const image::Image8& without, const image::Image8& with) {
+        image::Image<std::uint8_t> light(width, height);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 light.at(x, y) = without.at(x, y) == with.at(x, y) ? 0 : with.at(x, y).g;
@@ -121,7 +122,7 @@ protected:
         }
         return light;
     }
-    static int left_of(const Image<std::uint8_t>& light) {
+    static int left_of(const image::Image<std::uint8_t>& light) {
         int left = width;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -130,7 +131,7 @@ protected:
         }
         return left;
     }
-    static long lit(const Image<std::uint8_t>& light) {
+    static long lit(const image::Image<std::uint8_t>& light) {
         return std::count_if(light.texels.begin(), light.texels.end(),
                              [](std::uint8_t c) { return c > 100; });
     }
@@ -138,22 +139,24 @@ protected:
     ShownPacks packs{3};
     fs::path folder;
     fs::path report;
-    Settings settings;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
-    std::unique_ptr<LiveExhibit> show;
-    TrackedState tracked_state;
-    Mixer mixer;
+    settings::Settings settings;
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(width, height).value();
+    std::unique_ptr<show::LiveExhibit> show;
+    tracking::TrackedState tracked_state;
+    sound::Mixer mixer;
     std::vector<std::int16_t> heard;
     MonotonicTime now;
 };
 
 TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
-    const Image8 with_words = picture();
+    const image::Image8 with_words = picture();
     const long before = allocations_so_far();
     for (int k = 0; k < 100; ++k) {
         now += milliseconds(20);
         show->step(now, {}, tracked_state);
-        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 1}, Redraw::Changes));
+        static_cast<void>(
+            show->draw(now, tracked_state, {display->framebuffer(), 1}, render::Redraw::Changes));
     }
     if (allocations_are_counted) {
         EXPECT_EQ(allocations_so_far(), before);
@@ -163,11 +166,11 @@ TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
 }
 
 TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     for (const std::uint64_t done : {150U, 400U, 800U}) {
-        put(report, report_of(ImportStage::Copying, done));
+        put(report, report_of(library::ImportStage::Copying, done));
         wait(seconds(2));
-        const Image<std::uint8_t> light = difference(without, picture());
+        const image::Image<std::uint8_t> light = difference(without, picture());
         const double px_per_m =
             settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
         const int left = left_of(light);
@@ -187,7 +190,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
 }
 
 TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     const std::string_view shown = show->state().artifact;
     put(report, done_with(1));
     wait(seconds(2));
@@ -198,39 +201,39 @@ TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
     wait(seconds(5));
     EXPECT_EQ(picture().texels, without.texels);
 
-    ImportReport second = done_with(3);
+    library::ImportReport second = done_with(3);
     second.import_id = "second";
     put(report, second);
     wait(seconds(2));
     EXPECT_GT(lit(difference(without, picture())), one + 100);
-    wait(seconds(2), std::array{Command::NextArtifact});
+    wait(seconds(2), std::array{settings::Command::NextArtifact});
     EXPECT_EQ(picture().texels, without.texels);
     EXPECT_EQ(show->state().artifact, shown);
-    wait(seconds(2), std::array{Command::NextArtifact});
+    wait(seconds(2), std::array{settings::Command::NextArtifact});
     EXPECT_NE(show->state().artifact, shown) << "the next press is a visitor's again";
 }
 
 TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
-    put(report, report_of(ImportStage::Copying, 100));
+    put(report, report_of(library::ImportStage::Copying, 100));
     wait(seconds(2));
     const std::string first(show->state().artifact);
-    wait(seconds(2), std::array{Command::PreviousArtifact});
+    wait(seconds(2), std::array{settings::Command::PreviousArtifact});
     const std::string chosen(show->state().artifact);
     EXPECT_NE(chosen, first);
     put(report, done_with(1));
     wait(seconds(2));
-    wait(seconds(1), std::array{Command::PreviousArtifact}); // ends the lines
-    wait(seconds(1), std::array{Command::StaffMode});
-    EXPECT_EQ(show->state().state, State::Staff);
-    wait(seconds(1), std::array{Command::StaffMode});
+    wait(seconds(1), std::array{settings::Command::PreviousArtifact}); // ends the lines
+    wait(seconds(1), std::array{settings::Command::StaffMode});
+    EXPECT_EQ(show->state().state, exhibit::State::Staff);
+    wait(seconds(1), std::array{settings::Command::StaffMode});
     wait(seconds(2));
     EXPECT_EQ(show->state().artifact, chosen);
 }
 
 TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     const std::string shown(show->state().artifact);
-    put(report, report_of(ImportStage::MayTakeOut, 1000));
+    put(report, report_of(library::ImportStage::MayTakeOut, 1000));
     wait(seconds(2));
     EXPECT_NE(picture().texels, without.texels);
     put(report, done_with(1));
@@ -239,21 +242,21 @@ TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     }
     ASSERT_EQ(lit(difference(without, picture())), 0)
         << "the first has gone, and the second is not there yet";
-    wait(milliseconds(20), std::array{Command::NextArtifact});
+    wait(milliseconds(20), std::array{settings::Command::NextArtifact});
     wait(seconds(2)); // the earlier notice has begun to fade
     EXPECT_EQ(lit(difference(without, picture())), 0);
     EXPECT_EQ(show->state().artifact, shown);
 }
 
 TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
-    const std::vector<std::int16_t> truth = read_opus(tone())->samples;
+    const std::vector<std::int16_t> truth = sound::read_opus(tone())->samples;
     const auto is_loud = [&] {
         return std::count_if(heard.begin(), heard.end(), [](std::int16_t s) { return std::abs(s) > 300; });
     };
-    put(report, report_of(ImportStage::Copying, 500));
+    put(report, report_of(library::ImportStage::Copying, 500));
     wait(seconds(2));
     EXPECT_EQ(is_loud(), 0);
-    put(report, report_of(ImportStage::MayTakeOut, 1000));
+    put(report, report_of(library::ImportStage::MayTakeOut, 1000));
     wait(seconds(10));
     const auto spoken = std::search(heard.begin(), heard.end(), truth.begin() + 1000, truth.begin() + 3000);
     EXPECT_NE(spoken, heard.end()) << "the words are not there";
@@ -264,7 +267,7 @@ TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
 }
 
 TEST_F(Notice, BytesThatAreNoReportSayNothing) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     for (const std::string& bytes :
          {std::string("{"), std::string("[]"), std::string(20U << 20U, '['), std::string()}) {
         ASSERT_TRUE(write_file(report, as_bytes(bytes)));
@@ -282,20 +285,21 @@ TEST_F(Notice, BytesThatAreNoReportSayNothing) {
 }
 
 TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     put(report, done_with(3));
     fs::last_write_time(report, fs::file_time_type::clock::now() - seconds(125));
     start(true);
     EXPECT_EQ(picture().texels, without.texels);
     ASSERT_NE(show->state().import, nullptr) << "the status has it all the same";
-    RunStatus status;
-    status.import = report_of(show->state().import);
-    EXPECT_EQ(nlohmann::json::parse(status_json(status)).at("import").at("packs")[2].at("title"), "Title 2");
-    EXPECT_TRUE(nlohmann::json::parse(status_json(RunStatus())).at("import").is_null());
+    show::RunStatus status;
+    status.import = show::report_of(show->state().import);
+    EXPECT_EQ(nlohmann::json::parse(status::status_json(status)).at("import").at("packs")[2].at("title"),
+              "Title 2");
+    EXPECT_TRUE(nlohmann::json::parse(status::status_json(show::RunStatus())).at("import").is_null());
 }
 
 TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall clock may have been set
         put(report, done_with(3));
         fs::last_write_time(report, fs::file_time_type::clock::now() - age);
@@ -305,8 +309,8 @@ TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
 }
 
 TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
-    const Image8 without = picture();
-    const std::string json = write_import_report(done_with(1));
+    const image::Image8 without = picture();
+    const std::string json = library::write_import_report(done_with(1));
     ASSERT_TRUE(write_file(report, as_bytes(std::string(json.size(), ' '))));
     struct stat before {};
     ASSERT_EQ(::stat(report.c_str(), &before), 0);
@@ -323,15 +327,15 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
     const fs::path file = fs::temp_directory_path() / fmt::format("frustumscreen_report_{}.json", ::getpid());
     fs::remove(file);
     std::atomic<int> drawn{0};
-    ImportWatch watch(
+    show::ImportWatch watch(
         file,
-        [&](const NoticeText& text, const NoticeText&) {
+        [&](const exhibit::NoticeText& text, const exhibit::NoticeText&) {
             ++drawn;
-            return std::make_shared<const NoticePicture>(NoticePicture{text, {}, {}});
+            return std::make_shared<const exhibit::NoticePicture>(exhibit::NoticePicture{text, {}, {}});
         },
-        ImportWatch::Answer::WhenReady);
+        show::ImportWatch::Answer::WhenReady);
     EXPECT_EQ(watch.latest({}), nullptr);
-    const auto wait_for = [&](const ImportReport& report) {
+    const auto wait_for = [&](const library::ImportReport& report) {
         put(file, report);
         for (int k = 0; k < 1000; ++k) {
             if (watch.latest({}) && watch.latest({})->report == report) {
@@ -342,40 +346,41 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
         return false;
     };
     for (std::uint64_t done = 0; done < 4; ++done) {
-        ASSERT_TRUE(wait_for(report_of(ImportStage::Copying, done)));
+        ASSERT_TRUE(wait_for(report_of(library::ImportStage::Copying, done)));
     }
     EXPECT_EQ(drawn, 2) << "the words of a copy are drawn once, and that it stopped";
     EXPECT_FALSE(watch.latest({})->is_old);
     ASSERT_TRUE(wait_for(done_with(500)));
-    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), max_notice_lines);
+    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), exhibit::max_notice_lines);
     fs::remove(file);
 }
 
 TEST(ImportJournal, EachStageAndEachPackIsALine) {
-    ImportJournal journal;
+    show::ImportJournal journal;
     std::vector<std::string> lines;
-    const auto note = [&](const ImportReport& report, bool is_old = false) {
+    const auto note = [&](const library::ImportReport& report, bool is_old = false) {
         const std::size_t before = lines.size();
-        journal.note(std::make_shared<const SeenImport>(SeenImport{report, is_old, nullptr, nullptr}),
-                     [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
+        journal.note(
+            std::make_shared<const show::SeenImport>(show::SeenImport{report, is_old, nullptr, nullptr}),
+            [&](service::LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
         return lines.size() - before;
     };
     EXPECT_EQ(note(done_with(500), true), 0U);
-    ImportReport copying = report_of(ImportStage::Copying, 1);
+    library::ImportReport copying = report_of(library::ImportStage::Copying, 1);
     copying.import_id = "second";
     EXPECT_EQ(note(copying), 1U);
     EXPECT_EQ(lines.back(), "stick: 1000 bytes are copied");
     copying.done_bytes = 2;
     EXPECT_EQ(note(copying), 0U);
-    ImportReport done = done_with(500);
+    library::ImportReport done = done_with(500);
     done.import_id = "second";
-    done.packs[3] = {"coin.fspack", "", ImportOutcome::Refused, ImportRefusal::Altered,
+    done.packs[3] = {"coin.fspack", "", library::ImportOutcome::Refused, library::ImportRefusal::Altered,
                      "its hash is another"};
     std::size_t calls = 0;
     const std::size_t before = lines.size();
     for (std::size_t written = 1; written > 0; ++calls) {
         written = note(done);
-        EXPECT_LE(written, ImportJournal::max_lines + 1);
+        EXPECT_LE(written, show::ImportJournal::max_lines + 1);
     }
     EXPECT_EQ(lines.size() - before, 501U);
     EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());
@@ -384,14 +389,15 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
 }
 
 TEST(ImportJournal, WhatIsOverIsToldToItsEndBeforeTheNextOne) {
-    ImportJournal journal;
+    show::ImportJournal journal;
     std::vector<std::string> lines;
-    const auto note = [&](const ImportReport& report) {
-        journal.note(std::make_shared<const SeenImport>(SeenImport{report, false, nullptr, nullptr}),
-                     [&](LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
+    const auto note = [&](const library::ImportReport& report) {
+        journal.note(
+            std::make_shared<const show::SeenImport>(show::SeenImport{report, false, nullptr, nullptr}),
+            [&](service::LogPriority, const Sentence& line) { lines.emplace_back(line.view()); });
     };
     note(done_with(40));
-    ImportReport second = report_of(ImportStage::Copying, 1);
+    library::ImportReport second = report_of(library::ImportStage::Copying, 1);
     second.import_id = "second";
     for (int k = 0; k < 5; ++k) {
         note(second);

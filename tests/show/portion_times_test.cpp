@@ -10,12 +10,12 @@ using std::chrono::seconds;
 namespace {
 
 /// Silence of a length, with pauses around given times.
-Prompt prompt(double length_s, const std::vector<std::pair<double, double>>& pauses_s) {
-    Prompt made;
-    made.samples.resize(static_cast<std::size_t>(length_s * sample_rate_hz));
+sound::Prompt prompt(double length_s, const std::vector<std::pair<double, double>>& pauses_s) {
+    sound::Prompt made;
+    made.samples.resize(static_cast<std::size_t>(length_s * sound::sample_rate_hz));
     for (const auto& [begin_s, end_s] : pauses_s) {
-        made.marks.push_back({static_cast<std::uint32_t>(begin_s * sample_rate_hz),
-                              static_cast<std::uint32_t>(end_s * sample_rate_hz)});
+        made.marks.push_back({static_cast<std::uint32_t>(begin_s * sound::sample_rate_hz),
+                              static_cast<std::uint32_t>(end_s * sound::sample_rate_hz)});
     }
     return made;
 }
@@ -32,16 +32,17 @@ void expect_times(const std::vector<Nanoseconds>& times, const std::vector<doubl
 } // namespace
 
 TEST(PortionTimes, are_shares_of_the_speech_without_pauses) {
-    expect_times(portion_times(shares, prompt(20.0, {})), {0.0, 10.0, 15.0});
-    expect_times(portion_times({}, prompt(20.0, {})), {});
-    EXPECT_EQ(portion_times(shares, Prompt()).size(), 3U);
+    expect_times(residency::portion_times(shares, prompt(20.0, {})), {0.0, 10.0, 15.0});
+    expect_times(residency::portion_times({}, prompt(20.0, {})), {});
+    EXPECT_EQ(residency::portion_times(shares, sound::Prompt()).size(), 3U);
 }
 
 TEST(PortionTimes, are_moved_to_the_longest_pause_nearby) {
     // A comma at 10 s, the sentence's end at 11 s; the rest is divided again from there.
-    expect_times(portion_times(shares, prompt(20.0, {{9.9, 10.1}, {10.7, 11.3}, {15.4, 15.8}})),
+    expect_times(residency::portion_times(shares, prompt(20.0, {{9.9, 10.1}, {10.7, 11.3}, {15.4, 15.8}})),
                  {0.0, 11.0, 15.6});
-    expect_times(portion_times(shares, prompt(20.0, {{3.0, 4.0}, {18.0, 19.0}})), {0.0, 10.0, 15.0});
+    expect_times(residency::portion_times(shares, prompt(20.0, {{3.0, 4.0}, {18.0, 19.0}})),
+                 {0.0, 10.0, 15.0});
 }
 
 TEST(PortionTimes, ascend_whatever_the_pauses_are) {
@@ -54,7 +55,8 @@ TEST(PortionTimes, ascend_whatever_the_pauses_are) {
             at_s = pauses.back().second;
         }
         const std::vector<Nanoseconds> many(1 + seed % 9, milliseconds(100 + seed));
-        const std::vector<Nanoseconds> times = portion_times(many, prompt(std::max(at_s, 1.0), pauses));
+        const std::vector<Nanoseconds> times =
+            residency::portion_times(many, prompt(std::max(at_s, 1.0), pauses));
         EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
         EXPECT_EQ(times.front(), Nanoseconds(0));
         EXPECT_LE(times.back(), seconds(60));

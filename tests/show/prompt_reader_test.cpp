@@ -21,14 +21,15 @@ Bytes fixture(const std::string& name) {
     return read_file(source_dir() + "/tests/sound/fixtures/" + name).value_or(Bytes());
 }
 
-SharedRecording in_memory(const std::string& name, Bytes opus) {
-    return std::make_shared<const PromptRecording>(
-        PromptRecording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
+residency::SharedRecording in_memory(const std::string& name, Bytes opus) {
+    return std::make_shared<const residency::PromptRecording>(
+        residency::PromptRecording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
 }
 
 /// Polls until there is an answer; the tests' own time limit ends an endless wait.
-SharedReading wait_for(PromptReader& reader, const SharedRecording& recording) {
-    SharedReading reading = reader.find(recording);
+residency::SharedReading wait_for(residency::PromptReader& reader,
+                                  const residency::SharedRecording& recording) {
+    residency::SharedReading reading = reader.find(recording);
     while (!reading) {
         std::this_thread::sleep_for(milliseconds(1));
         reading = reader.find(recording);
@@ -39,14 +40,15 @@ SharedReading wait_for(PromptReader& reader, const SharedRecording& recording) {
 class PromptReading : public ::testing::Test {
 protected:
     void SetUp() override {
-        Pack pack = samples::pack();
-        put_sounds(pack, std::vector<SpokenLanguage>{{"en", {{"description", fixture("speech.opus")}}},
-                                                     {"de", {{"description", samples::some_bytes("OggS")}}}});
+        pack::Pack pack = samples::pack();
+        pack::put_sounds(
+            pack, std::vector<pack::SpokenLanguage>{{"en", {{"description", fixture("speech.opus")}}},
+                                                    {"de", {{"description", samples::some_bytes("OggS")}}}});
         ASSERT_TRUE(write_file(file, samples::bytes_of(pack)));
     }
     void TearDown() override { std::filesystem::remove(file); }
-    [[nodiscard]] SharedRecording in_pack(const std::string& language) const {
-        return std::make_shared<const PromptRecording>(PromptRecording{
+    [[nodiscard]] residency::SharedRecording in_pack(const std::string& language) const {
+        return std::make_shared<const residency::PromptRecording>(residency::PromptRecording{
             "the description in '" + language + "'", {}, file, language, "description", {seconds(1)}});
     }
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "prompt_reading.fspack";
@@ -55,52 +57,52 @@ protected:
 } // namespace
 
 TEST_F(PromptReading, reads_from_the_pack_what_the_decoder_reads) {
-    PromptReader reader;
-    const SharedRecording english = in_pack("en");
+    residency::PromptReader reader;
+    const residency::SharedRecording english = in_pack("en");
     EXPECT_EQ(reader.find(english), nullptr) << "nobody wants it";
-    reader.want(SpokenUse::Description, english);
-    const SharedReading reading = wait_for(reader, english);
+    reader.want(residency::SpokenUse::Description, english);
+    const residency::SharedReading reading = wait_for(reader, english);
     ASSERT_TRUE(reading->prompt);
-    EXPECT_EQ(reading->prompt->samples, read_opus(fixture("speech.opus"))->samples);
+    EXPECT_EQ(reading->prompt->samples, sound::read_opus(fixture("speech.opus"))->samples);
     EXPECT_FALSE(reading->prompt->marks.empty());
     EXPECT_EQ(reading->portions, std::vector{Nanoseconds(0)});
 }
 
 TEST_F(PromptReading, what_cannot_be_read_is_silent_and_said_once) {
-    const SharedRecording bad = in_pack("de");
-    const SharedRecording missing = in_pack("fr");
-    const SharedRecording damaged = in_memory("damaged", Bytes(100, std::byte(7)));
-    auto gone_file = std::make_shared<PromptRecording>(*in_pack("en"));
+    const residency::SharedRecording bad = in_pack("de");
+    const residency::SharedRecording missing = in_pack("fr");
+    const residency::SharedRecording damaged = in_memory("damaged", Bytes(100, std::byte(7)));
+    auto gone_file = std::make_shared<residency::PromptRecording>(*in_pack("en"));
     gone_file->name = "gone";
     gone_file->pack = file.string() + ".gone";
-    const SharedRecording gone = gone_file;
+    const residency::SharedRecording gone = gone_file;
     ::testing::internal::CaptureStderr();
     {
-        PromptReader reader;
+        residency::PromptReader reader;
         for (int round = 0; round < 2; ++round) {
-            for (const SharedRecording& recording : {bad, missing, damaged, gone}) {
-                reader.want(SpokenUse::Description, recording);
+            for (const residency::SharedRecording& recording : {bad, missing, damaged, gone}) {
+                reader.want(residency::SpokenUse::Description, recording);
                 EXPECT_EQ(wait_for(reader, recording)->prompt, nullptr);
             }
         }
-        const SharedRecording good = in_pack("en");
-        reader.want(SpokenUse::Description, good);
+        const residency::SharedRecording good = in_pack("en");
+        reader.want(residency::SpokenUse::Description, good);
         EXPECT_TRUE(wait_for(reader, good)->prompt) << "and it goes on";
     }
     const std::string said = ::testing::internal::GetCapturedStderr();
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 4) << said;
-    for (const SharedRecording& recording : {bad, missing, damaged, gone}) {
+    for (const residency::SharedRecording& recording : {bad, missing, damaged, gone}) {
         EXPECT_NE(said.find(recording->name + " is silent: "), std::string::npos) << said;
     }
 }
 
 TEST_F(PromptReading, frees_the_description_that_is_not_wanted_any_more) {
-    PromptReader reader;
-    const SharedRecording english = in_pack("en");
-    reader.want(SpokenUse::Description, english);
-    const std::weak_ptr<const Prompt> prompt = wait_for(reader, english)->prompt;
+    residency::PromptReader reader;
+    const residency::SharedRecording english = in_pack("en");
+    reader.want(residency::SpokenUse::Description, english);
+    const std::weak_ptr<const sound::Prompt> prompt = wait_for(reader, english)->prompt;
     EXPECT_FALSE(prompt.expired());
-    reader.want(SpokenUse::Description, nullptr);
+    reader.want(residency::SpokenUse::Description, nullptr);
     while (!prompt.expired()) {
         std::this_thread::sleep_for(milliseconds(1));
     }
@@ -108,14 +110,14 @@ TEST_F(PromptReading, frees_the_description_that_is_not_wanted_any_more) {
 }
 
 TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
-    PromptReader reader;
-    std::vector<SharedRecording> words;
-    for (std::size_t k = 0; k <= PromptReader::words_kept; ++k) {
+    residency::PromptReader reader;
+    std::vector<residency::SharedRecording> words;
+    for (std::size_t k = 0; k <= residency::PromptReader::words_kept; ++k) {
         words.push_back(in_memory("word " + std::to_string(k), fixture("tone.opus")));
-        reader.want(SpokenUse::Word, words.back());
+        reader.want(residency::SpokenUse::Word, words.back());
         wait_for(reader, words.back());
         if (k > 0) { // the first is requested repeatedly
-            reader.want(SpokenUse::Word, words.front());
+            reader.want(residency::SpokenUse::Word, words.front());
             wait_for(reader, words.front());
         }
     }
@@ -127,14 +129,14 @@ TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
 }
 
 TEST_F(PromptReading, the_newest_want_wins_and_a_word_goes_first) {
-    PromptReader reader;
-    std::vector<SharedRecording> wanted;
+    residency::PromptReader reader;
+    std::vector<residency::SharedRecording> wanted;
     for (int k = 0; k < 50; ++k) {
         wanted.push_back(in_memory("description " + std::to_string(k), fixture("speech.opus")));
-        reader.want(SpokenUse::Description, wanted.back());
+        reader.want(residency::SpokenUse::Description, wanted.back());
     }
-    const SharedRecording word = in_memory("word", fixture("tone.opus"));
-    reader.want(SpokenUse::Word, word);
+    const residency::SharedRecording word = in_memory("word", fixture("tone.opus"));
+    reader.want(residency::SpokenUse::Word, word);
     wait_for(reader, word);
     wait_for(reader, wanted.back());
     for (std::size_t k = 0; k + 1 < wanted.size(); ++k) {
@@ -144,10 +146,10 @@ TEST_F(PromptReading, the_newest_want_wins_and_a_word_goes_first) {
 }
 
 TEST_F(PromptReading, always_an_answer_waits_for_it) {
-    PromptReader reader(PromptReader::Answer::Always);
-    const SharedRecording english = in_pack("en");
+    residency::PromptReader reader(residency::PromptReader::Answer::Always);
+    const residency::SharedRecording english = in_pack("en");
     EXPECT_EQ(reader.find(english), nullptr);
-    reader.want(SpokenUse::Description, english);
+    reader.want(residency::SpokenUse::Description, english);
     ASSERT_NE(reader.find(english), nullptr);
     EXPECT_TRUE(reader.find(english)->prompt);
 }
@@ -158,9 +160,9 @@ TEST_F(PromptReading, ends_in_the_middle_of_its_work) {
     };
     const auto before = threads();
     for (int k = 0; k < 20; ++k) {
-        PromptReader reader;
-        reader.want(SpokenUse::Description, in_pack("en"));
-        reader.want(SpokenUse::Word, in_memory("word", fixture("tone.opus")));
+        residency::PromptReader reader;
+        reader.want(residency::SpokenUse::Description, in_pack("en"));
+        reader.want(residency::SpokenUse::Word, in_memory("word", fixture("tone.opus")));
     }
     // The kernel drops a thread from its list just after it was waited for.
     const MonotonicTime end = monotonic_now() + std::chrono::seconds(60);

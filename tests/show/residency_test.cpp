@@ -7,11 +7,11 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 struct Scene {
-    std::vector<ResidentItem> artifacts;
+    std::vector<residency::ResidentItem> artifacts;
     std::size_t shown = 0;
     std::vector<std::size_t> wanted;
     std::uint64_t budget = 0;
@@ -20,10 +20,12 @@ struct Scene {
     [[nodiscard]] std::vector<std::size_t> needed() const {
         return wanted.empty() ? std::vector{shown} : std::vector{shown, wanted.front()};
     }
-    [[nodiscard]] ResidencyStep step() const { return next_step(artifacts, needed(), wanted, budget); }
+    [[nodiscard]] residency::ResidencyStep step() const {
+        return residency::next_step(artifacts, needed(), wanted, budget);
+    }
     [[nodiscard]] std::uint64_t bytes() const {
         std::uint64_t bytes = 0;
-        for (const ResidentItem& artifact : artifacts) {
+        for (const residency::ResidentItem& artifact : artifacts) {
             bytes += artifact.loaded ? artifact.bytes : 0;
         }
         return bytes;
@@ -68,10 +70,10 @@ unsigned best_set(const Scene& scene) {
 void settle(Scene& scene) {
     for (int steps = 0;; ++steps) {
         ASSERT_LT(steps, 100) << "it never comes to rest";
-        const ResidencyStep step = scene.step();
+        const residency::ResidencyStep step = scene.step();
         ASSERT_FALSE(step.release && step.load);
         if (step.release) {
-            ResidentItem& released = scene.artifacts[*step.release];
+            residency::ResidentItem& released = scene.artifacts[*step.release];
             ASSERT_TRUE(released.loaded);
             ASSERT_NE(*step.release, scene.shown);
             for (std::size_t k = 0; k < scene.artifacts.size();
@@ -83,7 +85,7 @@ void settle(Scene& scene) {
             }
             released.loaded = false;
         } else if (step.load) {
-            ResidentItem& loaded = scene.artifacts[*step.load];
+            residency::ResidentItem& loaded = scene.artifacts[*step.load];
             ASSERT_FALSE(loaded.loaded || loaded.left_out);
             loaded.loaded = true;
             bool alone = true;
@@ -123,15 +125,15 @@ TEST(Residency, IsTheBestSetThatTheBudgetAllows) {
 
 TEST(Residency, KeepsWhatItHasWhileThereIsRoom) {
     Scene scene{{{4, true, false, 3}, {4, true, false, 1}, {4, true, false, 2}}, 0, {0}, 12};
-    EXPECT_EQ(scene.step(), ResidencyStep{});
+    EXPECT_EQ(scene.step(), residency::ResidencyStep{});
     scene.budget = 11;
-    EXPECT_EQ(scene.step(), (ResidencyStep{1, std::nullopt})); // least recently shown
+    EXPECT_EQ(scene.step(), (residency::ResidencyStep{1, std::nullopt})); // least recently shown
 }
 
 TEST(Residency, WaitsForNothingThatIsLeftOut) {
     const Scene scene{{{4, true, false, 3}, {4, false, true, 0}}, 0, {1, 1}, 12};
-    EXPECT_EQ(scene.step(), ResidencyStep{});
+    EXPECT_EQ(scene.step(), residency::ResidencyStep{});
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

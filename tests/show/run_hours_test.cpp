@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::hours;
@@ -16,15 +16,16 @@ std::chrono::seconds no_offset(std::chrono::sys_seconds /*time*/) {
     return seconds(0);
 }
 
-HoursSettings from_ten_to_six() {
-    HoursSettings settings;
+settings::HoursSettings from_ten_to_six() {
+    settings::HoursSettings settings;
     settings.weekdays.fill({{600, 1080}});
     return settings;
 }
 
 /// Both clocks advance together, unless the wall clock is set.
 struct Kiosk {
-    explicit Kiosk(const HoursSettings& settings = from_ten_to_six(), std::string_view missing_zone = {})
+    explicit Kiosk(const settings::HoursSettings& settings = from_ten_to_six(),
+                   std::string_view missing_zone = {})
         : run(settings, no_offset, missing_zone) {}
 
     void live(Nanoseconds length) {
@@ -113,7 +114,7 @@ TEST(RunHours, SaysThatTheZoneIsMissing) {
 }
 
 TEST(RunHours, WithoutATimetableSayNothing) {
-    Kiosk kiosk{HoursSettings()};
+    Kiosk kiosk{settings::HoursSettings()};
     kiosk.live(hours(30));
     EXPECT_EQ(kiosk.run.light(), 1.0);
     EXPECT_EQ(kiosk.run.status().state, "always");
@@ -121,4 +122,4 @@ TEST(RunHours, WithoutATimetableSayNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -15,9 +15,9 @@ namespace frustumscreen::synthetic {
 namespace {
 
 /// Rings at two levels: the coarse points are points of the fine level, so the box is the same.
-Pack two_levels() {
-    Pack pack = rings(24, 12);
-    const Pack coarse = rings(12, 4);
+pack::Pack two_levels() {
+    pack::Pack pack = rings(24, 12);
+    const pack::Pack coarse = rings(12, 4);
     pack.levels.insert(pack.levels.begin(), coarse.levels[0]);
     pack.levels[0].error = {4e-3F, 2e-2F, 4e-2F, 0.0F};
     pack.levels[1].error = {3e-4F, 1e-3F, 4e-3F, 0.0F};
@@ -32,32 +32,35 @@ Pack two_levels() {
 
 constexpr double deadline_ms = 16.0;
 /// A GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
-const std::vector<QualityLevelTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
+const std::vector<scene::QualityLevelTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
 
 struct Show {
-    Pack pack = two_levels();
+    pack::Pack pack = two_levels();
     Stage stage{320, 200};
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    Renderer renderer = Renderer::create(320, 200).value();
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(320, 200).value();
+    render::Renderer renderer = render::Renderer::create(320, 200).value();
     int frame = 0;
 
-    [[nodiscard]] Result<RunLevels> upload(const std::string& technique, double tolerance_mm = 0.28) {
-        Settings settings = steep_table();
-        const double pixel_m = pixel_on_prop_m(stage.prop, settings.projector.pinhole,
-                                               settings.projector.table_from_projector.inverse());
+    [[nodiscard]] Result<residency::RunLevels> upload(const std::string& technique,
+                                                      double tolerance_mm = 0.28) {
+        settings::Settings settings = settings::steep_table();
+        const double pixel_m = scene::pixel_on_prop_m(stage.prop, settings.projector.pinhole,
+                                                      settings.projector.table_from_projector.inverse());
         settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;
-        SceneRequest request;
+        scene::SceneRequest request;
         request.technique = technique;
         request.light = false;
-        TRY(const ScenePlan plan, plan_scene(settings, outline_of(pack), request));
-        Result<RunLevels> made = RunLevels::upload(pack, plan, technique, deadline_ms, renderer.store());
+        TRY(const scene::ScenePlan plan, scene::plan_scene(settings, pack::outline_of(pack), request));
+        Result<residency::RunLevels> made =
+            residency::RunLevels::upload(pack, plan, technique, deadline_ms, renderer.store());
         if (made) {
             EXPECT_TRUE(renderer.prepare(made->needs()));
         }
         return made;
     }
-    [[nodiscard]] RunLevels levels(const std::string& technique) {
-        RunLevels made = upload(technique).value();
+    [[nodiscard]] residency::RunLevels levels(const std::string& technique) {
+        residency::RunLevels made = upload(technique).value();
         made.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
         if (made.uses().size() > 1) {
             made.start(gpu_times); // independent of this machine's speed
@@ -65,20 +68,20 @@ struct Show {
         return made;
     }
     [[nodiscard]] MonotonicTime now() const { return MonotonicTime(std::chrono::milliseconds(20) * frame); }
-    DrawResult draw(RunLevels& levels) {
+    render::DrawResult draw(residency::RunLevels& levels) {
         ++frame;
-        const DrawResult drawn =
+        const render::DrawResult drawn =
             levels.draw(now(), stage.prop, stage.view(), renderer,
-                        {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
+                        {display->framebuffer(), display->buffer_age()}, render::Redraw::Changes);
         EXPECT_TRUE(display->present(now()));
         return drawn;
     }
-    Image8 picture(RunLevels& levels) {
+    image::Image8 picture(residency::RunLevels& levels) {
         draw(levels);
-        return read_colour(display->framebuffer(), 320, 200);
+        return render::read_colour(display->framebuffer(), 320, 200);
     }
     /// Draws frames of `ms` each, with a prop that moves slightly from frame to frame.
-    void play(RunLevels& levels, int frames, double ms) {
+    void play(residency::RunLevels& levels, int frames, double ms) {
         for (int k = 0; k < frames; ++k) {
             stage.table_from_prop.translation.x = 1e-4 * (frame % 2);
             draw(levels);
@@ -89,13 +92,13 @@ struct Show {
 
 TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
     Show show;
-    RunLevels levels = show.levels("auto");
+    residency::RunLevels levels = show.levels("auto");
     EXPECT_EQ(levels.uses().size(), 2U);
     show.play(levels, 100, 9.0);
     EXPECT_EQ(levels.state().level, "level1");
     EXPECT_EQ(levels.state().technique, "auto");
     EXPECT_EQ(levels.state().switches, 0U);
-    const double mm_per_box = 1e3 * place(show.pack, show.stage.prop).metres_per_box;
+    const double mm_per_box = 1e3 * pack::place(show.pack, show.stage.prop).metres_per_box;
     ASSERT_TRUE(levels.state().error);
     EXPECT_NEAR(levels.state().error->mean_mm, 6e-4 * mm_per_box,
                 5e-5 * mm_per_box); // along the rays, plus pixel rounding
@@ -104,16 +107,16 @@ TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
     show.draw(levels);
     EXPECT_FALSE(levels.state().error);
     // All levels are within a tolerance of 10 mm: the finer one is not even loaded.
-    const RunLevels coarse = show.upload("auto", 10.0).value();
+    const residency::RunLevels coarse = show.upload("auto", 10.0).value();
     EXPECT_EQ(coarse.uses().size(), 1U);
     EXPECT_EQ(coarse.state().level, "level0");
 }
 
 TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
     Show show;
-    RunLevels coarse = show.levels("level0");
-    RunLevels fine = show.levels("level1");
-    RunLevels levels = show.levels("auto");
+    residency::RunLevels coarse = show.levels("level0");
+    residency::RunLevels fine = show.levels("level1");
+    residency::RunLevels levels = show.levels("auto");
     show.play(levels, 20, 9.0);
     int frames = 0;
     for (; levels.state().level == "level1" && frames < 500; ++frames) {
@@ -123,13 +126,13 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
     ASSERT_LT(frames, 100); // two seconds of the test's clock
     // At rest in the middle of the fade: the fade continues by itself and ends at the coarse level.
     const int start = show.frame;
-    const Image8 to = show.picture(coarse);
-    const Image8 from = show.picture(fine);
+    const image::Image8 to = show.picture(coarse);
+    const image::Image8 from = show.picture(fine);
     show.frame = start;
     std::size_t last_coming = 0;
-    const int fade_frames = static_cast<int>(std::lround(level_fade_s / 0.02));
+    const int fade_frames = static_cast<int>(std::lround(residency::level_fade_s / 0.02));
     for (int k = 1; k <= fade_frames; ++k) {
-        const Image8 middle = show.picture(levels);
+        const image::Image8 middle = show.picture(levels);
         std::size_t coming = 0;
         for (std::size_t p = 0; p < middle.texels.size(); ++p) {
             ASSERT_TRUE(middle.texels[p] == from.texels[p] || middle.texels[p] == to.texels[p]) << k;
@@ -152,7 +155,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
 TEST(RunLevels, OfAFixedTechniqueStay) {
     Show show;
     for (const auto& [technique, level] : {std::pair("level0", "level0"), std::pair("finest", "level1")}) {
-        RunLevels levels = show.levels(technique);
+        residency::RunLevels levels = show.levels(technique);
         EXPECT_EQ(levels.uses().size(), 1U);
         show.play(levels, 200, 50.0 * deadline_ms);
         EXPECT_EQ(levels.state().level, level);
@@ -163,7 +166,7 @@ TEST(RunLevels, OfAFixedTechniqueStay) {
 
 TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
     Show show;
-    RunLevels levels = show.upload("auto").value();
+    residency::RunLevels levels = show.upload("auto").value();
     EXPECT_EQ(levels.uses().size(), 2U);
     EXPECT_GT(show.renderer.store().bytes(), 0U);
     levels.release(show.renderer.store());
@@ -176,7 +179,7 @@ TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
 
 TEST(RunLevels, CountGarbageTimes) {
     Show show;
-    RunLevels levels = show.levels("auto");
+    residency::RunLevels levels = show.levels("auto");
     show.play(levels, 50, std::nan(""));
     show.play(levels, 50, -1.0);
     EXPECT_EQ(levels.state().ignored_times, 100U);
@@ -188,7 +191,7 @@ TEST(RunLevels, AllocateNothingInAFrame) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
     Show show;
-    RunLevels levels = show.levels("auto");
+    residency::RunLevels levels = show.levels("auto");
     show.play(levels, 30, 9.0);
     show.play(levels, 60, 1.5 * deadline_ms); // the driver meets every state once: fine, fade, coarse
     ASSERT_EQ(levels.state().level, "level0");

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::seconds;
 
-class NoDisplay final : public Display {
+class NoDisplay final : public display::Display {
 public:
     [[nodiscard]] int width() const override { return 64; }
     [[nodiscard]] int height() const override { return 40; }
@@ -31,17 +31,18 @@ public:
 /// Stays in State::Fault from `fault_from` to `fault_until`.
 class FaultyShow final : public Show {
 public:
-    void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const TrackedState& /*on_table*/) override {
+    void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
+              const tracking::TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
-                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
+                                          const render::RenderTarget& /*target*/,
+                                          render::Redraw /*redraw*/) override {
         return {};
     }
     [[nodiscard]] ShowState state() const override {
         ShowState state;
-        state.state = now_ >= fault_from && now_ < fault_until ? State::Fault : State::View;
+        state.state = now_ >= fault_from && now_ < fault_until ? exhibit::State::Fault : exhibit::State::View;
         return state;
     }
     MonotonicTime fault_from, fault_until;
@@ -52,17 +53,17 @@ private:
 
 /// Runs on a clock that advances by one frame.
 Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start,
-                            VisitBook* visits = nullptr) {
+                            counts::VisitBook* visits = nullptr) {
     LoopOptions options;
     options.visits = visits;
     options.length = length;
     options.fast = true;
     NoDisplay display;
     StatusFile no_file{{.status_file = {}}};
-    ServiceManager manager;
-    const Journal journal("test");
+    service::ServiceManager manager;
+    const service::Journal journal("test");
     RunWatch watch(manager, journal);
-    return run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+    return run_loop(settings::Settings{}, display, inputs, show, options, no_file, watch, start);
 }
 
 Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
@@ -78,18 +79,20 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
 class UsedShow final : public Show {
 public:
     explicit UsedShow(MonotonicTime start) : start_(start) {}
-    void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const TrackedState& /*on_table*/) override {
+    void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
+              const tracking::TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
-                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
+                                          const render::RenderTarget& /*target*/,
+                                          render::Redraw /*redraw*/) override {
         return {};
     }
     [[nodiscard]] ShowState state() const override {
         const Nanoseconds run = now_ - start_;
         ShowState state;
-        state.state = run < seconds(10) || run >= seconds(50) ? State::Attract : State::View;
+        state.state =
+            run < seconds(10) || run >= seconds(50) ? exhibit::State::Attract : exhibit::State::View;
         state.artifact = "Amphora";
         state.language = "en";
         if (run >= seconds(10)) {
@@ -105,21 +108,22 @@ private:
 /// No visitor until `comes`; records the drift marks.
 class QuietShow final : public Show {
 public:
-    void set_mark(const std::optional<ShownMark>& mark) override {
+    void set_mark(const std::optional<drift::ShownMark>& mark) override {
         while_quiet += mark && now_ < comes ? 1 : 0;
         while_used += mark && now_ > comes ? 1 : 0;
     }
-    void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const TrackedState& /*on_table*/) override {
+    void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
+              const tracking::TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
-                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
+                                          const render::RenderTarget& /*target*/,
+                                          render::Redraw /*redraw*/) override {
         return {};
     }
     [[nodiscard]] ShowState state() const override {
         ShowState state;
-        state.state = now_ < comes ? State::Attract : State::View;
+        state.state = now_ < comes ? exhibit::State::Attract : exhibit::State::View;
         return state;
     }
     MonotonicTime comes;
@@ -134,8 +138,8 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     QuietShow show;
     show.comes = start + seconds(62);
     Inputs inputs;
-    inputs.drift = std::make_unique<DriftWatch>(
-        DriftSetUp{{{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
+    inputs.drift = std::make_unique<drift::DriftWatch>(
+        drift::DriftSetUp{{{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
     const Result<LoopResult> run = run_fast(show, inputs, seconds(150), start);
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_NEAR(show.while_quiet, 4 * 30, 8) << "four marks, half a second each, at 60 pictures a second";
@@ -149,11 +153,12 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
 /// Draws something new in every third frame.
 class TimedShow final : public Show {
 public:
-    void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-              const TrackedState& /*on_table*/) override {}
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& /*on_table*/,
-                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
-        DrawResult result;
+    void step(MonotonicTime /*now*/, std::span<const settings::Command> /*commands*/,
+              const tracking::TrackedState& /*on_table*/) override {}
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& /*on_table*/,
+                                          const render::RenderTarget& /*target*/,
+                                          render::Redraw /*redraw*/) override {
+        render::DrawResult result;
         result.drawn = ++frames % 3 == 0;
         if (result.drawn) {
             result.redrawn = {0, 0, 64, 40};
@@ -200,7 +205,7 @@ TEST(RunLoop, CountsVisits) {
     std::string folder = (std::filesystem::temp_directory_path() / "visits.XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder.data()), nullptr);
     {
-        VisitBook visits(folder, [](std::chrono::sys_seconds) { return seconds(0); });
+        counts::VisitBook visits(folder, [](std::chrono::sys_seconds) { return seconds(0); });
         const MonotonicTime start = monotonic_now();
         UsedShow show(start);
         Inputs inputs;
@@ -213,7 +218,7 @@ TEST(RunLoop, CountsVisits) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const Result<Bytes> bytes = read_file(entry.path());
         ASSERT_TRUE(bytes);
-        const Result<DayCounts> day = parse_day_counts(as_text(*bytes));
+        const Result<counts::DayCounts> day = counts::parse_day_counts(as_text(*bytes));
         ASSERT_TRUE(day) << day.error().message;
         count += day->all().visits;
         length_s += 1e-3 * static_cast<double>(day->artifacts.at("Amphora").ms);
@@ -224,4 +229,4 @@ TEST(RunLoop, CountsVisits) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

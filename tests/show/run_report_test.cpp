@@ -11,7 +11,7 @@
 #include <fstream>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
@@ -32,7 +32,7 @@ TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
 
 TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
     const std::string csv = frames_csv(
-        {{1000, 2.5F, ErrorEstimate{0.25, 0.5}, true, "Bowl, \"blue\"", "level2", "view", "en", {}}});
+        {{1000, 2.5F, scene::ErrorEstimate{0.25, 0.5}, true, "Bowl, \"blue\"", "level2", "view", "en", {}}});
     EXPECT_EQ(csv,
               "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told,p95_error_mm\n"
               "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\",view,en,,0.5000\n");
@@ -54,12 +54,12 @@ TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
-    const auto left_out = std::make_shared<const std::vector<PackLeftOut>>(
-        std::vector<PackLeftOut>{{"cat.fspack", "there is no such file"}});
-    const auto set = std::make_shared<SetStatus>();
+    const auto left_out = std::make_shared<const std::vector<library::PackLeftOut>>(
+        std::vector<library::PackLeftOut>{{"cat.fspack", "there is no such file"}});
+    const auto set = std::make_shared<status::SetStatus>();
     set->shown = 7;
     set->packs.emplace_back().title = "A cat";
-    set->newest = {8, TrialState::Bad, 2, "dog.fspack: it is damaged"};
+    set->newest = {8, library::TrialState::Bad, 2, "dog.fspack: it is damaged"};
     const std::time_t before = std::time(nullptr);
     {
         StatusFile status_file({.status_file = file});
@@ -88,7 +88,8 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     RunStatus hanging;
     hanging.set = set;
     hanging.library_hangs = true;
-    EXPECT_EQ(nlohmann::json::parse(status_json(hanging)).at("set").at("trouble"), library_hangs_sentence);
+    EXPECT_EQ(nlohmann::json::parse(status::status_json(hanging)).at("set").at("trouble"),
+              status::library_hangs_sentence);
     EXPECT_EQ(json.at("left_out")[0].at("reason"), "there is no such file");
     std::tm utc{};
     const std::string written_at = json.at("written_at");
@@ -121,7 +122,7 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     status.tracker_counts.clock_drift = 25e-6;
     stamp(status);
     const MonotonicTime after = monotonic_now();
-    const nlohmann::json json = nlohmann::json::parse(status_json(status));
+    const nlohmann::json json = nlohmann::json::parse(status::status_json(status));
     EXPECT_EQ(json.at("health"), "frozen");
     EXPECT_EQ(json.at("presented").at("code"), 7);
     EXPECT_EQ(json.at("presented").at("prop_m"), (std::vector{0.1, 0.2, 0.3}));
@@ -171,4 +172,4 @@ TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 /// A projector that shows a code given by the test.
-class FakeProjector final : public Display {
+class FakeProjector final : public display::Display {
 public:
     std::uint8_t code = 0;
     bool is_settled = true;
@@ -68,9 +68,9 @@ protected:
     }
 
     StatusFile nowhere{{.status_file = {}}};
-    NotifySocket socket;
-    std::optional<ServiceManager> manager;
-    Journal journal{"frustumscreen"};
+    service::NotifySocket socket;
+    std::optional<service::ServiceManager> manager;
+    service::Journal journal{"frustumscreen"};
     std::optional<RunWatch> watch;
     FakeProjector projector;
     Inputs inputs;
@@ -150,4 +150,4 @@ TEST_F(RunWatchTest, NotesEachChangeOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -10,13 +10,14 @@
 #include <atomic>
 #include <future>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 class ScreenshotTest : public ::testing::Test {
 protected:
     void SetUp() override {
-        Result<std::unique_ptr<SurfacelessDisplay>> made = SurfacelessDisplay::create(32, 16);
+        Result<std::unique_ptr<display::SurfacelessDisplay>> made =
+            display::SurfacelessDisplay::create(32, 16);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
     }
@@ -28,32 +29,33 @@ protected:
         ASSERT_TRUE(display->present(monotonic_now()));
     }
     /// Serves until a request on another thread is answered.
-    [[nodiscard]] Result<Image8> asked() {
-        std::future<Result<Image8>> answer = std::async(std::launch::async, [this]() -> Result<Image8> {
-            const Result<const Image8*> taken = screenshot.take(std::stop_token());
-            return taken ? Result<Image8>(**taken) : tl::unexpected<Error>(taken.error());
-        });
+    [[nodiscard]] Result<image::Image8> asked() {
+        std::future<Result<image::Image8>> answer =
+            std::async(std::launch::async, [this]() -> Result<image::Image8> {
+                const Result<const image::Image8*> taken = screenshot.take(std::stop_token());
+                return taken ? Result<image::Image8>(**taken) : tl::unexpected<Error>(taken.error());
+            });
         while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
             screenshot.serve(*display);
         }
         return answer.get();
     }
 
-    std::unique_ptr<SurfacelessDisplay> display;
+    std::unique_ptr<display::SurfacelessDisplay> display;
     Screenshot screenshot{32, 16};
 };
 
 TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
     const MonotonicTime start = monotonic_now();
     draw(true, false, true);
-    const Result<Image8> first = asked();
+    const Result<image::Image8> first = asked();
     ASSERT_TRUE(first) << first.error().message;
     EXPECT_EQ(first->at(0, 0), glm::u8vec4(255, 0, 255, 255));
     EXPECT_EQ(first->at(31, 15), glm::u8vec4(255, 0, 255, 255));
     draw(false, false, false);
-    ASSERT_TRUE(write_probe(display->framebuffer(), 77, {}));
-    ASSERT_EQ(read_probe(display->framebuffer()), std::uint8_t{77});
-    const Result<Image8> second = asked();
+    ASSERT_TRUE(render::write_probe(display->framebuffer(), 77, {}));
+    ASSERT_EQ(render::read_probe(display->framebuffer()), std::uint8_t{77});
+    const Result<image::Image8> second = asked();
     ASSERT_TRUE(second) << second.error().message;
     for (const glm::u8vec4& texel : second->texels) {
         ASSERT_EQ(texel, glm::u8vec4(0, 0, 0, 255));
@@ -62,9 +64,9 @@ TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
 }
 
 /// A display whose picture cannot be read until the test releases it.
-class HeldDisplay : public Display {
+class HeldDisplay : public display::Display {
 public:
-    explicit HeldDisplay(Display& held) : held_(held) {}
+    explicit HeldDisplay(display::Display& held) : held_(held) {}
     [[nodiscard]] int width() const override { return held_.width(); }
     [[nodiscard]] int height() const override { return held_.height(); }
     [[nodiscard]] unsigned framebuffer() const override {
@@ -80,7 +82,7 @@ public:
     }
 
 private:
-    Display& held_;
+    display::Display& held_;
     std::atomic<bool> may_go_ = false;
 };
 
@@ -97,7 +99,7 @@ TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
     }
     EXPECT_FALSE(answered.get());
     draw(false, true, false);
-    const Result<Image8> later = asked();
+    const Result<image::Image8> later = asked();
     ASSERT_TRUE(later);
     EXPECT_EQ(later->at(5, 5), glm::u8vec4(0, 255, 0, 255)) << "the picture of the copy that came too late";
 }
@@ -105,17 +107,17 @@ TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
 TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
     draw(true, true, true);
     screenshot.serve(*display); // without a request
-    const Result<const Image8*> none = screenshot.take(std::stop_token());
+    const Result<const image::Image8*> none = screenshot.take(std::stop_token());
     ASSERT_FALSE(none);
     EXPECT_EQ(
         none.error().message,
         "the exhibit hands out no picture; it hangs, is ending, or shows the staff what its camera sees");
     screenshot.serve(*display); // the request was withdrawn
     draw(false, true, false);
-    const Result<Image8> later = asked();
+    const Result<image::Image8> later = asked();
     ASSERT_TRUE(later);
     EXPECT_EQ(later->at(5, 5), glm::u8vec4(0, 255, 0, 255));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 
 /// A pack with an id of its own, as curators' packs have.
 Bytes pack_of(std::size_t number) {
-    Pack pack = numbered_pack(number);
+    pack::Pack pack = numbered_pack(number);
     pack.id = fmt::format("rings-{}", number);
-    return write_pack(pack).value();
+    return pack::write_pack(pack).value();
 }
 
 class SetSwitching : public ::testing::Test {
@@ -55,18 +55,18 @@ protected:
 
     /// A set of packs, by their numbers; `spoiled` is an index of a pack whose levels are damaged, but not its
     /// manifest.
-    InstalledSet put(std::uint64_t number, const std::vector<std::size_t>& packs,
-                     std::optional<std::size_t> spoiled = {}) {
-        InstalledSet set;
+    library::InstalledSet put(std::uint64_t number, const std::vector<std::size_t>& packs,
+                              std::optional<std::size_t> spoiled = {}) {
+        library::InstalledSet set;
         set.number = number;
         for (std::size_t k = 0; k < packs.size(); ++k) {
             Bytes bytes = pack_of(packs[k]);
             if (spoiled == k) {
                 bytes[bytes.size() / 2] ^= std::byte{0x40};
             }
-            InstalledPack pack;
-            pack.sha256 = sha256_hex(bytes);
-            pack.file = installed_file_name(pack.sha256);
+            library::InstalledPack pack;
+            pack.sha256 = pack::sha256_hex(bytes);
+            pack.file = library::installed_file_name(pack.sha256);
             pack.id = fmt::format("rings-{}", packs[k]);
             pack.title = fmt::format("Rings {}", packs[k]);
             pack.bytes = bytes.size();
@@ -75,40 +75,41 @@ protected:
         }
         return set;
     }
-    void install(const InstalledSet& set, const std::optional<InstalledSet>& last_good = {}) {
-        SetFile file;
+    void install(const library::InstalledSet& set,
+                 const std::optional<library::InstalledSet>& last_good = {}) {
+        library::SetFile file;
         file.choice = {set, last_good};
-        ASSERT_TRUE(write_file(folder / set_file_name, as_bytes(write_set_file(file))));
+        ASSERT_TRUE(write_file(folder / library::set_file_name, as_bytes(library::write_set_file(file))));
     }
-    [[nodiscard]] std::unique_ptr<ArtifactShow> create(const ArtifactShowOptions& each) {
-        return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0}).value();
+    [[nodiscard]] std::unique_ptr<show::ArtifactShow> create(const show::ArtifactShowOptions& each) {
+        return show::ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0}).value();
     }
     void start() {
-        InstalledShow installed =
-            show_installed_set(settings, options, Trust::Newest, [&](const ArtifactShowOptions& each) {
-                return ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
+        show::InstalledShow installed = show::show_installed_set(
+            settings, options, show::Trust::Newest, [&](const show::ArtifactShowOptions& each) {
+                return show::ArtifactShow::create(settings, devices, each, {display->framebuffer(), 0});
             });
         ASSERT_TRUE(installed.show);
         show = std::move(installed.show);
-        exhibit.emplace(make_exhibit(settings, *show, now));
+        exhibit.emplace(show::make_exhibit(settings, *show, now));
         switches = 0;
-        sets.emplace(*show,
-                     std::make_unique<LibraryWatch>(
-                         settings, LibraryWatch::SetUp{folder, show->set_options(), show->expected_frames(),
-                                                       std::move(installed.start), show->set().number,
-                                                       milliseconds(2), milliseconds(300)}));
+        sets.emplace(*show, std::make_unique<show::LibraryWatch>(
+                                settings, show::LibraryWatch::SetUp{
+                                              folder, show->set_options(), show->expected_frames(),
+                                              std::move(installed.start), show->set().number, milliseconds(2),
+                                              milliseconds(300)}));
     }
-    void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
+    void step(std::span<const settings::Command> commands = {}, Nanoseconds length = milliseconds(40)) {
         now += length;
-        TrackedState tracked_state;
+        tracking::TrackedState tracked_state;
         tracked_state.prop_known = true;
         tracked_state.eye_m = settings.eye.default_m;
         switches += sets->step(now, shown.state, *exhibit) ? 1U : 0U;
         exhibit->note(show->artifacts());
         shown = exhibit->step(now, commands, tracked_state);
         sets->report(now, shown.state);
-        static_cast<void>(
-            show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
+        static_cast<void>(show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 0},
+                                     render::Redraw::Everything));
     }
     void visit() {
         step(next);
@@ -145,80 +146,85 @@ protected:
     bool await_switches(std::uint64_t number) {
         return await([&] { return switches >= number; });
     }
-    [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
+    [[nodiscard]] image::Image8 picture() const {
+        return render::read_colour(display->framebuffer(), 320, 200);
+    }
     /// The picture of an exhibit that was started with these packs alone.
-    Image8 picture_of(const std::vector<std::size_t>& packs) {
-        ArtifactShowOptions own = options;
+    image::Image8 picture_of(const std::vector<std::size_t>& packs) {
+        show::ArtifactShowOptions own = options;
         own.other_sets = false;
-        for (const InstalledPack& pack : put(1000, packs).packs) {
+        for (const library::InstalledPack& pack : put(1000, packs).packs) {
             own.packs.push_back(folder / pack.file);
         }
-        const std::unique_ptr<ArtifactShow> alone = create(own);
-        Exhibit its = make_exhibit(settings, *alone, now);
+        const std::unique_ptr<show::ArtifactShow> alone = create(own);
+        exhibit::Exhibit its = show::make_exhibit(settings, *alone, now);
         for (int k = 0; k < 30; ++k) {
             now += milliseconds(40);
-            TrackedState tracked_state;
+            tracking::TrackedState tracked_state;
             tracked_state.prop_known = true;
             tracked_state.eye_m = settings.eye.default_m;
-            const Presentation presentation = its.step(now, {}, tracked_state);
+            const exhibit::Presentation presentation = its.step(now, {}, tracked_state);
             static_cast<void>(alone->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
-                                          Redraw::Everything));
+                                          render::Redraw::Everything));
         }
         return picture();
     }
-    [[nodiscard]] SetVerdict verdict() const { return read_verdict(folder).value_or(SetVerdict{}); }
+    [[nodiscard]] library::SetVerdict verdict() const {
+        return show::read_verdict(folder).value_or(library::SetVerdict{});
+    }
 
     fs::path folder;
-    Settings settings = steep_table();
-    ArtifactShowOptions options;
-    DevicePlan devices;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(320, 200).value();
-    std::unique_ptr<ArtifactShow> show;
-    std::optional<Exhibit> exhibit;
-    std::optional<SetSwitch> sets;
+    settings::Settings settings = settings::steep_table();
+    show::ArtifactShowOptions options;
+    scene::DevicePlan devices;
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(320, 200).value();
+    std::unique_ptr<show::ArtifactShow> show;
+    std::optional<exhibit::Exhibit> exhibit;
+    std::optional<show::SetSwitch> sets;
     std::uint64_t switches = 0; ///< of sets, since the start
-    Presentation shown;
+    exhibit::Presentation shown;
     MonotonicTime now{seconds(100)};
-    const std::array<Command, 1> next{Command::NextArtifact};
-    const std::array<Command, 1> previous{Command::PreviousArtifact};
+    const std::array<settings::Command, 1> next{settings::Command::NextArtifact};
+    const std::array<settings::Command, 1> previous{settings::Command::PreviousArtifact};
 };
 
 TEST_F(SetSwitching, PacksOfAKeyThatDoesNotCountAnyMoreAreInTheStatus) {
-    const SecretKey museum = SecretKey::make();
-    const SecretKey other = SecretKey::make();
-    const auto signed_by = [](const SecretKey& key, const Bytes& pack) {
-        Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
+    const pack::SecretKey museum = pack::SecretKey::make();
+    const pack::SecretKey other = pack::SecretKey::make();
+    const auto signed_by = [](const pack::SecretKey& key, const Bytes& pack) {
+        Result<pack::ZipReader> zip = pack::ZipReader::open(pack);
         const Bytes manifest = zip->read(zip->entries().front()).value();
-        return with_signature(pack, key.sign(manifest, "serial:1")).value();
+        return pack::with_signature(pack, key.sign(manifest, "serial:1")).value();
     };
-    InstalledSet set = put(1, {1, 2});
+    library::InstalledSet set = put(1, {1, 2});
     for (std::size_t k = 0; k < 2; ++k) {
         const Bytes bytes = signed_by(k == 0 ? museum : other, pack_of(k + 1));
-        set.packs[k].sha256 = sha256_hex(bytes);
-        set.packs[k].file = installed_file_name(set.packs[k].sha256);
+        set.packs[k].sha256 = pack::sha256_hex(bytes);
+        set.packs[k].file = library::installed_file_name(set.packs[k].sha256);
         set.packs[k].bytes = bytes.size();
         ASSERT_TRUE(write_file(folder / set.packs[k].file, bytes));
     }
     install(set);
     const std::chrono::sys_days today = std::chrono::sys_days(std::chrono::year(2026) / 11 / 27);
-    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "") << "no key is asked for";
+    EXPECT_EQ(show::packs_of_ended_keys(folder, set, settings, today), "") << "no key is asked for";
     settings.exhibit.keys = {{"museum", museum.public_key(), std::nullopt}};
-    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "rings-2");
+    EXPECT_EQ(show::packs_of_ended_keys(folder, set, settings, today), "rings-2");
     settings.exhibit.keys.push_back({"other", other.public_key(), today});
-    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "") << "its last day";
-    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today + std::chrono::days(1)), "rings-2");
+    EXPECT_EQ(show::packs_of_ended_keys(folder, set, settings, today), "") << "its last day";
+    EXPECT_EQ(show::packs_of_ended_keys(folder, set, settings, today + std::chrono::days(1)), "rings-2");
     settings.exhibit.keys.pop_back();
     start();
     ASSERT_TRUE(await([&] { return sets->status() && sets->status()->of_ended_keys == "rings-2"; }));
 }
 
 TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
-    const Image8 expected = picture_of({4});
-    const InstalledSet one = put(1, {0, 1});
+    const image::Image8 expected = picture_of({4});
+    const library::InstalledSet one = put(1, {0, 1});
     install(one);
     start();
     visit();
-    const Image8 before = picture();
+    const image::Image8 before = picture();
     EXPECT_NE(before.texels, expected.texels);
     const std::uint64_t gpu_bytes = show->use().gpu_bytes;
 
@@ -231,7 +237,7 @@ TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
     rest(); // the old set is released frame by frame
     EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
     EXPECT_LT(show->use().gpu_bytes, gpu_bytes);
-    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (library::SetVerdict{2, library::TrialState::Trying, 1, ""}));
     ASSERT_TRUE(await([&] { return sets->status() && sets->status()->shown == 2; }));
     EXPECT_TRUE(sets->status()->on_trial);
     ASSERT_EQ(sets->status()->packs.size(), 1U);
@@ -240,8 +246,8 @@ TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
 
 TEST_F(SetSwitching, ANewSetsPicturesLieOnTheTableAsAfterAStart) {
     settings.exhibit.table_pictures = true;
-    const Image8 expected = picture_of({3, 4, 5});
-    const InstalledSet one = put(1, {0});
+    const image::Image8 expected = picture_of({3, 4, 5});
+    const library::InstalledSet one = put(1, {0});
     install(one);
     start();
     visit();
@@ -260,7 +266,7 @@ TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
     step(next);
     rest();
     ASSERT_EQ(exhibit->chosen(), 1U);
-    const Image8 before = picture();
+    const image::Image8 before = picture();
     install(put(2, {3, 4, 1}), put(1, {0, 1, 2}));
     ASSERT_TRUE(await_switches(1));
     rest();
@@ -269,7 +275,7 @@ TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
 }
 
 TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
-    const InstalledSet one = put(1, {0});
+    const library::InstalledSet one = put(1, {0});
     install(put(2, {1}), one);
     start();
     visit();
@@ -277,36 +283,36 @@ TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
         step({}, seconds(1));
         std::this_thread::sleep_for(milliseconds(10));
     }
-    EXPECT_EQ(verdict().state, TrialState::Trying);
-    ASSERT_TRUE(await([&] { return verdict().state == TrialState::Good; }));
+    EXPECT_EQ(verdict().state, library::TrialState::Trying);
+    ASSERT_TRUE(await([&] { return verdict().state == library::TrialState::Good; }));
     EXPECT_EQ(switches, 0U);
 }
 
 TEST_F(SetSwitching, ASetWithABrokenPackIsNeverShown) {
-    const InstalledSet one = put(1, {0});
+    const library::InstalledSet one = put(1, {0});
     install(one);
     start();
     visit();
-    const InstalledSet broken = put(2, {3, 4});
+    const library::InstalledSet broken = put(2, {3, 4});
     fs::resize_file(folder / broken.packs[1].file, 100);
     install(broken, one);
-    ASSERT_TRUE(await([&] { return verdict().number == 2 && verdict().state == TrialState::Bad; }));
+    ASSERT_TRUE(await([&] { return verdict().number == 2 && verdict().state == library::TrialState::Bad; }));
     rest();
     EXPECT_NE(verdict().reason.find(broken.packs[1].file), std::string::npos) << verdict().reason;
     EXPECT_EQ(switches, 0U);
     EXPECT_EQ(show->set().number, 1U);
-    const InstalledSet good = put(3, {4});
+    const library::InstalledSet good = put(3, {4});
     install(good, one);
     EXPECT_TRUE(await_switches(1));
     EXPECT_EQ(show->set().number, 3U);
 }
 
 TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
-    const InstalledSet one = put(1, {0});
+    const library::InstalledSet one = put(1, {0});
     install(one);
     start();
     visit();
-    const Image8 before = picture();
+    const image::Image8 before = picture();
     install(put(2, {3, 4}, 1), one); // the second pack's levels are read on request
     ASSERT_TRUE(await_switches(1));
     ASSERT_TRUE(await_switches(2));
@@ -314,7 +320,7 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(picture().texels, before.texels);
     EXPECT_EQ(verdict().number, 2U);
-    EXPECT_EQ(verdict().state, TrialState::Bad);
+    EXPECT_EQ(verdict().state, library::TrialState::Bad);
     EXPECT_NE(verdict().reason.find("damaged"), std::string::npos) << verdict().reason;
 }
 
@@ -323,7 +329,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     const fs::path left = folder / "shown/verdict.json.part4194305"; // of a process that does not exist
     fs::create_directory(left.parent_path());
     ASSERT_TRUE(write_file(left, {}));
-    for (int begun = 1; begun <= max_starts; ++begun) {
+    for (int begun = 1; begun <= library::max_starts; ++begun) {
         start();
         step();
         EXPECT_EQ(show->set().number, 2U);
@@ -333,7 +339,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     }
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().state, TrialState::Bad);
+    EXPECT_EQ(verdict().state, library::TrialState::Bad);
     EXPECT_FALSE(fs::exists(left));
     step();
     rest();
@@ -341,29 +347,29 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
 }
 
 TEST_F(SetSwitching, AStartWithABrokenFirstSetShowsTheSettingsPacksOrWhatIsLeftOfIt) {
-    const InstalledSet broken = put(1, {3, 4});
+    const library::InstalledSet broken = put(1, {3, 4});
     const fs::path own = folder / put(0, {0}).packs[0].file;
     fs::remove(folder / broken.packs[0].file);
-    install(broken, InstalledSet());
+    install(broken, library::InstalledSet());
     settings.exhibit.packs = {own};
     start();
     EXPECT_EQ(show->set().number, 0U);
-    EXPECT_EQ(verdict().state, TrialState::Bad);
+    EXPECT_EQ(verdict().state, library::TrialState::Bad);
     sets.reset();
     show.reset();
     settings.exhibit.packs.clear();
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().state, TrialState::Bad);
+    EXPECT_EQ(verdict().state, library::TrialState::Bad);
 }
 
 TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
-    const InstalledSet broken = put(2, {3, 4});
+    const library::InstalledSet broken = put(2, {3, 4});
     fs::remove(folder / broken.packs[0].file);
     install(broken, put(1, {0}));
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().state, TrialState::Bad);
+    EXPECT_EQ(verdict().state, library::TrialState::Bad);
 }
 
 TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
@@ -377,40 +383,40 @@ TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
     fs::remove(folder / "shown");
     ASSERT_TRUE(await_switches(1));
     EXPECT_EQ(show->set().number, 2U);
-    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (library::SetVerdict{2, library::TrialState::Trying, 1, ""}));
     ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
 TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
     install(put(2, {3}), put(1, {0}));
-    InstalledShow none =
-        show_installed_set(settings, options, Trust::Newest,
-                           [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
-                               return fail(ErrorKind::DeviceLost, "test.device", "the driver has no memory");
-                           });
+    show::InstalledShow none = show::show_installed_set(
+        settings, options, show::Trust::Newest,
+        [](const show::ArtifactShowOptions&) -> Result<std::unique_ptr<show::ArtifactShow>> {
+            return fail(ErrorKind::DeviceLost, "test.device", "the driver has no memory");
+        });
     EXPECT_FALSE(none.show);
-    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (library::SetVerdict{2, library::TrialState::Trying, 1, ""}));
     start();
     EXPECT_EQ(show->set().number, 2U);
 }
 
 TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
-    const InstalledSet one = put(1, {0});
+    const library::InstalledSet one = put(1, {0});
     install(one);
     start();
     sets.reset();
     settings.exhibit.words = folder / "none.fswords"; // missing, which gives a note
     settings.exhibit.guidance = true;
-    LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
-                                    start_library(folder), 1, milliseconds(2)});
+    show::LibraryWatch library(settings, {folder, show->set_options(), show->expected_frames(),
+                                          show::start_library(folder), 1, milliseconds(2)});
     ::testing::internal::CaptureStderr();
     install(put(2, {3}), one);
-    std::unique_ptr<ShownSet> coming;
+    std::unique_ptr<show::ShownSet> coming;
     ASSERT_TRUE(await_there([&] { return (coming = library.take()) != nullptr; }));
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("signs without words"), std::string::npos);
     coming->trouble = "the driver has no memory";
     ASSERT_TRUE(library.give_back(coming));
-    ASSERT_TRUE(await_there([&] { return verdict().state == TrialState::Bad; }));
+    ASSERT_TRUE(await_there([&] { return verdict().state == library::TrialState::Bad; }));
     EXPECT_FALSE(await_there([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 
@@ -418,8 +424,8 @@ TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
     install(put(1, {0}));
     start();
     visit();
-    const Bytes good = read_file(folder / set_file_name).value();
-    ASSERT_TRUE(write_file(folder / set_file_name, std::span(good).first(good.size() / 2)));
+    const Bytes good = read_file(folder / library::set_file_name).value();
+    ASSERT_TRUE(write_file(folder / library::set_file_name, std::span(good).first(good.size() / 2)));
     ASSERT_TRUE(await([&] { return sets->status() && !sets->status()->trouble.empty(); }));
     EXPECT_EQ(show->set().number, 1U);
     install(put(2, {1}), put(1, {0}));
@@ -428,13 +434,13 @@ TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
 }
 
 TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
-    std::array<InstalledSet, 2> both{put(1, {0, 1}), put(2, {2, 3})};
+    std::array<library::InstalledSet, 2> both{put(1, {0, 1}), put(2, {2, 3})};
     install(both[0]);
     start();
     visit();
     std::array<std::uint64_t, 2> gpu_bytes{}, loaded_bytes{};
     for (std::uint64_t number = 2; number < 52; ++number) {
-        InstalledSet& set = both.at(number % 2);
+        library::InstalledSet& set = both.at(number % 2);
         set.number = number;
         install(set);
         ASSERT_TRUE(await_switches(number - 1)) << number;
@@ -451,7 +457,7 @@ TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
 }
 
 TEST_F(SetSwitching, TheSetsOwnLineTakesThePlaceOfTheInvitation) {
-    InstalledSet set = put(1, {0});
+    library::InstalledSet set = put(1, {0});
     set.attract = {{"de", "Bitte anfassen"}, {"en", "Please touch"}};
     install(set);
     start();
@@ -460,7 +466,7 @@ TEST_F(SetSwitching, TheSetsOwnLineTakesThePlaceOfTheInvitation) {
     ASSERT_EQ(show->words()[0].texts.size(), 1U);
     EXPECT_EQ(show->words()[0].texts[0].key, "attract_line");
     step();
-    ASSERT_EQ(shown.state, State::Attract);
+    ASSERT_EQ(shown.state, exhibit::State::Attract);
     rest();
     EXPECT_TRUE(shown.advice);
     EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);

@@ -16,13 +16,13 @@
 namespace frustumscreen::synthetic {
 
 /// Rings at two levels, white except for one channel that encodes the number.
-inline Pack numbered_pack(std::size_t number) {
-    Pack pack = rings(24, 12);
-    const Pack coarse = rings(12, 4);
+inline pack::Pack numbered_pack(std::size_t number) {
+    pack::Pack pack = rings(24, 12);
+    const pack::Pack coarse = rings(12, 4);
     pack.levels.insert(pack.levels.begin(), coarse.levels[0]);
     pack.levels[0].error = {4e-3F, 2e-2F, 4e-2F, 0.0F};
     pack.levels[1].error = {3e-4F, 1e-3F, 4e-3F, 0.0F};
-    pack.textures[0] = Image8(64, 64, {250, 250, static_cast<std::uint8_t>(20 * number), 255});
+    pack.textures[0] = image::Image8(64, 64, {250, 250, static_cast<std::uint8_t>(20 * number), 255});
     pack.title = fmt::format("Rings {}", number);
     complete(pack);
     pack.samples = 1;
@@ -36,7 +36,7 @@ public:
         std::filesystem::create_directories(folder_);
         for (std::size_t k = 0; k < count; ++k) {
             files_.push_back(folder_ / fmt::format("{}.fspack", k));
-            static_cast<void>(write_file(files_.back(), write_pack(numbered_pack(k)).value()));
+            static_cast<void>(write_file(files_.back(), pack::write_pack(numbered_pack(k)).value()));
         }
     }
     ~ShownPacks() {
@@ -54,9 +54,9 @@ public:
         bytes[name + 32] ^= std::byte{0x40}; // inside the data that follow the name
         static_cast<void>(write_file(files_[number], bytes));
     }
-    [[nodiscard]] KnownArtifact known(std::size_t number) const {
-        KnownArtifact known{files_[number], outline_of(numbered_pack(number)), {}};
-        known.plan = plan_scene(steep_table(), known.outline, {}).value();
+    [[nodiscard]] residency::KnownArtifact known(std::size_t number) const {
+        residency::KnownArtifact known{files_[number], pack::outline_of(numbered_pack(number)), {}};
+        known.plan = scene::plan_scene(settings::steep_table(), known.outline, {}).value();
         return known;
     }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 
 using namespace frustumscreen;
+using namespace frustumscreen::show;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -20,40 +21,41 @@ Bytes fixture(const std::string& name) {
     return read_file(source_dir() + "/tests/sound/fixtures/" + name).value_or(Bytes());
 }
 
-SharedRecording recording_of(const std::string& name) {
-    return std::make_shared<const PromptRecording>(
-        PromptRecording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
+residency::SharedRecording recording_of(const std::string& name) {
+    return std::make_shared<const residency::PromptRecording>(
+        residency::PromptRecording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
 }
 
 /// A stage with one word of advice and one description; the second artifact has none.
 class SpeakingStage final : public ExhibitStage {
 public:
-    DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&, const RenderTarget&,
-                    Redraw) override {
+    render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
+                            const render::RenderTarget&, render::Redraw) override {
         return {};
     }
-    [[nodiscard]] ShowState state(const Presentation&) const override { return {"", "", {}}; }
+    [[nodiscard]] ShowState state(const exhibit::Presentation&) const override { return {"", "", {}}; }
     [[nodiscard]] bool speaks() const override { return true; }
-    [[nodiscard]] SharedRecording recording(const WordIndex& index) const override {
+    [[nodiscard]] residency::SharedRecording recording(const exhibit::WordIndex& index) const override {
         EXPECT_LT(index.text, words);
         return word;
     }
-    [[nodiscard]] SharedRecording recording(const DescriptionIndex& index) const override {
+    [[nodiscard]] residency::SharedRecording
+    recording(const exhibit::DescriptionIndex& index) const override {
         return index.artifact == 0 ? description : nullptr;
     }
     std::size_t words = 2;
-    SharedRecording word = recording_of("tone.opus");
-    SharedRecording description = recording_of("speech.opus");
+    residency::SharedRecording word = recording_of("tone.opus");
+    residency::SharedRecording description = recording_of("speech.opus");
 };
 
 class Speaking : public ::testing::Test {
 protected:
-    void SetUp() override { speaker.begin(PromptReader::Answer::Always); }
+    void SetUp() override { speaker.begin(residency::PromptReader::Answer::Always); }
     void frame() {
         speaker.step(presentation, stage);
         presentation.says.reset();
         presentation.falls_silent = false;
-        std::vector<std::int16_t> block(sample_rate_hz / 50);
+        std::vector<std::int16_t> block(sound::sample_rate_hz / 50);
         mixer.mix(block); // as WavSound: first the samples that are due, then the new request
         mixer.follow(speaker.request());
         heard.insert(heard.end(), block.begin(), block.end());
@@ -64,39 +66,40 @@ protected:
             frame();
         }
     }
-    void tell() { presentation.tells = presentation.prepares = DescriptionIndex{}; }
+    void tell() { presentation.tells = presentation.prepares = exhibit::DescriptionIndex{}; }
     void leave(bool at_pause) {
         presentation.tells.reset();
         presentation.leaves = at_pause;
     }
     [[nodiscard]] bool sounds() const {
-        return std::any_of(heard.end() - sample_rate_hz / 50, heard.end(),
+        return std::any_of(heard.end() - sound::sample_rate_hz / 50, heard.end(),
                            [](std::int16_t s) { return s != 0; });
     }
 
     SpeakingStage stage;
     Speaker speaker;
-    Mixer mixer;
-    Presentation presentation;
+    sound::Mixer mixer;
+    exhibit::Presentation presentation;
     std::vector<std::int16_t> heard;
 };
 
 } // namespace
 
 TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
-    const Prompt truth = *read_opus(fixture("speech.opus"));
+    const sound::Prompt truth = *sound::read_opus(fixture("speech.opus"));
     frame();
     tell();
     frame();
-    EXPECT_EQ(speaker.narration(), (SpeechProgress{SpeechProgress::State::Coming, 0}));
+    EXPECT_EQ(speaker.narration(), (exhibit::SpeechProgress{exhibit::SpeechProgress::State::Coming, 0}));
     frames(3);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard);
-    while (speaker.narration().state == SpeechProgress::State::Heard) {
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Heard);
+    while (speaker.narration().state == exhibit::SpeechProgress::State::Heard) {
         frame();
     }
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
-    const std::size_t begin = 2 * sample_rate_hz / 50;
-    for (std::size_t k = Mixer::fade_samples; k + Mixer::fade_samples < truth.samples.size(); ++k) {
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Over);
+    const std::size_t begin = 2 * sound::sample_rate_hz / 50;
+    for (std::size_t k = sound::Mixer::fade_samples; k + sound::Mixer::fade_samples < truth.samples.size();
+         ++k) {
         ASSERT_EQ(heard[begin + k], truth.samples[k]) << k;
     }
     frames(200);
@@ -107,7 +110,7 @@ TEST_F(Speaking, its_portions_follow_what_is_heard) {
     tell();
     frames(3);
     std::size_t portion = 0;
-    while (speaker.narration().state == SpeechProgress::State::Heard) {
+    while (speaker.narration().state == exhibit::SpeechProgress::State::Heard) {
         EXPECT_GE(speaker.narration().portion, portion);
         portion = speaker.narration().portion;
         frame();
@@ -122,15 +125,16 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     leave(false);
     frames(3);
     EXPECT_FALSE(sounds());
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Over);
 
     tell();
     frames(10);
     leave(true);
     frame();
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard) << "not in the middle of a word";
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Heard)
+        << "not in the middle of a word";
     frames(200);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Over);
 
     tell();
     frames(10);
@@ -138,21 +142,22 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     frame();
     leave(false); // no pause came in time
     frames(3);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Over);
 }
 
 TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
-    presentation.prepares_word = WordIndex{};
+    presentation.prepares_word = exhibit::WordIndex{};
     tell();
     frames(20);
     leave(false);
-    presentation.says = WordIndex{};
+    presentation.says = exhibit::WordIndex{};
     frames(5);
-    const Prompt truth = *read_opus(fixture("tone.opus"));
+    const sound::Prompt truth = *sound::read_opus(fixture("tone.opus"));
     EXPECT_TRUE(speaker.speaks());
-    EXPECT_NE(speaker.narration().state, SpeechProgress::State::Heard);
+    EXPECT_NE(speaker.narration().state, exhibit::SpeechProgress::State::Heard);
     frames(100);
-    const std::size_t from = heard.size() - std::min<std::size_t>(heard.size(), 105 * sample_rate_hz / 50);
+    const std::size_t from =
+        heard.size() - std::min<std::size_t>(heard.size(), 105 * sound::sample_rate_hz / 50);
     const auto at = std::search(heard.begin() + static_cast<std::ptrdiff_t>(from), heard.end(),
                                 truth.samples.begin() + 1000, truth.samples.begin() + 3000);
     EXPECT_NE(at, heard.end()) << "the advice is not there";
@@ -163,27 +168,27 @@ TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_descripti
     frames(20);
     presentation.falls_silent = true;
     frames(10);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard)
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Heard)
         << "silence for advice is none for the description";
 }
 
 TEST_F(Speaking, what_has_no_sound_is_silent) {
-    presentation.tells = presentation.prepares = DescriptionIndex{1, 0};
+    presentation.tells = presentation.prepares = exhibit::DescriptionIndex{1, 0};
     frames(2);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Silent);
-    stage.description =
-        std::make_shared<const PromptRecording>(PromptRecording{"bad", Bytes(9), {}, "", "", {}});
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Silent);
+    stage.description = std::make_shared<const residency::PromptRecording>(
+        residency::PromptRecording{"bad", Bytes(9), {}, "", "", {}});
     ::testing::internal::CaptureStderr();
     tell();
     frames(2);
-    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Silent);
+    EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Silent);
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("bad is silent: "), std::string::npos);
 }
 
 TEST_F(Speaking, a_step_allocates_nothing) {
-    presentation.prepares = DescriptionIndex{};
-    presentation.prepares_word = WordIndex{};
-    presentation.says = WordIndex{};
+    presentation.prepares = exhibit::DescriptionIndex{};
+    presentation.prepares_word = exhibit::WordIndex{};
+    presentation.says = exhibit::WordIndex{};
     frames(2);
     tell();
     frames(2); // both recordings are decoded
@@ -193,7 +198,7 @@ TEST_F(Speaking, a_step_allocates_nothing) {
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 300; ++k) {
         k % 100 < 50 ? tell() : leave(k % 3 == 0);
-        presentation.says = k % 40 == 0 ? std::optional(WordIndex{}) : std::nullopt;
+        presentation.says = k % 40 == 0 ? std::optional(exhibit::WordIndex{}) : std::nullopt;
         speaker.step(presentation, stage);
         mixer.follow(speaker.request());
         speaker.hear(mixer.report(Nanoseconds(0)));
@@ -202,17 +207,17 @@ TEST_F(Speaking, a_step_allocates_nothing) {
 }
 
 TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_once) {
-    const SharedRecording loud = recording_of("tone.opus");
-    PromptRecording soft_one = *loud;
+    const residency::SharedRecording loud = recording_of("tone.opus");
+    residency::PromptRecording soft_one = *loud;
     soft_one.gain_db = -12.0;
-    const SharedRecording soft = std::make_shared<const PromptRecording>(soft_one);
+    const residency::SharedRecording soft = std::make_shared<const residency::PromptRecording>(soft_one);
     tell();
     frames(10);
-    while (speaker.narration().state == SpeechProgress::State::Heard) {
+    while (speaker.narration().state == exhibit::SpeechProgress::State::Heard) {
         EXPECT_FALSE(speaker.step(presentation, stage, loud));
         frame();
     }
-    const auto loudest_of = [&](const SharedRecording& recording) {
+    const auto loudest_of = [&](const residency::SharedRecording& recording) {
         const std::size_t from = heard.size();
         int steps = 0;
         while (!speaker.step(presentation, stage, recording) && steps < 100) {
@@ -231,8 +236,8 @@ TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_o
 
 TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) {
     Speaker waiting;
-    waiting.begin(PromptReader::Answer::WhenReady);
-    presentation.prepares_word = presentation.says = WordIndex{0, 1};
+    waiting.begin(residency::PromptReader::Answer::WhenReady);
+    presentation.prepares_word = presentation.says = exhibit::WordIndex{0, 1};
     waiting.step(presentation, stage);
     presentation = {};
     stage.words = 1;
@@ -247,7 +252,7 @@ TEST_F(Speaking, a_description_ends_with_its_set) {
     speaker.forget();
     tell(); // the new set's description, with the same index
     stage.description = recording_of("tone.opus");
-    const Prompt truth = *read_opus(fixture("tone.opus"));
+    const sound::Prompt truth = *sound::read_opus(fixture("tone.opus"));
     frames(20);
     EXPECT_NE(
         std::search(heard.begin(), heard.end(), truth.samples.begin() + 1000, truth.samples.begin() + 3000),
@@ -268,7 +273,7 @@ TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
     frames(3);
     EXPECT_FALSE(sounds());
     presentation.staff_tones = 1;
-    const SharedPrompt tone = test_tone();
+    const sound::SharedPrompt tone = test_tone();
     // The end of its first note and the beginning of its second, 0.4 s after its start; a note repeats itself.
     const std::vector<std::int16_t> part(tone->samples.begin() + 18200, tone->samples.begin() + 20200);
     const auto heard_times = [&] {
@@ -301,7 +306,7 @@ TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
 
 /// ITU-R BS.1770: a sine of 1 kHz with an amplitude of -20 dBFS has -23 LUFS.
 TEST(TestTone, is_as_loud_as_speech_and_begins_and_ends_softly) {
-    const SharedPrompt tone = test_tone();
+    const sound::SharedPrompt tone = test_tone();
     double squares = 0.0;
     int most = 0, largest_step = 0;
     for (std::size_t k = 0; k < tone->samples.size(); ++k) {
@@ -315,5 +320,5 @@ TEST(TestTone, is_as_loud_as_speech_and_begins_and_ends_softly) {
     EXPECT_EQ(tone->samples.front(), 0);
     EXPECT_EQ(tone->samples.back(), 0);
     EXPECT_LT(largest_step, 900) << "a click; 2 kHz goes by 858 at most";
-    EXPECT_EQ(tone->samples.size(), sample_rate_hz * 12U / 10U);
+    EXPECT_EQ(tone->samples.size(), sound::sample_rate_hz * 12U / 10U);
 }

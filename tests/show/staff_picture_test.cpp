@@ -18,7 +18,7 @@
 #include <random>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 constexpr const char* example_card = "FrustumScreen 0.1.0, 2026-05-01 12:00\n"
@@ -27,8 +27,8 @@ constexpr const char* example_card = "FrustumScreen 0.1.0, 2026-05-01 12:00\n"
                                      "tracker: no tracker is connected; check its USB cable and its power\n"
                                      "packs: set 3: amphora nautilus-cup\n";
 
-Image8 grown(const Image<std::uint8_t>& code, int module_px) {
-    Image8 picture(code.width * module_px, code.height * module_px);
+image::Image8 grown(const image::Image<std::uint8_t>& code, int module_px) {
+    image::Image8 picture(code.width * module_px, code.height * module_px);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             picture.at(x, y) = glm::u8vec4(glm::u8vec3(code.at(x / module_px, y / module_px)), 255);
@@ -38,11 +38,11 @@ Image8 grown(const Image<std::uint8_t>& code, int module_px) {
 }
 
 /// The picture as taken by a telephone held above the table: turned, darker, with noise.
-Image8 photographed(const Image8& picture, double turn_deg) {
+image::Image8 photographed(const image::Image8& picture, double turn_deg) {
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0.0, 6.0);
     const int size = std::max(picture.width, picture.height) * 5 / 4;
-    Image8 photo(size, size, {30, 30, 30, 255});
+    image::Image8 photo(size, size, {30, 30, 30, 255});
     const double c = std::cos(glm::radians(turn_deg)), s = std::sin(glm::radians(turn_deg));
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
@@ -63,7 +63,7 @@ class StaffPicture : public WithTemporaryFolder {
 protected:
     void SetUp() override {
         WithTemporaryFolder::SetUp();
-        typesetter.emplace(*Typesetter::open());
+        typesetter.emplace(*typography::Typesetter::open());
         facts.lines = {"The exhibit runs and is well", "tracker: the tracker is running"};
         facts.card = example_card;
         facts.calibration = "calibration in use: calibration-0008.toml, made 2026-04-12 10:12 UTC, 19 days "
@@ -76,9 +76,9 @@ protected:
         facts.speaks = facts.calibrates = true;
     }
     /// The text read by zbarimg; empty for several codes or none.
-    [[nodiscard]] std::string read(const Image8& picture) const {
+    [[nodiscard]] std::string read(const image::Image8& picture) const {
         const std::filesystem::path file = folder / "picture.png";
-        EXPECT_TRUE(write_file(file, encode_png(picture)));
+        EXPECT_TRUE(write_file(file, image::encode_png(picture)));
         std::FILE* const said = popen(
             ("zbarimg --quiet --raw --oneshot -Sbinary " + file.string() + " 2>/dev/null").c_str(), "r");
         std::string text;
@@ -89,24 +89,24 @@ protected:
         pclose(said);
         return text;
     }
-    [[nodiscard]] Image8 page(const StaffView& view) const {
+    [[nodiscard]] image::Image8 page(const exhibit::StaffView& view) const {
         return staff_picture(view, facts, scene, staff_background(view, scene, *typesetter), *typesetter);
     }
     void set_size(int width, int height) {
         scene.projector = {width, height, 1.5 * width, 1.5 * width, 0.5 * width, 0.5 * height};
         scene.table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.5}};
         scene.table_size_m = {0.8, 0.5};
-        scene.prop = make_frustum({});
+        scene.prop = geometry::make_frustum({});
     }
 
     StaffFacts facts;
-    PatternScene scene;
-    std::optional<Typesetter> typesetter;
+    typography::PatternScene scene;
+    std::optional<typography::Typesetter> typesetter;
 };
 
 TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
     for (const std::string& text : {std::string("a"), std::string(example_card), std::string("\u00e9 \u4e2d"),
-                                    std::string(max_card_bytes, 'x')}) {
+                                    std::string(status::max_card_bytes, 'x')}) {
         EXPECT_EQ(read(grown(qr_code(text), 4)), text);
     }
     EXPECT_EQ(qr_code("").width, 0);
@@ -116,7 +116,7 @@ TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
 
 /// A cable covers a part, and the telephone is turned.
 TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAnySide) {
-    Image8 code = grown(qr_code(example_card), 5);
+    image::Image8 code = grown(qr_code(example_card), 5);
     const int below_finders = code.height / 2;
     for (int y = below_finders; y < below_finders + code.height / 16; ++y) {
         for (int x = code.width / 3; x < code.width; ++x) {
@@ -135,7 +135,7 @@ TEST_F(StaffPicture, TheStatusPageHasACodeThatIsReadHoweverMuchThereIsToSay) {
         set_size(width, height);
         EXPECT_EQ(read(page({})), example_card) << width;
     }
-    facts.card = std::string(max_card_bytes, 'W');
+    facts.card = std::string(status::max_card_bytes, 'W');
     facts.lines.assign(40, std::string(250, 'w') + " and what is to be done about that");
     for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1200)}) {
         set_size(width, height);
@@ -151,16 +151,17 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
         set_size(width, height);
         for (std::size_t buttons = 2; buttons <= 5; ++buttons) {
             facts.buttons = buttons;
-            for (std::size_t k = 0; k < staff_page_names.size() + 2; ++k) {
-                StaffView view;
-                view.page = static_cast<StaffPage>(std::min(k, staff_page_names.size() - 1));
-                view.light = static_cast<StaffLight>(k % 3);
+            for (std::size_t k = 0; k < exhibit::staff_page_names.size() + 2; ++k) {
+                exhibit::StaffView view;
+                view.page =
+                    static_cast<exhibit::StaffPage>(std::min(k, exhibit::staff_page_names.size() - 1));
+                view.light = static_cast<exhibit::StaffLight>(k % 3);
                 view.pressed = static_cast<std::uint8_t>(k % buttons);
                 view.presses.fill(123);
                 view.kept = k % 2 == 0;
                 view.stays = k % 3 == 0;
-                const Image8 below = staff_background(view, scene, *typesetter);
-                const Image8 shown = page(view);
+                const image::Image8 below = staff_background(view, scene, *typesetter);
+                const image::Image8 shown = page(view);
                 const int edge = height / 50;
                 int changed = 0, changed_at_edge = 0;
                 for (int y = 0; y < height; ++y) {
@@ -175,7 +176,7 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
                 }
                 EXPECT_GT(changed, 1000) << k;
                 EXPECT_EQ(changed_at_edge, 0)
-                    << staff_page_names.at(static_cast<std::size_t>(view.page)) << " " << buttons;
+                    << exhibit::staff_page_names.at(static_cast<std::size_t>(view.page)) << " " << buttons;
             }
         }
     }
@@ -183,10 +184,10 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
 
 TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {
     set_size(1920, 1200);
-    StaffView view;
-    view.page = StaffPage::Light;
-    view.light = StaffLight::Greys;
-    const Image8 greys = staff_background(view, scene, *typesetter);
+    exhibit::StaffView view;
+    view.page = exhibit::StaffPage::Light;
+    view.light = exhibit::StaffLight::Greys;
+    const image::Image8 greys = staff_background(view, scene, *typesetter);
     for (int k = 0; k < 16; ++k) {
         EXPECT_EQ(greys.at(60 + 120 * k, 100).r, 17 * k);
     }
@@ -195,8 +196,8 @@ TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {
     EXPECT_EQ(greys.at(180, 600).r, 2);
 }
 
-InstalledPack pack_of(const char* id, const char* sha256) {
-    InstalledPack pack;
+library::InstalledPack pack_of(const char* id, const char* sha256) {
+    library::InstalledPack pack;
     pack.id = id;
     pack.title = "\u0391";
     pack.sha256 = sha256;
@@ -204,22 +205,22 @@ InstalledPack pack_of(const char* id, const char* sha256) {
 }
 
 TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
-    StatusReport status;
+    status::StatusReport status;
     status.uptime_s = 36000.0;
-    auto set = std::make_shared<SetStatus>();
+    auto set = std::make_shared<status::SetStatus>();
     set->shown = 3;
     set->packs = {pack_of("amphora", ""), pack_of("", "0123456789abcdef")};
     status.set = set;
-    std::vector<StatusLine> lines{{"tracker", "is \u201chere\u201d"},
-                                  {"projector", "lit"},
-                                  {"frame times", "many"},
-                                  {"calibration in use", "none"}};
-    EXPECT_EQ(status_card("well", status, lines, -1),
+    std::vector<status::StatusLine> lines{{"tracker", "is \u201chere\u201d"},
+                                          {"projector", "lit"},
+                                          {"frame times", "many"},
+                                          {"calibration in use", "none"}};
+    EXPECT_EQ(status::status_card("well", status, lines, -1),
               fmt::format("FrustumScreen {}, 1970-01-01 00:00\nwell\nprojector: lit\ntracker: is "
                           "???here???\ncalibration in use: none\n"
                           "packs: set 3: amphora 01234567\nit runs for 10 h 0 min\n",
                           project_version()));
-    for (StatusLine& line : lines) {
+    for (status::StatusLine& line : lines) {
         line.text = std::string(1000, 'x');
     }
     set->packs.assign(200, pack_of("amphora", ""));
@@ -229,14 +230,14 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
                                {"watchdog", std::string(500, 'y')},
                                {"machine", std::string(500, 'y')},
                                {"errors", std::string(500, 'y')}});
-    const std::string card = status_card("well", status, lines, 0);
-    EXPECT_LE(card.size(), max_card_bytes);
-    EXPECT_GT(card.size(), max_card_bytes - max_card_line_bytes - 10);
+    const std::string card = status::status_card("well", status, lines, 0);
+    EXPECT_LE(card.size(), status::max_card_bytes);
+    EXPECT_GT(card.size(), status::max_card_bytes - status::max_card_line_bytes - 10);
     EXPECT_TRUE(card.ends_with("\n...\n"));
 }
 
 TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
-    CalibrationSettings settings;
+    settings::CalibrationSettings settings;
     EXPECT_EQ(calibration_line(settings, 0), "none; projector and tracker stand as the settings say");
     settings.used.emplace();
     settings.used_name = "calibration-0008.toml";
@@ -255,18 +256,18 @@ TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
 
 /// The buttons can measure the table, and it has not been measured.
 TEST(StaffStays, UntilTheTableIsMeasured) {
-    Settings settings;
-    settings.tracker.kind = TrackerKind::Usb;
+    settings::Settings settings;
+    settings.tracker.kind = settings::TrackerKind::Usb;
     EXPECT_TRUE(exhibit_place(settings).staff_stays);
     settings.calibration.by_buttons = false;
     EXPECT_FALSE(exhibit_place(settings).staff_stays);
     settings.calibration.by_buttons = true;
-    settings.tracker.kind = TrackerKind::None;
+    settings.tracker.kind = settings::TrackerKind::None;
     EXPECT_FALSE(exhibit_place(settings).staff_stays);
-    settings.tracker.kind = TrackerKind::Usb;
+    settings.tracker.kind = settings::TrackerKind::Usb;
     settings.calibration.used.emplace();
     EXPECT_FALSE(exhibit_place(settings).staff_stays);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

@@ -33,8 +33,8 @@ glm::u8vec4 colour_of(std::size_t artifact) {
 }
 
 /// Rings with a picture of one colour: the left half is opaque, the right half half transparent.
-Pack pack_of(std::size_t artifact, bool with_picture) {
-    Pack pack = rings(12, 4);
+pack::Pack pack_of(std::size_t artifact, bool with_picture) {
+    pack::Pack pack = rings(12, 4);
     pack.levels[0].error = {1e-4F, 3e-4F, 1e-3F, 1.0F};
     pack.title = fmt::format("Artifact {}", artifact);
     pack.languages = {"en", "de"};
@@ -43,7 +43,7 @@ Pack pack_of(std::size_t artifact, bool with_picture) {
     complete(pack);
     pack.samples = 1;
     if (with_picture) {
-        pack.table_picture = Image8(256, 256, colour_of(artifact));
+        pack.table_picture = image::Image8(256, 256, colour_of(artifact));
         for (int y = 0; y < 256; ++y) {
             for (int x = 128; x < 256; ++x) {
                 pack.table_picture.at(x, y).a = 128;
@@ -59,50 +59,52 @@ protected:
         std::vector<fs::path> packs;
         for (std::size_t k = 0; k < artifacts; ++k) {
             packs.push_back(folder / fmt::format("{}.fspack", k));
-            const Result<Bytes> bytes = write_pack(pack_of(k, k != without_picture));
+            const Result<Bytes> bytes = pack::write_pack(pack_of(k, k != without_picture));
             ASSERT_TRUE(bytes) << bytes.error().message;
             ASSERT_TRUE(write_file(packs.back(), *bytes));
         }
-        settings = **parse_settings(
+        settings = **settings::parse_settings(
             fmt::format("[projector]\nwidth = {}\nheight = {}\n{}", width, height, more), "kiosk.toml");
         settings.panel.script = {{1.0, 2}};
-        ArtifactShowOptions options{packs, "auto", 1, AllCullKinds};
+        show::ArtifactShowOptions options{packs, "auto", 1, scene::AllCullKinds};
         options.waits = waits;
-        show = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
-                                    {display->framebuffer(), 0})
+        show = show::ArtifactShow::create(settings, scene::plan_devices(settings, false, false), options,
+                                          {display->framebuffer(), 0})
                    .value();
-        exhibit.emplace(make_exhibit(settings, *show, now));
+        exhibit.emplace(show::make_exhibit(settings, *show, now));
         tracked_state.prop_known = true;
         tracked_state.eye_m = settings.eye.default_m;
     }
-    void wait(milliseconds time, std::span<const Command> commands = {}) {
+    void wait(milliseconds time, std::span<const settings::Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown =
-                exhibit->step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
+            shown = exhibit->step(now, each.count() == 0 ? commands : std::span<const settings::Command>{},
+                                  tracked_state);
         }
     }
-    Image8 picture(Redraw redraw = Redraw::Everything) {
+    image::Image8 picture(render::Redraw redraw = render::Redraw::Everything) {
         static_cast<void>(show->draw(now, shown, tracked_state.eye_m,
-                                     {display->framebuffer(), redraw == Redraw::Changes ? 1 : 0}, redraw));
-        return read_colour(display->framebuffer(), width, height);
+                                     {display->framebuffer(), redraw == render::Redraw::Changes ? 1 : 0},
+                                     redraw));
+        return render::read_colour(display->framebuffer(), width, height);
     }
     /// The pixel of a table point for a lens that looks straight down, independent of the program's own projection.
     [[nodiscard]] glm::dvec2 pixel_of(const glm::dvec2& table_m) const {
-        const Pinhole& p = settings.projector.pinhole;
+        const geometry::Pinhole& p = settings.projector.pinhole;
         const glm::dvec3 lens = settings.projector.table_from_projector.translation;
         return {p.cx + p.fx * (table_m.x - lens.x) / lens.z, p.cy - p.fy * (table_m.y - lens.y) / lens.z};
     }
     [[nodiscard]] glm::dvec2 table_of(int x, int y) const {
-        const Pinhole& p = settings.projector.pinhole;
+        const geometry::Pinhole& p = settings.projector.pinhole;
         const glm::dvec3 lens = settings.projector.table_from_projector.translation;
         return {lens.x + (x + 0.5 - p.cx) / p.fx * lens.z, lens.y - (y + 0.5 - p.cy) / p.fy * lens.z};
     }
-    [[nodiscard]] static bool within(const TableRectangle& rectangle, const glm::dvec2& at, double margin_m) {
-        return clearance(rectangle.corners(), std::span(&at, 1)) <= margin_m;
+    [[nodiscard]] static bool within(const typography::TableRectangle& rectangle, const glm::dvec2& at,
+                                     double margin_m) {
+        return typography::clearance(rectangle.corners(), std::span(&at, 1)) <= margin_m;
     }
     /// The colour at a point of the place's picture, in fractions from its left and top as the reader sees it.
-    [[nodiscard]] glm::u8vec4 seen_at(const Image8& image, const TablePlace& place, double u,
+    [[nodiscard]] glm::u8vec4 seen_at(const image::Image8& image, const exhibit::TablePlace& place, double u,
                                       double v) const {
         const std::array<glm::dvec2, 4> c = place.picture.corners();
         const glm::dvec2 at = glm::mix(glm::mix(c[3], c[2], u), glm::mix(c[0], c[1], u), v);
@@ -110,10 +112,10 @@ protected:
         return image.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     }
     void expect_pictures_in_their_places() {
-        const Image8 image = picture();
+        const image::Image8 image = picture();
         ASSERT_NE(shown.table, nullptr);
         int lit = 0;
-        for (const PlacedPicture& placed : shown.table->pictures()) {
+        for (const exhibit::PlacedPicture& placed : shown.table->pictures()) {
             if (!placed.artifact || placed.brightness < 1.0) {
                 continue;
             }
@@ -123,8 +125,8 @@ protected:
             const glm::u8vec4 half = seen_at(image, placed.place, 0.75, 0.5);
             for (int k = 0; k < 3; ++k) {
                 EXPECT_NEAR(whole[k], colour[k], 2) << *placed.artifact;
-                EXPECT_NEAR(linear_from_srgb(half[k] / 255.0),
-                            linear_from_srgb(colour[k] / 255.0) * 128 / 255, 0.012)
+                EXPECT_NEAR(image::linear_from_srgb(half[k] / 255.0),
+                            image::linear_from_srgb(colour[k] / 255.0) * 128 / 255, 0.012)
                     << *placed.artifact;
             }
         }
@@ -132,9 +134,10 @@ protected:
         expect_black_elsewhere(image);
     }
     /// Expects black except at the pictures and the prop, whose shadow is compared with an exhibit without pictures.
-    void expect_black_elsewhere(const Image8& image) {
-        const auto shadow = hidden_by_prop(make_prop(settings.prop), shown.table_from_prop,
-                                           settings.projector.table_from_projector.translation);
+    void expect_black_elsewhere(const image::Image8& image) {
+        const auto shadow =
+            typography::hidden_by_prop(settings::make_prop(settings.prop), shown.table_from_prop,
+                                       settings.projector.table_from_projector.translation);
         ASSERT_TRUE(shadow);
         const double pixel_m =
             1.5 * settings.projector.table_from_projector.translation.z / settings.projector.pinhole.fx;
@@ -143,10 +146,10 @@ protected:
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 const glm::dvec2 at = table_of(x, y);
-                bool allowed = clearance(shadow->corners(), std::span(&at, 1)) <= pixel_m ||
+                bool allowed = typography::clearance(shadow->corners(), std::span(&at, 1)) <= pixel_m ||
                                (shown.caption && within(shown.caption->rectangle, at, pixel_m));
-                for (const PlacedPicture& placed : shown.table->pictures()) {
-                    TableRectangle title = placed.place.title;
+                for (const exhibit::PlacedPicture& placed : shown.table->pictures()) {
+                    typography::TableRectangle title = placed.place.title;
                     title.size_m.x = std::max(title.size_m.x, 0.077); // a line may be some millimetres longer
                     allowed =
                         allowed || within(placed.place.picture, at, pixel_m) || within(title, at, pixel_m);
@@ -161,12 +164,13 @@ protected:
     }
 
     bool waits = false; ///< for everything that is loaded ahead
-    Settings settings;
-    std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
-    std::unique_ptr<ArtifactShow> show;
-    std::optional<Exhibit> exhibit;
-    TrackedState tracked_state;
-    Presentation shown;
+    settings::Settings settings;
+    std::unique_ptr<display::SurfacelessDisplay> display =
+        display::SurfacelessDisplay::create(width, height).value();
+    std::unique_ptr<show::ArtifactShow> show;
+    std::optional<exhibit::Exhibit> exhibit;
+    tracking::TrackedState tracked_state;
+    exhibit::Presentation shown;
     MonotonicTime now{std::chrono::seconds(100)};
 };
 
@@ -187,18 +191,18 @@ TEST_F(OnTheTable, PicturesLieInTheirPlacesInTheirColours) {
 TEST_F(OnTheTable, NothingOfThePicturesIsOnThePropAtHome) {
     make(12);
     wait(milliseconds(1500));
-    const Image8 with = picture();
-    const auto shadow = hidden_by_prop(make_prop(settings.prop), shown.table_from_prop,
-                                       settings.projector.table_from_projector.translation);
+    const image::Image8 with = picture();
+    const auto shadow = typography::hidden_by_prop(settings::make_prop(settings.prop), shown.table_from_prop,
+                                                   settings.projector.table_from_projector.translation);
     make(12, "[exhibit]\ntable_pictures = false\n[panel]\nscript = [{at_s = 1.0, button = 1}]\n");
     wait(milliseconds(1500));
     EXPECT_EQ(shown.table, nullptr);
-    const Image8 without = picture();
+    const image::Image8 without = picture();
     int compared = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const glm::dvec2 at = table_of(x, y);
-            if (clearance(shadow->corners(), std::span(&at, 1)) <= 0.0) {
+            if (typography::clearance(shadow->corners(), std::span(&at, 1)) <= 0.0) {
                 ASSERT_EQ(with.at(x, y), without.at(x, y)) << x << ' ' << y;
                 ++compared;
             }
@@ -212,23 +216,24 @@ TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
     wait(milliseconds(800));
     ASSERT_NE(shown.table, nullptr);
     ASSERT_GE(shown.table->count, 2U);
-    const PlacedPicture chosen = shown.table->pictures()[1];
+    const exhibit::PlacedPicture chosen = shown.table->pictures()[1];
     ASSERT_TRUE(chosen.artifact);
     tracked_state.table_from_prop.translation = glm::dvec3(chosen.place.picture.centre_m, 0.0);
     wait(milliseconds(400));
-    const auto shadow = hidden_by_prop(make_prop(settings.prop), tracked_state.table_from_prop,
-                                       settings.projector.table_from_projector.translation);
+    const auto shadow =
+        typography::hidden_by_prop(settings::make_prop(settings.prop), tracked_state.table_from_prop,
+                                   settings.projector.table_from_projector.translation);
     double last = 0.0;
     int pictures = 0;
     while (shown.table->ring && pictures < 20) {
         ASSERT_EQ(*shown.table->ring, 1U);
-        const Image8 image = picture();
+        const image::Image8 image = picture();
         int white = 0;
         int faint = 0;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 const glm::dvec2 at = table_of(x, y);
-                const double off = clearance(shadow->corners(), std::span(&at, 1));
+                const double off = typography::clearance(shadow->corners(), std::span(&at, 1));
                 const int code = image.at(x, y).r;
                 if (off > 0.004 && off < 0.008 && code == image.at(x, y).b) {
                     white += code > 180 ? 1 : 0;
@@ -253,8 +258,8 @@ TEST_F(OnTheTable, TitlesFollowTheLanguage) {
     make(3);
     wait(milliseconds(1500));
     const auto columns_of_title = [&] {
-        const Image8 image = picture();
-        const TableRectangle& title = shown.table->pictures()[1].place.title;
+        const image::Image8 image = picture();
+        const typography::TableRectangle& title = shown.table->pictures()[1].place.title;
         const glm::dvec2 low = pixel_of(title.corners()[3]);
         const glm::dvec2 high = pixel_of(title.corners()[1]);
         int columns = 0;
@@ -268,7 +273,7 @@ TEST_F(OnTheTable, TitlesFollowTheLanguage) {
         return columns;
     };
     const int english = columns_of_title();
-    wait(milliseconds(1500), std::array{Command::NextLanguage});
+    wait(milliseconds(1500), std::array{settings::Command::NextLanguage});
     EXPECT_EQ(shown.table_language, "de");
     EXPECT_GT(english, 15);
     EXPECT_GT(columns_of_title(), english + 8);
@@ -277,8 +282,8 @@ TEST_F(OnTheTable, TitlesFollowTheLanguage) {
 TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
     make(3, "", 2);
     wait(milliseconds(1500));
-    const Image8 image = picture();
-    for (const PlacedPicture& placed : shown.table->pictures()) {
+    const image::Image8 image = picture();
+    for (const exhibit::PlacedPicture& placed : shown.table->pictures()) {
         if (placed.artifact == std::size_t{2}) {
             EXPECT_GT(seen_at(image, placed.place, 0.5, 0.022).g, 60); // its outline
             const glm::u8vec4 corner = seen_at(image, placed.place, 0.2, 0.2);
@@ -294,9 +299,10 @@ TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
     wait(milliseconds(1500));
     static_cast<void>(picture());
     ASSERT_GE(show->state(shown).loaded, 3U);
-    const std::span<const PlacedPicture> placed = shown.table->pictures();
-    const auto next = std::find_if(placed.begin(), placed.end(),
-                                   [](const PlacedPicture& each) { return each.artifact == std::size_t{1}; });
+    const std::span<const exhibit::PlacedPicture> placed = shown.table->pictures();
+    const auto next = std::find_if(placed.begin(), placed.end(), [](const exhibit::PlacedPicture& each) {
+        return each.artifact == std::size_t{1};
+    });
     ASSERT_NE(next, placed.end());
     const glm::dvec2 home(tracked_state.table_from_prop.translation);
     const glm::dvec2 goal = next->place.picture.centre_m;
@@ -304,21 +310,21 @@ TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
     for (int k = 0; k <= 60; ++k) {
         tracked_state.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
         wait(milliseconds(20));
-        static_cast<void>(
-            show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+        static_cast<void>(show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1},
+                                     render::Redraw::Changes));
     }
     wait(milliseconds(600));
     static_cast<void>(
-        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, render::Redraw::Changes));
     if (synthetic::allocations_are_counted) {
         EXPECT_EQ(synthetic::allocations_so_far(), before);
     }
     wait(milliseconds(100)); // the ring alone
-    const DrawResult ring =
-        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes);
+    const render::DrawResult ring =
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, render::Redraw::Changes);
     EXPECT_TRUE(ring.drawn);
     EXPECT_LT(ring.redrawn.width * ring.redrawn.height, width * height / 2);
-    const Image8 partly = read_colour(display->framebuffer(), width, height);
+    const image::Image8 partly = render::read_colour(display->framebuffer(), width, height);
     EXPECT_EQ(partly.texels, picture().texels);
 }
 

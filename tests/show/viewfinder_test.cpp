@@ -21,7 +21,7 @@
 #include <numbers>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::show {
 namespace {
 
 using std::chrono::milliseconds;
@@ -31,8 +31,8 @@ constexpr int width = 640, height = 400;               // of the projector's pic
 constexpr glm::ivec2 room(width / 3, height * 3 / 10); // the largest part of it for a viewfinder
 
 /// A frame whose rows and columns all differ, without code 0.
-CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
-    CameraFrame frame{MonotonicTime{}, seed, frame_width, frame_height, {}};
+camera::CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
+    camera::CameraFrame frame{MonotonicTime{}, seed, frame_width, frame_height, {}};
     frame.luma.resize(static_cast<std::size_t>(frame_width * frame_height));
     std::uint32_t state = seed;
     for (std::uint8_t& code : frame.luma) {
@@ -42,7 +42,7 @@ CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
     return frame;
 }
 
-using Grey = Image<std::uint8_t>;
+using Grey = image::Image<std::uint8_t>;
 
 Grey turned_clockwise(const Grey& picture) {
     Grey turned(picture.height, picture.width);
@@ -55,7 +55,7 @@ Grey turned_clockwise(const Grey& picture) {
 }
 
 /// Each pixel's code equals the mean of its square of `turned`, up to rounding; everything around is black.
-void expect_mean_of(const Grey& turned, int by, const Image8& shown) {
+void expect_mean_of(const Grey& turned, int by, const image::Image8& shown) {
     const glm::ivec2 size(turned.width / by, turned.height / by);
     const glm::ivec2 corner((shown.width - size.x) / 2, shown.height - size.y);
     for (int y = 0; y < shown.height; ++y) {
@@ -86,9 +86,9 @@ TEST(Viewfinder, ShowsTheMeanOfEachSquareOfTheTurnedFrame) {
     };
     for (const Case& at : {Case{{60, 40}, {80, 60}, 1}, Case{{161, 83}, {80, 60}, 3},
                            Case{{640, 480}, {320, 240}, 2}, Case{{1280, 720}, {320, 240}, 4}}) {
-        const CameraFrame frame = frame_of(at.frame.x, at.frame.y, 7);
+        const camera::CameraFrame frame = frame_of(at.frame.x, at.frame.y, 7);
         Viewfinder viewfinder(at.room, 0);
-        Image8 shown(at.room.x, at.room.y, glm::u8vec4(9));
+        image::Image8 shown(at.room.x, at.room.y, glm::u8vec4(9));
         viewfinder.want(true);
         viewfinder.use(frame);
         ASSERT_TRUE(viewfinder.take(shown));
@@ -100,12 +100,12 @@ TEST(Viewfinder, ShowsTheMeanOfEachSquareOfTheTurnedFrame) {
 }
 
 TEST(Viewfinder, IsTurnedClockwiseByQuarters) {
-    const CameraFrame frame = frame_of(90, 50, 3);
+    const camera::CameraFrame frame = frame_of(90, 50, 3);
     Grey turned(90, 50);
     turned.texels = frame.luma;
     for (int turns = 0; turns < 4; ++turns) {
         Viewfinder viewfinder({90, 90}, turns);
-        Image8 shown(90, 90);
+        image::Image8 shown(90, 90);
         viewfinder.want(true);
         viewfinder.use(frame);
         ASSERT_TRUE(viewfinder.take(shown));
@@ -121,10 +121,10 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
         for (int projector = 0; projector < 4; ++projector) {
             const auto hung = [](int quarters) {
                 const double angle = 0.5 * std::numbers::pi * quarters + 0.1;
-                return RigidTransform{glm::angleAxis(angle, glm::dvec3(0, 0, 1)) * glm::dquat(0, 1, 0, 0),
-                                      {0.0, 0.0, 1.0}};
+                return geometry::RigidTransform{
+                    glm::angleAxis(angle, glm::dvec3(0, 0, 1)) * glm::dquat(0, 1, 0, 0), {0.0, 0.0, 1.0}};
             };
-            Settings settings;
+            settings::Settings settings;
             settings.projector.pinhole = {width, height, 300.0, 300.0, width / 2.0, height / 2.0};
             settings.projector.table_from_projector = hung(projector);
             settings.camera.pinhole = {side, side, 60.0, 60.0, side / 2.0, side / 2.0};
@@ -134,11 +134,12 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
                 const double angle = 0.5 * std::numbers::pi * quarters + 0.1;
                 return glm::dvec2(std::sin(angle), -std::cos(angle));
             };
-            CameraFrame frame{MonotonicTime{}, 1, side, side, std::vector<std::uint8_t>(side * side, 10)};
+            camera::CameraFrame frame{MonotonicTime{}, 1, side, side,
+                                      std::vector<std::uint8_t>(side * side, 10)};
             const glm::ivec2 lamp(glm::dvec2(side / 2.0) + 20.0 * seen_at(camera));
             frame.luma[static_cast<std::size_t>(lamp.y * side + lamp.x)] = 250;
             Viewfinder viewfinder(settings);
-            Image8 shown(room.x, room.y);
+            image::Image8 shown(room.x, room.y);
             viewfinder.want(true);
             viewfinder.use(frame);
             ASSERT_TRUE(viewfinder.take(shown));
@@ -153,16 +154,16 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
 }
 
 /// True if the object's own bytes contain the frame; its picture is a part of the object.
-bool holds(const Viewfinder& viewfinder, const CameraFrame& frame) {
+bool holds(const Viewfinder& viewfinder, const camera::CameraFrame& frame) {
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(&viewfinder);
     return std::search(begin, begin + sizeof(viewfinder), frame.luma.begin(), frame.luma.begin() + 8) !=
            begin + sizeof(viewfinder);
 }
 
 TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
-    const CameraFrame frame = frame_of(40, 30, 5);
+    const camera::CameraFrame frame = frame_of(40, 30, 5);
     Viewfinder viewfinder(room, 0);
-    Image8 shown(room.x, room.y);
+    image::Image8 shown(room.x, room.y);
     viewfinder.use(frame);
     EXPECT_FALSE(holds(viewfinder, frame));
     EXPECT_FALSE(viewfinder.take(shown));
@@ -184,9 +185,9 @@ TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
 }
 
 TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
-    const CameraFrame frame = frame_of(320, 240, 5);
+    const camera::CameraFrame frame = frame_of(320, 240, 5);
     Viewfinder viewfinder({320, 240}, 1);
-    Image8 shown(320, 240);
+    image::Image8 shown(320, 240);
     std::jthread camera([&](const std::stop_token& stop) {
         while (!stop.stop_requested()) {
             viewfinder.use(frame);
@@ -213,12 +214,12 @@ TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
 }
 
 /// Staff who press both buttons at the start, and release them.
-class HeldPanel final : public Panel {
+class HeldPanel final : public panel::Panel {
 public:
     HeldPanel(MonotonicTime start, Nanoseconds held) : start_(start), held_(held) {}
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override {
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<panel::PanelEvent>& events) override {
         if (!said_ && now - start_ >= chord) {
-            events.push_back({now, 0, PressKind::Chord});
+            events.push_back({now, 0, panel::PressKind::Chord});
             said_ = true;
         }
         return {};
@@ -234,21 +235,22 @@ private:
 };
 
 /// A camera in a state given by the test.
-class StatedCamera final : public Camera {
+class StatedCamera final : public camera::Camera {
 public:
-    [[nodiscard]] bool poll(CameraFrame& /*frame*/) override { return false; }
-    [[nodiscard]] CameraState state() const override { return now; }
+    [[nodiscard]] bool poll(camera::CameraFrame& /*frame*/) override { return false; }
+    [[nodiscard]] camera::CameraState state() const override { return now; }
     [[nodiscard]] double rate_hz() const override { return 30.0; }
-    [[nodiscard]] CameraCounts counts() const override { return {}; }
-    [[nodiscard]] std::optional<CameraSetUp> set_up() const override { return std::nullopt; }
-    CameraState now = CameraState::Running;
+    [[nodiscard]] camera::CameraCounts counts() const override { return {}; }
+    [[nodiscard]] std::optional<camera::CameraSetUp> set_up() const override { return std::nullopt; }
+    camera::CameraState now = camera::CameraState::Running;
 };
 
 /// Passes everything on to a show, gives the viewfinder a frame before each picture, and examines the picture.
 class LookedAt final : public Show {
 public:
     LookedAt(Show& show, Viewfinder* viewfinder) : show_(show), viewfinder_(viewfinder) {}
-    void step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) override {
+    void step(MonotonicTime now, std::span<const settings::Command> commands,
+              const tracking::TrackedState& on_table) override {
         show_.step(now, commands, on_table);
     }
     void set_viewfinder(Viewfinder* viewfinder) override {
@@ -257,19 +259,20 @@ public:
     }
     void tell(const RunStatus& status) override { show_.tell(status); }
     [[nodiscard]] ShowState state() const override { return show_.state(); }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
-                                  Redraw redraw) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const tracking::TrackedState& on_table,
+                                          const render::RenderTarget& target,
+                                          render::Redraw redraw) override {
         if (viewfinder_ != nullptr) {
             viewfinder_->use(frame);
         }
         const long before = synthetic::allocations_so_far();
-        const DrawResult drawn = show_.draw(now, on_table, target, redraw);
+        const render::DrawResult drawn = show_.draw(now, on_table, target, redraw);
         allocated = synthetic::allocations_so_far() - before;
         after_draw(now, target.framebuffer);
         return drawn;
     }
 
-    CameraFrame frame = frame_of(2 * room.x, 2 * room.y, 11);
+    camera::CameraFrame frame = frame_of(2 * room.x, 2 * room.y, 11);
     bool held = false;
     long allocated = 0;
     std::function<void(MonotonicTime, unsigned)> after_draw;
@@ -283,8 +286,8 @@ class ViewfinderRun : public testing::Test {
 protected:
     void SetUp() override {
         settings.projector.pinhole = {width, height, 960.0, 960.0, width / 2.0, height / 2.0};
-        settings.camera.kind = CameraKind::V4l2;
-        auto made = SurfacelessDisplay::create(width, height);
+        settings.camera.kind = settings::CameraKind::V4l2;
+        auto made = display::SurfacelessDisplay::create(width, height);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
     }
@@ -304,16 +307,16 @@ protected:
         options.fast = true;
         options.screenshot = screenshot;
         StatusFile no_file{{.status_file = {}}};
-        ServiceManager manager;
-        const Journal journal("test");
+        service::ServiceManager manager;
+        const service::Journal journal("test");
         RunWatch watch(manager, journal);
         const Result<LoopResult> result =
             run_loop(settings, *display, inputs, show, options, no_file, watch, start);
         EXPECT_TRUE(result) << result.error().message;
     }
     /// The camera's part of the picture: at the lower right, with the line below.
-    static Image8 part_of(const Image8& picture) {
-        Image8 part(room.x, room.y);
+    static image::Image8 part_of(const image::Image8& picture) {
+        image::Image8 part(room.x, room.y);
         for (int y = 0; y < room.y; ++y) {
             for (int x = 0; x < room.x; ++x) {
                 part.at(x, y) = picture.at(width - 24 - room.x + x, height - 24 - 90 - room.y + y);
@@ -322,34 +325,36 @@ protected:
         return part;
     }
     /// Compares without the watchdog's code.
-    static bool are_equal(const Image8& a, const Image8& b) {
+    static bool are_equal(const image::Image8& a, const image::Image8& b) {
         return std::equal(a.texels.begin() + width, a.texels.end(), b.texels.begin() + width);
     }
 
-    Settings settings;
-    std::unique_ptr<SurfacelessDisplay> display;
+    settings::Settings settings;
+    std::unique_ptr<display::SurfacelessDisplay> display;
     Inputs inputs;
     MonotonicTime start = MonotonicTime(seconds(100));
     Screenshot* screenshot = nullptr;
 };
 
 TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
-    settings.camera.kind = CameraKind::None;
-    Image8 plain;
+    settings.camera.kind = settings::CameraKind::None;
+    image::Image8 plain;
     {
         const std::unique_ptr<PatternShow> show = pattern();
         LookedAt looked(*show, nullptr);
-        looked.after_draw = [&](MonotonicTime, unsigned fb) { plain = read_colour(fb, width, height); };
+        looked.after_draw = [&](MonotonicTime, unsigned fb) {
+            plain = render::read_colour(fb, width, height);
+        };
         run(looked, milliseconds(100));
     }
-    settings.camera.kind = CameraKind::V4l2;
+    settings.camera.kind = settings::CameraKind::V4l2;
     with_viewfinder();
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
     int with = 0, without = 0;
     long allocated = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
-        const Image8 picture = read_colour(fb, width, height);
+        const image::Image8 picture = render::read_colour(fb, width, height);
         const bool is_held = now - start < seconds(3) && now > start; // the first frame establishes the state
         ASSERT_EQ(looked.held, is_held);
         if (!is_held) {
@@ -374,15 +379,15 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
 
 /// A visitor who holds two buttons does not see the camera's picture: the staff picture appears with the chord.
 TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
-    settings.panel.kind = PanelKind::Gpio;
+    settings.panel.kind = settings::PanelKind::Gpio;
     settings.panel.lines = {"4", "5", "6"};
     class Nothing final : public ExhibitStage {
     public:
-        [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
-                                      const RenderTarget&, Redraw) override {
+        [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
+                                              const render::RenderTarget&, render::Redraw) override {
             return {true, {}, {}, 1};
         }
-        [[nodiscard]] ShowState state(const Presentation& presentation) const override {
+        [[nodiscard]] ShowState state(const exhibit::Presentation& presentation) const override {
             ShowState state;
             state.state = presentation.state;
             return state;
@@ -399,7 +404,7 @@ TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
         if (is_held) {
             Grey grey(looked.frame.width, looked.frame.height);
             grey.texels = looked.frame.luma;
-            expect_mean_of(grey, 1, part_of(read_colour(fb, width, height)));
+            expect_mean_of(grey, 1, part_of(render::read_colour(fb, width, height)));
             ++with;
         } else if (is_not) {
             ASSERT_FALSE(holds(*inputs.viewfinder, looked.frame));
@@ -418,23 +423,23 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
     looked.frame = frame_of(room.x, room.y, 11);
-    Image8 running, covered;
+    image::Image8 running, covered;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
         const Nanoseconds at = now - start;
-        camera.now = at < milliseconds(1500) ? CameraState::Running : CameraState::Dark;
+        camera.now = at < milliseconds(1500) ? camera::CameraState::Running : camera::CameraState::Dark;
         if (at > milliseconds(1400) && at < milliseconds(1500)) {
-            running = read_colour(fb, width, height);
+            running = render::read_colour(fb, width, height);
             ASSERT_TRUE(holds(*inputs.viewfinder, looked.frame));
         } else if (at > milliseconds(1550) && at < seconds(3)) {
-            covered = read_colour(fb, width, height);
+            covered = render::read_colour(fb, width, height);
             ASSERT_FALSE(holds(*inputs.viewfinder, looked.frame));
         }
     };
     run(looked, seconds(4));
-    const Image8 part = part_of(covered);
+    const image::Image8 part = part_of(covered);
     EXPECT_TRUE(std::all_of(part.texels.begin(), part.texels.end(),
                             [](const glm::u8vec4& code) { return code == glm::u8vec4(0, 0, 0, 255); }));
-    const auto lit_below = [](const Image8& picture) {
+    const auto lit_below = [](const image::Image8& picture) {
         int lit = 0;
         for (int y = height - 24 - 90; y < height - 24; ++y) {
             for (int x = width - 24 - room.x; x < width - 24; ++x) {
@@ -454,17 +459,17 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
     screenshot = &asked;
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
-    std::future<Image8> got;
+    std::future<image::Image8> got;
     bool shown_with = false;
     looked.after_draw = [&](MonotonicTime, unsigned fb) {
         if (!looked.held) {
             return;
         }
-        shown_with = shown_with || part_of(read_colour(fb, width, height)).at(room.x / 2, 3).r > 0;
+        shown_with = shown_with || part_of(render::read_colour(fb, width, height)).at(room.x / 2, 3).r > 0;
         if (!got.valid()) {
             got = std::async(std::launch::async, [&] {
-                const Result<const Image8*> picture = asked.take(std::stop_token());
-                return picture ? **picture : Image8();
+                const Result<const image::Image8*> picture = asked.take(std::stop_token());
+                return picture ? **picture : image::Image8();
             });
             std::this_thread::sleep_for(milliseconds(50)); // the request is made
         }
@@ -472,9 +477,9 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
     };
     run(looked, seconds(5));
     ASSERT_TRUE(shown_with);
-    const Image8 picture = got.get();
+    const image::Image8 picture = got.get();
     ASSERT_EQ(picture.width, width);
-    EXPECT_TRUE(are_equal(picture, read_colour(display->framebuffer(), width, height)))
+    EXPECT_TRUE(are_equal(picture, render::read_colour(display->framebuffer(), width, height)))
         << "that of after the buttons were let go";
 }
 
@@ -538,7 +543,7 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
     std::size_t while_held = 0, colour_while_held = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned) {
         if (now - start > milliseconds(500) && while_held == 0) {
-            wait_until_drawn(); // the driver draws on its own threads
+            render::wait_until_drawn(); // the driver draws on its own threads
             while_held = occurrences(grey);
             colour_while_held = occurrences(colour);
         }
@@ -547,7 +552,7 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
         }
     };
     run(looked, milliseconds(3200));
-    wait_until_drawn();
+    render::wait_until_drawn();
     EXPECT_GE(while_held, 2U) << "the camera's own, and the viewfinder's";
     EXPECT_GE(colour_while_held, 3U) << "the panel's, the texture's and the framebuffer's";
     EXPECT_EQ(occurrences(grey), 0U);
@@ -555,4 +560,4 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::show

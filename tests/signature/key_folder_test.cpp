@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ TEST_F(KeyFolder, HasNoMoreKeysThanTheSettings) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -4,7 +4,7 @@
 #include "tests/pack/samples.h"
 #include "tests/signature/vectors.h"
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 constexpr PasswordCost cheap{crypto_pwhash_scryptsalsa208sha256_OPSLIMIT_MIN * 4,
@@ -117,4 +117,4 @@ TEST(SecretKeys, ThatAreNoneAreRefused) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

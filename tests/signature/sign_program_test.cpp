@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 namespace fs = std::filesystem;
@@ -292,4 +292,4 @@ TEST_F(SignProgram, AMistypedCommandIsToldWithThoseThatThereAre) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -7,7 +7,7 @@
 
 #include <sodium.h>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
 using testing::day;
@@ -223,4 +223,4 @@ TEST(PublicKeys, AreReadAsAFileAndAsALine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -15,16 +15,16 @@ inline std::string comment_of(std::uint64_t serial) {
 }
 
 inline Bytes manifest_of(const Bytes& pack) {
-    auto zip = pack_format::ZipReader::open(pack);
+    auto zip = pack::ZipReader::open(pack);
     return zip->read(zip->entries().front()).value();
 }
 
-inline Bytes signed_pack(const Pack& pack, const SecretKey& key, std::uint64_t serial) {
+inline Bytes signed_pack(const pack::Pack& pack, const pack::SecretKey& key, std::uint64_t serial) {
     const Bytes bytes = samples::bytes_of(pack);
-    return with_signature(bytes, key.sign(manifest_of(bytes), comment_of(serial))).value();
+    return pack::with_signature(bytes, key.sign(manifest_of(bytes), comment_of(serial))).value();
 }
 
-inline TrustedKey trusted(const SecretKey& key, std::string name = "House") {
+inline pack::TrustedKey trusted(const pack::SecretKey& key, std::string name = "House") {
     return {std::move(name), key.public_key(), std::nullopt};
 }
 

@@ -12,12 +12,12 @@
 #define FRUSTUMSCREEN_FEWER_MUTANTS 1
 #endif
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
-using pack_format::Packing;
-using pack_format::ZipReader;
-using pack_format::ZipWriter;
+using pack::Packing;
+using pack::ZipReader;
+using pack::ZipWriter;
 using testing::comment_of;
 using testing::signed_pack;
 
@@ -45,7 +45,7 @@ Pack small_pack() {
 Original original(const Pack& pack, const SecretKey& key, std::uint64_t serial) {
     Original made{signed_pack(pack, key, serial), {}, comment_of(serial)};
     auto zip = ZipReader::open(made.bytes);
-    for (const pack_format::ZipEntry& entry : zip->entries()) {
+    for (const pack::ZipEntry& entry : zip->entries()) {
         made.entries.emplace_back(entry.name, zip->read(entry).value());
     }
     return made;
@@ -215,7 +215,7 @@ bool is_one_of(const std::vector<Original>& originals, const std::string& commen
                    original.entries.end();
         };
         const bool all = parts.size() + 2 == original.entries.size(); // without manifest and signature
-        auto opened = pack_format::PackReader::open(std::span<const std::byte>(original.bytes));
+        auto opened = pack::PackReader::open(std::span<const std::byte>(original.bytes));
         return all && comment == original.comment && std::all_of(parts.begin(), parts.end(), holds) &&
                opened->manifest().description == description;
     });
@@ -244,7 +244,7 @@ TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
         ++opened_count;
         Entries parts;
         bool sound = true;
-        for (const pack_format::PartRecord& record : opened->reader.manifest().parts) {
+        for (const pack::PartRecord& record : opened->reader.manifest().parts) {
             Result<Bytes> part = opened->reader.take(record.name);
             sound = sound && part;
             parts.emplace_back(record.name, part ? *std::move(part) : Bytes());
@@ -265,4 +265,4 @@ TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

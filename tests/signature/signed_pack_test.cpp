@@ -9,12 +9,12 @@
 #include <cstring>
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 namespace {
 
-using pack_format::Packing;
-using pack_format::ZipReader;
-using pack_format::ZipWriter;
+using pack::Packing;
+using pack::ZipReader;
+using pack::ZipWriter;
 using testing::comment_of;
 using testing::manifest_of;
 using testing::signed_pack;
@@ -121,11 +121,11 @@ TEST_F(SignedPacks, ThatAreNoPacksAreToldApart) {
 }
 
 TEST_F(SignedPacks, WithMoreThanIsAllowedAreRefusedUnread) {
-    const std::string large(pack_format::max_signature_bytes + 1, 'a');
+    const std::string large(pack::max_signature_bytes + 1, 'a');
     expect_no_pack(zip_of({{"manifest.json", "{}"}, {"signature", large}}),
                    "the signature has 65537 bytes, allowed are 65536");
     ZipWriter zip;
-    zip.add("manifest.json", Bytes(pack_format::max_manifest_bytes + 1), Packing::Deflated);
+    zip.add("manifest.json", Bytes(pack::max_manifest_bytes + 1), Packing::Deflated);
     expect_no_pack(zip.finish().value(), "manifest.json has 16777217 bytes");
 }
 
@@ -143,7 +143,7 @@ TEST_F(SignedPacks, ThatCannotBeReadAnyMoreAreNotCalledDamaged) {
 std::map<std::string, std::pair<std::uint64_t, Bytes>> packed_entries(const Bytes& pack) {
     auto zip = ZipReader::open(pack);
     std::map<std::string, std::pair<std::uint64_t, Bytes>> entries;
-    for (const pack_format::ZipEntry& entry : zip->entries()) {
+    for (const pack::ZipEntry& entry : zip->entries()) {
         if (entry.name != "signature") {
             entries[entry.name] = {entry.stored_bytes, zip->read(entry).value()};
         }
@@ -173,7 +173,7 @@ TEST_F(SignedPacks, MayHaveTheirSignatureAnywhere) {
     const std::string signature = key_.sign(manifest_of(plain), comment_of(5));
     auto zip = ZipReader::open(plain);
     ZipWriter writer;
-    for (const pack_format::ZipEntry& entry : zip->entries()) {
+    for (const pack::ZipEntry& entry : zip->entries()) {
         ASSERT_TRUE(writer.copy(*zip, entry));
         if (entry.name == "manifest.json") {
             writer.add("signature", as_bytes(signature), Packing::Deflated);
@@ -185,4 +185,4 @@ TEST_F(SignedPacks, MayHaveTheirSignatureAnywhere) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

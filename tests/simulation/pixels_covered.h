@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 
 /// Pixels per square metre of the plane through `point` with this `normal`, both in the pinhole's frame. A
 /// pixel of a pinhole covers Z^3 / (fx fy |n . p|) there, at the point p = (X, Y, Z), and less where the lens
 /// enlarges the picture.
-[[nodiscard]] inline double pixels_per_square_metre(const Pinhole& pinhole, const glm::dvec3& point,
+[[nodiscard]] inline double pixels_per_square_metre(const geometry::Pinhole& pinhole, const glm::dvec3& point,
                                                     const glm::dvec3& normal) {
     const double z = point.z;
     const double bent = pinhole.lens.area_factor((point.x * point.x + point.y * point.y) / (z * z));
@@ -22,25 +22,26 @@ namespace frustumscreen {
 /// pixel is no finer than the projector's.
 [[nodiscard]] inline double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
                                                      const glm::dvec2& pixel) {
-    const RigidTransform prop_from_table = scene.table_from_prop.inverse();
-    const RigidTransform prop_from_camera = prop_from_table * camera.table_from_camera;
-    const RigidTransform prop_from_projector = prop_from_table * scene.table_from_projector;
+    const geometry::RigidTransform prop_from_table = scene.table_from_prop.inverse();
+    const geometry::RigidTransform prop_from_camera = prop_from_table * camera.table_from_camera;
+    const geometry::RigidTransform prop_from_projector = prop_from_table * scene.table_from_projector;
     const glm::dvec3 eye = prop_from_camera.translation;
     const glm::dvec3 ray = prop_from_camera.direction(camera.pinhole.ray(pixel));
-    PropHit hit;
-    if (!intersect(scene.prop, eye, ray, hit)) {
+    geometry::PropHit hit;
+    if (!geometry::intersect(scene.prop, eye, ray, hit)) {
         return 0.0;
     }
-    const Plane& plane = scene.prop.faces[static_cast<std::size_t>(hit.face)].plane;
+    const geometry::Plane& plane = scene.prop.faces[static_cast<std::size_t>(hit.face)].plane;
     if (plane.distance(prop_from_projector.translation) <= 0.0) {
         return 0.0;
     }
-    const auto density = [&](const Pinhole& pinhole, const RigidTransform& prop_from_lens) {
-        const RigidTransform lens_from_prop = prop_from_lens.inverse();
+    const auto density = [&](const geometry::Pinhole& pinhole,
+                             const geometry::RigidTransform& prop_from_lens) {
+        const geometry::RigidTransform lens_from_prop = prop_from_lens.inverse();
         return pixels_per_square_metre(pinhole, lens_from_prop.point(eye + hit.t * ray),
                                        lens_from_prop.direction(plane.normal));
     };
     return density(scene.projector, prop_from_projector) / density(camera.pinhole, prop_from_camera);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

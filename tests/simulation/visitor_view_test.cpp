@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::simulation {
 namespace {
 
 /// A painted egg in the prop, in closed form: smooth bands along z and around the axis.
@@ -50,7 +50,7 @@ struct FaceHit {
     int face = -1;
     double t = std::numeric_limits<double>::infinity();
 };
-FaceHit first_face(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction) {
+FaceHit first_face(const geometry::PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction) {
     FaceHit best;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const auto& c = prop.faces[k].corners;
@@ -70,7 +70,7 @@ FaceHit first_face(const PropShape& prop, const glm::dvec3& origin, const glm::d
 
 struct Kiosk {
     const char* name;
-    Pinhole projector;
+    geometry::Pinhole projector;
     double height_m;
 };
 const Kiosk kiosks[] = {{"near", {1280, 800, 2850.0, 2850.0, 640.0, 400.0}, 0.9},
@@ -79,18 +79,18 @@ const Kiosk kiosks[] = {{"near", {1280, 800, 2850.0, 2850.0, 640.0, 400.0}, 0.9}
 VisitorScene scene_of(const Kiosk& kiosk, const glm::dvec2& place, double yaw, const glm::dvec3& eye) {
     return {kiosk.projector,
             {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, kiosk.height_m}},
-            make_frustum({}),
+            geometry::make_frustum({}),
             {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {place, 0.0}},
             eye,
             {0.8, 0.5}};
 }
 
 /// The projector's picture by the conventions' definition, with plain rays.
-Image8 projected(const VisitorScene& scene, const Egg& egg) {
-    const RigidTransform prop_from_table = scene.table_from_prop.inverse();
+image::Image8 projected(const VisitorScene& scene, const Egg& egg) {
+    const geometry::RigidTransform prop_from_table = scene.table_from_prop.inverse();
     const glm::dvec3 lens = prop_from_table.point(scene.table_from_projector.translation);
     const glm::dvec3 eye = prop_from_table.point(scene.eye_m);
-    Image8 picture(scene.projector.width, scene.projector.height, glm::u8vec4(0, 0, 0, 255));
+    image::Image8 picture(scene.projector.width, scene.projector.height, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const glm::dvec3 in_lens((x + 0.5 - scene.projector.cx) / scene.projector.fx,
@@ -101,7 +101,7 @@ Image8 projected(const VisitorScene& scene, const Egg& egg) {
                 continue;
             }
             const glm::dvec3 s = lens + hit.t * ray;
-            const PropFace& face = scene.prop.faces[static_cast<std::size_t>(hit.face)];
+            const geometry::PropFace& face = scene.prop.faces[static_cast<std::size_t>(hit.face)];
             if (glm::dot(face.plane.normal, eye - s) > 0.0) {
                 picture.at(x, y) = codes(egg.colour(eye, s - eye));
             }
@@ -124,8 +124,8 @@ TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinary
               std::tuple{glm::dvec2(-0.05, -0.03), -1.2, glm::dvec3(0.2, -0.7, 0.9)}}) {
             const VisitorScene scene = scene_of(kiosk, place, yaw, eye);
             const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, eye, 480, 300);
-            const Image8 view = visitor_view(scene, projected(scene, egg), camera, exact_check());
-            const RigidTransform prop_from_table = scene.table_from_prop.inverse();
+            const image::Image8 view = visitor_view(scene, projected(scene, egg), camera, exact_check());
+            const geometry::RigidTransform prop_from_table = scene.table_from_prop.inverse();
             const glm::dvec3 in_prop = prop_from_table.point(eye);
             int on_prop = 0;
             int on_egg = 0;
@@ -155,8 +155,8 @@ TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinary
 }
 
 TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
-    const PropShape prop = make_frustum({});
-    const RigidTransform pose{glm::angleAxis(0.4, glm::dvec3(0, 0, 1)), {0.1, 0.05, 0.0}};
+    const geometry::PropShape prop = geometry::make_frustum({});
+    const geometry::RigidTransform pose{glm::angleAxis(0.4, glm::dvec3(0, 0, 1)), {0.1, 0.05, 0.0}};
     const glm::dvec3 eye(-0.2, -0.6, 0.45);
     const VisitorCamera camera = visitor_camera(prop, pose, eye, 640, 400);
     const auto pixel = [&](const glm::dvec3& p) {
@@ -178,12 +178,12 @@ TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
 TEST(VisitorView, WithoutLightABlackPictureLeavesEverythingBlack) {
     const VisitorScene scene = scene_of(kiosks[0], {0, 0}, 0.2, {0.0, -0.55, 0.5});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 160, 100);
-    const Image8 black(1280, 800, glm::u8vec4(0, 0, 0, 255));
+    const image::Image8 black(1280, 800, glm::u8vec4(0, 0, 0, 255));
     for (const glm::u8vec4& texel : visitor_view(scene, black, camera, exact_check()).texels) {
         EXPECT_EQ(texel, glm::u8vec4(0, 0, 0, 255));
     }
     // In the room's light the prop stands out from the table, and neither is bright.
-    const Image8 lit = visitor_view(scene, black, camera);
+    const image::Image8 lit = visitor_view(scene, black, camera);
     EXPECT_GT(lit.at(80, 50).r, lit.at(20, 80).r + 8);
     EXPECT_LT(lit.at(80, 50).r, 70);
 }
@@ -192,8 +192,8 @@ TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
     // Off the axis, so the shadow falls outwards to +X; the eye looks at it along -X.
     const VisitorScene scene = scene_of(kiosks[1], {0.15, 0.0}, 0.0, {0.9, -0.3, 0.6});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 320, 200);
-    const Image8 white(1280, 800, glm::u8vec4(255));
-    const Image8 view = visitor_view(scene, white, camera, exact_check());
+    const image::Image8 white(1280, 800, glm::u8vec4(255));
+    const image::Image8 view = visitor_view(scene, white, camera, exact_check());
     const auto at = [&](const glm::dvec3& p) {
         const glm::dvec2 pixel = *camera.pinhole.pixel(camera.table_from_camera.inverse().point(p));
         return view.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
@@ -202,8 +202,8 @@ TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
     // 0.217: the +X face is lit and so is the table beyond it. A taller prop casts a shadow there.
     EXPECT_EQ(at({0.25, 0.0, 0.0}).r, 255);
     VisitorScene tall = scene;
-    tall.prop = make_frustum({0.16, 0.16, 0.30});
-    const Image8 shaded = visitor_view(tall, white, camera, exact_check());
+    tall.prop = geometry::make_frustum({0.16, 0.16, 0.30});
+    const image::Image8 shaded = visitor_view(tall, white, camera, exact_check());
     const glm::dvec2 pixel =
         *camera.pinhole.pixel(camera.table_from_camera.inverse().point({0.25, 0.0, 0.0}));
     EXPECT_EQ(shaded.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)).r, 0);
@@ -212,10 +212,10 @@ TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
 TEST(VisitorView, LightFallsWithTheCosineAndTheSquareOfTheDistance) {
     const VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.0, -0.6, 0.5});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 320, 200);
-    const Image8 grey(1280, 800, glm::u8vec4(60, 60, 60, 255));
-    const Image8 view = visitor_view(scene, grey, camera, {true, 1, true});
-    const Image8 dark =
-        visitor_view(scene, Image8(1280, 800, glm::u8vec4(0, 0, 0, 255)), camera, {true, 1, true});
+    const image::Image8 grey(1280, 800, glm::u8vec4(60, 60, 60, 255));
+    const image::Image8 view = visitor_view(scene, grey, camera, {true, 1, true});
+    const image::Image8 dark =
+        visitor_view(scene, image::Image8(1280, 800, glm::u8vec4(0, 0, 0, 255)), camera, {true, 1, true});
     const auto linear = [](std::uint8_t code) {
         const double s = code / 255.0;
         return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -239,35 +239,35 @@ TEST(VisitorView, LightFallsWithTheCosineAndTheSquareOfTheDistance) {
 TEST(VisitorView, ExposesADarkRoomsTableToDarkGreyAndWhiteOnASideToWhite) {
     VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.6, -0.1, 0.5});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 200, 200);
-    const auto code_at = [&](const Image8& picture, const glm::dvec3& point) {
-        const Image8 view = visitor_view(scene, picture, camera);
+    const auto code_at = [&](const image::Image8& picture, const glm::dvec3& point) {
+        const image::Image8 view = visitor_view(scene, picture, camera);
         const glm::dvec2 pixel = *camera.pinhole.pixel(camera.table_from_camera.inverse().point(point));
         return int(view.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)).g);
     };
     const glm::dvec3 side(0.0625, 0.0, 0.06);
     const glm::dvec3 table(0.17, 0.0, 0.0);
-    const Image8 dark(1280, 800, glm::u8vec4(0, 0, 0, 255));
+    const image::Image8 dark(1280, 800, glm::u8vec4(0, 0, 0, 255));
     EXPECT_GT(code_at(dark, table), 24);
     EXPECT_LT(code_at(dark, table), 48);
     EXPECT_GT(code_at(dark, side), 24);
     EXPECT_LT(code_at(dark, side), 64);
-    EXPECT_GT(code_at(Image8(1280, 800, glm::u8vec4(255)), side), 230);
+    EXPECT_GT(code_at(image::Image8(1280, 800, glm::u8vec4(255)), side), 230);
 }
 
 TEST(VisitorView, ShowsABlockWhereItIsTheNearest) {
     VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.0, -0.6, 0.4});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 120, 120);
-    const Image8 white(1280, 800, glm::u8vec4(255));
-    const Image8 before = visitor_view(scene, white, camera);
+    const image::Image8 white(1280, 800, glm::u8vec4(255));
+    const image::Image8 before = visitor_view(scene, white, camera);
     scene.blocks = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind everything
-    const Image8 walled = visitor_view(scene, white, camera);
+    const image::Image8 walled = visitor_view(scene, white, camera);
     EXPECT_EQ(walled.at(60, 60), before.at(60, 60));
     scene.blocks.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen in front of the
                                                                           // eye
-    const Image8 hidden = visitor_view(scene, white, camera);
+    const image::Image8 hidden = visitor_view(scene, white, camera);
     EXPECT_EQ(hidden.at(60, 60), glm::u8vec4(0, 0, 0, 255));
     EXPECT_GT(before.at(60, 60).g, 100);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::simulation

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 using namespace testing;
@@ -209,4 +209,4 @@ TEST_F(AlsaDevice, ADeviceThatIsNotThereIsSaidInOneSentence) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

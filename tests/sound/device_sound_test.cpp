@@ -6,7 +6,7 @@
 
 #include <atomic>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 using namespace testing;
@@ -309,4 +309,4 @@ TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 using namespace testing;
@@ -243,4 +243,4 @@ TEST(Mixer, NothingClips) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

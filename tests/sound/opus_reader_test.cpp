@@ -9,7 +9,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 /// Recordings written by libsndfile.
@@ -118,4 +118,4 @@ TEST(OpusReader, WhatIsNoRecordingIsRefusedInOneSentence) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 using namespace testing;
@@ -73,4 +73,4 @@ TEST(Pauses, AreThoseBetweenSentencesNotTheLongConsonantsOfItalian) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

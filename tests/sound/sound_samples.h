@@ -9,8 +9,9 @@
 
 namespace frustumscreen::testing {
 
-template <typename Value> SharedPrompt prompt_of(std::size_t count, std::vector<Mark> marks, Value&& value) {
-    auto prompt = std::make_shared<Prompt>();
+template <typename Value>
+sound::SharedPrompt prompt_of(std::size_t count, std::vector<sound::Mark> marks, Value&& value) {
+    auto prompt = std::make_shared<sound::Prompt>();
     for (std::size_t k = 0; k < count; ++k) {
         prompt->samples.push_back(static_cast<std::int16_t>(value(k)));
     }
@@ -18,20 +19,21 @@ template <typename Value> SharedPrompt prompt_of(std::size_t count, std::vector<
     return prompt;
 }
 /// A constant level, in which any change is a fade.
-inline SharedPrompt level(std::size_t count, int code, std::vector<Mark> marks = {}) {
-    auto prompt = std::make_shared<Prompt>();
+inline sound::SharedPrompt level(std::size_t count, int code, std::vector<sound::Mark> marks = {}) {
+    auto prompt = std::make_shared<sound::Prompt>();
     prompt->samples.assign(count, static_cast<std::int16_t>(code));
     prompt->marks = std::move(marks);
     return prompt;
 }
 /// No two stretches of it are equal.
-inline SharedPrompt noise(std::size_t count, int loudest, unsigned seed, std::vector<Mark> marks = {}) {
+inline sound::SharedPrompt noise(std::size_t count, int loudest, unsigned seed,
+                                 std::vector<sound::Mark> marks = {}) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> code(-loudest, loudest);
     return prompt_of(count, std::move(marks), [&](std::size_t) { return code(random); });
 }
 
-inline std::vector<std::int16_t> mixed(Mixer& mixer, std::size_t count) {
+inline std::vector<std::int16_t> mixed(sound::Mixer& mixer, std::size_t count) {
     std::vector<std::int16_t> samples(count);
     mixer.mix(samples);
     return samples;

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 using namespace testing;
@@ -108,4 +108,4 @@ TEST(WavSound, IsAWaveFileForOthers) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::sound {
 namespace {
 
 TEST(Volume, IsThatOfTheHourWithASlowRampAtItsBegin) {
@@ -42,4 +42,4 @@ TEST(Volume, NeverJumpsNotEvenOverMidnightOrInShortHours) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::sound

@@ -15,7 +15,7 @@
 #include <ostream>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 void PrintTo(const StabilityCase& which, std::ostream* out) { // GoogleTest finds it by this name
     *out << which.theme << ": " << which.name;
@@ -95,4 +95,4 @@ std::string name_of(const ::testing::TestParamInfo<StabilityCase>& info) {
 INSTANTIATE_TEST_SUITE_P(Case, Stability, ::testing::ValuesIn(stability_cases()), name_of);
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

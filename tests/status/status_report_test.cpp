@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::status {
 namespace {
 
 using std::chrono::seconds;
@@ -30,12 +30,13 @@ StatusReport full_report() {
     report.shown_code = std::uint8_t{6};
     report.mode = "plain";
     report.settings = Sentence("others are used");
-    report.left_out = std::make_shared<const std::vector<PackLeftOut>>(
-        std::vector<PackLeftOut>{{"cat.fspack", "there is no such file"}, {"dog.fspack", "it is damaged"}});
+    report.left_out =
+        std::make_shared<const std::vector<library::PackLeftOut>>(std::vector<library::PackLeftOut>{
+            {"cat.fspack", "there is no such file"}, {"dog.fspack", "it is damaged"}});
     const auto set = std::make_shared<SetStatus>();
     set->shown = 7;
     set->packs = {{"a", "b", "A cat", 3, {}, 0, {}}};
-    set->newest = {8, TrialState::Bad, 2, "dog.fspack: it is damaged"};
+    set->newest = {8, library::TrialState::Bad, 2, "dog.fspack: it is damaged"};
     set->on_trial = true;
     set->of_ended_keys = "vase, cup";
     set->trouble = "set.txt cannot be read";
@@ -86,13 +87,18 @@ StatusReport full_report() {
     report.sound = Sentence("its sound goes to default");
     report.sound_underruns = 2;
     report.recording = Sentence("it is recorded");
-    ImportReport import;
+    library::ImportReport import;
     import.import_id = "id";
     import.stick = "A stick";
-    import.stage = ImportStage::Failed;
+    import.stage = library::ImportStage::Failed;
     import.reason = "it is full";
-    import.packs = {{ "a", "A", ImportOutcome::Refused, ImportRefusal::Older, "an older one" }};
-    report.import = std::make_shared<const ImportReport>(import);
+    import.packs = {
+        { "a",
+          "A",
+          library::ImportOutcome::Refused,
+          library::ImportRefusal::Older,
+          "an older one" }};
+    report.import = std::make_shared<const library::ImportReport>(import);
     report.prop_known = true;
     report.head_known = true;
     report.eye_by = "camera";
@@ -140,7 +146,7 @@ TEST(StatusReport, WhatWasWrittenIsReadAgain) {
 TEST(StatusReport, HasTheImportersReportAsItsFileHasIt) {
     const StatusReport report = full_report();
     EXPECT_EQ(parsed(report).at("import").dump(),
-              nlohmann::ordered_json::parse(write_import_report(*report.import)).dump());
+              nlohmann::ordered_json::parse(library::write_import_report(*report.import)).dump());
 }
 
 /// Each key of the file has a member of the report, which full_report sets.
@@ -317,4 +323,4 @@ TEST(WatchdogStatus, WhatIsMissingIsNothing) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::status

@@ -10,26 +10,26 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 namespace {
 
-SceneCamera above() {
-    SceneCamera camera;
-    camera.table_from_camera = *looking_at({0.0, -0.3, 1.3}, {0.0, 0.0, 0.0}, 0.0);
+simulators::SceneCamera above() {
+    simulators::SceneCamera camera;
+    camera.table_from_camera = *settings::looking_at({0.0, -0.3, 1.3}, {0.0, 0.0, 0.0}, 0.0);
     return camera;
 }
 
-PropMotion standing(const RigidTransform& pose) {
+simulators::PropMotion standing(const geometry::RigidTransform& pose) {
     return [pose](double) { return pose; };
 }
 
 TEST(TagDetector, FindsTheCornersWhereTheyAre) {
-    SceneCamera camera = above();
+    simulators::SceneCamera camera = above();
     camera.read_noise = camera.shot_noise = 0.0;
     camera.gamma = 1.0;
-    const std::vector<PropTag> tags = tags_of({.tag_m = 0.04});
-    const RigidTransform pose{rotation_of({0.0, 0.0, 0.3}), {0.05, 0.02, 0.0}};
-    const TagScene scene(make_frustum({0.1, 0.05, 0.02}), tags, camera, {});
+    const std::vector<PropTag> tags = simulators::tags_of({.tag_m = 0.04});
+    const geometry::RigidTransform pose{tracking::rotation_of({0.0, 0.0, 0.3}), {0.05, 0.02, 0.0}};
+    const simulators::TagScene scene(geometry::make_frustum({0.1, 0.05, 0.02}), tags, camera, {});
     TagDetector detector;
     std::vector<FoundTag> found;
     detector.find(scene.picture(standing(pose), 1), 1280, 720, found);
@@ -64,20 +64,21 @@ TEST(TagDetector, FindsNothingInNoPicture) {
 }
 
 TEST(TagDetector, ASceneGivesThePose) {
-    const SceneCamera camera = above();
-    const std::vector<PropTag> tags = tags_of({});
-    const RigidTransform pose{rotation_of({0.0, 0.0, -0.4}), {-0.05, 0.02, 0.0}};
-    const TagScene scene(make_frustum(shipped_frustum), tags, camera, {});
+    const simulators::SceneCamera camera = above();
+    const std::vector<PropTag> tags = simulators::tags_of({});
+    const geometry::RigidTransform pose{tracking::rotation_of({0.0, 0.0, -0.4}), {-0.05, 0.02, 0.0}};
+    const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum), tags, camera, {});
     TagDetector detector;
     std::vector<FoundTag> found;
     detector.find(scene.picture(standing(pose), 1), 1280, 720, found);
     const auto seen = pose_from_tags(found, tags, camera.pinhole, 0.2);
     ASSERT_TRUE(seen);
-    const PoseStep step = step_between(pose, camera.table_from_camera * seen->camera_from_prop);
+    const tracking::PoseStep step =
+        tracking::step_between(pose, camera.table_from_camera * seen->camera_from_prop);
     EXPECT_LT(glm::length(step.shift_m), 0.003);
     EXPECT_LT(glm::length(step.turn_rad), glm::radians(0.6));
     EXPECT_GE(seen->tags, 5U);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -3,16 +3,17 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 namespace {
 
 /// Constant speed to the right, given as a motion; places and noise do not depend on the speed.
-TagCase slid_at(double speed_m_s) {
-    TagCase one;
+simulators::TagCase slid_at(double speed_m_s) {
+    simulators::TagCase one;
     one.camera.rolling_ms = 25.0;
-    one.motion = [speed_m_s](std::mt19937_64&) -> PropMotion {
+    one.motion = [speed_m_s](std::mt19937_64&) -> simulators::PropMotion {
         return [speed_m_s](double t_s) {
-            return RigidTransform{rotation_of({0.0, 0.0, 0.0}), {speed_m_s * t_s, 0.0, 0.0}};
+            return geometry::RigidTransform{tracking::rotation_of({0.0, 0.0, 0.0}),
+                                            {speed_m_s * t_s, 0.0, 0.0}};
         };
     };
     return one;
@@ -20,8 +21,8 @@ TagCase slid_at(double speed_m_s) {
 
 TEST(TagFigures, AMotionOfItsOwnMovesTheProp) {
     constexpr std::size_t pictures = 2;
-    const TagFigures rest = measure(slid_at(0.0), pictures, 1);
-    const TagFigures slid = measure(slid_at(0.3), pictures, 1);
+    const simulators::TagFigures rest = simulators::measure(slid_at(0.0), pictures, 1);
+    const simulators::TagFigures slid = simulators::measure(slid_at(0.3), pictures, 1);
     EXPECT_EQ(rest.trusted, 1.0);
     EXPECT_EQ(slid.trusted, 1.0);
     EXPECT_GT(slid.off_deg[0], 5.0 * rest.off_deg[0]); // the rows are up to 25 ms apart
@@ -29,4 +30,4 @@ TEST(TagFigures, AMotionOfItsOwnMovesTheProp) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

@@ -9,21 +9,22 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 namespace {
 
-const Pinhole camera{1280, 720, 1500.0, 1490.0, 630.0, 365.0, {-0.1, 0.03}};
+const geometry::Pinhole camera{1280, 720, 1500.0, 1490.0, 630.0, 365.0, {-0.1, 0.03}};
 constexpr double corner_sd_px = 0.2;
 
-RigidTransform above_the_table() {
-    return *looking_at({0.0, -0.5, 1.2}, {0.0, 0.0, 0.0}, 0.0);
+geometry::RigidTransform above_the_table() {
+    return *settings::looking_at({0.0, -0.5, 1.2}, {0.0, 0.0, 0.0}, 0.0);
 }
 
 /// Corners of every tag, projected by the pinhole, with noise.
-std::vector<FoundTag> corners_of(const std::vector<PropTag>& tags, const RigidTransform& table_from_prop,
-                                 double sd_px, std::mt19937_64& random) {
+std::vector<FoundTag> corners_of(const std::vector<PropTag>& tags,
+                                 const geometry::RigidTransform& table_from_prop, double sd_px,
+                                 std::mt19937_64& random) {
     std::normal_distribution<double> noise(0.0, 1.0);
-    const RigidTransform camera_from_prop = above_the_table().inverse() * table_from_prop;
+    const geometry::RigidTransform camera_from_prop = above_the_table().inverse() * table_from_prop;
     std::vector<FoundTag> found;
     for (const PropTag& tag : tags) {
         FoundTag one{tag.id, {}, 50.0};
@@ -38,20 +39,20 @@ std::vector<FoundTag> corners_of(const std::vector<PropTag>& tags, const RigidTr
     return found;
 }
 
-RigidTransform place(double x, double y, double yaw_deg) {
-    return {rotation_of({0.0, 0.0, glm::radians(yaw_deg)}), {x, y, 0.0}};
+geometry::RigidTransform place(double x, double y, double yaw_deg) {
+    return {tracking::rotation_of({0.0, 0.0, glm::radians(yaw_deg)}), {x, y, 0.0}};
 }
 
-PoseStep off(const TagPose& pose, const RigidTransform& truth) {
-    return step_between(truth, above_the_table() * pose.camera_from_prop);
+tracking::PoseStep off(const TagPose& pose, const geometry::RigidTransform& truth) {
+    return tracking::step_between(truth, above_the_table() * pose.camera_from_prop);
 }
 
 TEST(TagPose, ExactCornersGiveTheExactPose) {
     std::mt19937_64 random(1);
     for (const double yaw : {0.0, 37.0, 180.0, -91.0}) {
-        const RigidTransform truth = place(0.1, -0.05, yaw);
-        const auto found = corners_of(tags_of({}), truth, 0.0, random);
-        const auto pose = pose_from_tags(found, tags_of({}), camera, corner_sd_px);
+        const geometry::RigidTransform truth = place(0.1, -0.05, yaw);
+        const auto found = corners_of(simulators::tags_of({}), truth, 0.0, random);
+        const auto pose = pose_from_tags(found, simulators::tags_of({}), camera, corner_sd_px);
         ASSERT_TRUE(pose);
         EXPECT_LT(glm::length(off(*pose, truth).shift_m), 1e-8);
         EXPECT_LT(glm::length(off(*pose, truth).turn_rad), 1e-7);
@@ -63,18 +64,18 @@ TEST(TagPose, ExactCornersGiveTheExactPose) {
 /// for all.
 TEST(TagPose, SaysHowMuchItScatters) {
     std::mt19937_64 random(2);
-    const Skirt skirt{.tag_m = 0.08, .slope_deg = 40.0};
+    const simulators::Skirt skirt{.tag_m = 0.08, .slope_deg = 40.0};
     for (const std::size_t count : {1U, 3U, 8U}) {
-        std::vector<PropTag> tags = tags_of(skirt);
+        std::vector<PropTag> tags = simulators::tags_of(skirt);
         tags.resize(count);
         double place2 = 0.0, turn2 = 0.0, said_place2 = 0.0, said_turn2 = 0.0;
         constexpr int times = 400;
         for (int k = 0; k < times; ++k) {
-            const RigidTransform truth = place(0.05, 0.0, 0.2 * k);
+            const geometry::RigidTransform truth = place(0.05, 0.0, 0.2 * k);
             const auto found = corners_of(tags, truth, corner_sd_px, random);
             const auto pose = pose_from_tags(found, tags, camera, corner_sd_px);
             ASSERT_TRUE(pose);
-            const PoseStep step = off(*pose, truth);
+            const tracking::PoseStep step = off(*pose, truth);
             place2 += glm::dot(step.shift_m, step.shift_m);
             turn2 += glm::dot(step.turn_rad, step.turn_rad);
             said_place2 += pose->place_sd_m * pose->place_sd_m;
@@ -92,7 +93,7 @@ TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
     const std::vector<PropTag> tags{{7, 0.03, {}}};
     int wrong = 0;
     for (int k = 0; k < 300; ++k) {
-        const RigidTransform truth{rotation_of({0.35, 0.1, 0.02 * k}), {0.1, 0.1, 0.1}};
+        const geometry::RigidTransform truth{tracking::rotation_of({0.35, 0.1, 0.02 * k}), {0.1, 0.1, 0.1}};
         const auto pose =
             pose_from_tags(corners_of(tags, truth, corner_sd_px, random), tags, camera, corner_sd_px);
         ASSERT_TRUE(pose);
@@ -105,8 +106,8 @@ TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
 
 TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
     std::mt19937_64 random(4);
-    const RigidTransform truth = place(-0.1, 0.05, 20.0);
-    std::vector<PropTag> tags = tags_of({});
+    const geometry::RigidTransform truth = place(-0.1, 0.05, 20.0);
+    std::vector<PropTag> tags = simulators::tags_of({});
     for (std::size_t k = 0; k < tags.size(); ++k) {
         auto found = corners_of(tags, truth, corner_sd_px, random);
         found[k].id = tags[(k + 3) % tags.size()].id; // the id of another of the prop's tags, which then
@@ -126,7 +127,7 @@ TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
 
 TEST(TagPose, WhatIsNoPoseIsNone) {
     std::mt19937_64 random(5);
-    const std::vector<PropTag> tags = tags_of({});
+    const std::vector<PropTag> tags = simulators::tags_of({});
     EXPECT_FALSE(pose_from_tags({}, tags, camera, corner_sd_px));
     auto found = corners_of(tags, place(0, 0, 0), 0.0, random);
     for (FoundTag& tag : found) {
@@ -150,7 +151,7 @@ constexpr double readout_s = 0.025;
 constexpr double frame_s = 1.0 / 30.0;
 
 /// Slid at 0.36 m/s and rotated by 90 degrees per second.
-RigidTransform slid(double t_s) {
+geometry::RigidTransform slid(double t_s) {
     return place(0.02 + 0.3 * t_s, -0.03 + 0.2 * t_s, 20.0 + 90.0 * t_s);
 }
 
@@ -171,13 +172,13 @@ std::vector<FoundTag> rolled_corners(const std::vector<PropTag>& tags, double fi
 }
 
 TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
-    const std::vector<PropTag> tags = tags_of({});
+    const std::vector<PropTag> tags = simulators::tags_of({});
     const std::vector<FoundTag> found = rolled_corners(tags, 0.0);
     const auto skewed = pose_from_tags(found, tags, camera, corner_sd_px, {readout_s, {}, 0.0});
     ASSERT_TRUE(skewed);
     EXPECT_GT(glm::length(off(*skewed, slid(skewed->moment_s)).turn_rad), 0.01);
     const double before_s = 0.4 * readout_s - frame_s;
-    const RigidTransform before = above_the_table().inverse() * slid(before_s);
+    const geometry::RigidTransform before = above_the_table().inverse() * slid(before_s);
     const auto pose = pose_from_tags(found, tags, camera, corner_sd_px, {readout_s, before, before_s});
     ASSERT_TRUE(pose);
     EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).shift_m), 1e-6);
@@ -186,7 +187,7 @@ TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
 
 /// The first pose is skewed, because the motion is unknown; each later pose improves the estimate.
 TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
-    const std::vector<PropTag> tags = tags_of({});
+    const std::vector<PropTag> tags = simulators::tags_of({});
     RollingShutter shutter{readout_s, {}, 0.0};
     double off_m = 1.0;
     for (int k = 0; k < 12; ++k) {
@@ -203,7 +204,7 @@ TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
 /// With a global shutter the previous pose has no influence.
 TEST(TagPose, AGlobalShutterNeedsNoPoseBefore) {
     std::mt19937_64 random(4);
-    const std::vector<PropTag> tags = tags_of({});
+    const std::vector<PropTag> tags = simulators::tags_of({});
     const auto found = corners_of(tags, place(0.05, 0.02, 30.0), corner_sd_px, random);
     const auto alone = pose_from_tags(found, tags, camera, corner_sd_px);
     const auto after = pose_from_tags(found, tags, camera, corner_sd_px, {0.0, slid(0.0), -frame_s});
@@ -213,4 +214,4 @@ TEST(TagPose, AGlobalShutterNeedsNoPoseBefore) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

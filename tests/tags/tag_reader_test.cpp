@@ -13,36 +13,37 @@
 #include <iterator>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::tags {
 namespace {
 
 using std::chrono::milliseconds;
 
-const RigidTransform standing{rotation_of({0.0, 0.0, 0.2}), {0.04, -0.03, 0.0}};
+const geometry::RigidTransform standing{tracking::rotation_of({0.0, 0.0, 0.2}), {0.04, -0.03, 0.0}};
 
-SceneCamera above() {
-    SceneCamera camera;
-    camera.table_from_camera = *looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
+simulators::SceneCamera above() {
+    simulators::SceneCamera camera;
+    camera.table_from_camera = *settings::looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
     return camera;
 }
 
 TagSetUp set_up() {
-    return {above().pinhole, above().table_from_camera, tags_of({})};
+    return {above().pinhole, above().table_from_camera, simulators::tags_of({})};
 }
 
-CameraFrame frame_at(milliseconds time) {
+camera::CameraFrame frame_at(milliseconds time) {
     static const std::vector<std::uint8_t> picture =
-        TagScene(make_frustum(shipped_frustum), tags_of({}), above(), {})
+        simulators::TagScene(geometry::make_frustum(geometry::shipped_frustum), simulators::tags_of({}),
+                             above(), {})
             .picture([](double) { return standing; }, 1);
     return {MonotonicTime(time), 1, 1280, 720, picture};
 }
 
 TEST(TagReader, AFrameGivesThePoseOnTheTable) {
     TagReader reader(set_up());
-    const std::optional<UncertainPose> pose = reader.read(frame_at(milliseconds(500)));
+    const std::optional<tracking::UncertainPose> pose = reader.read(frame_at(milliseconds(500)));
     ASSERT_TRUE(pose);
     EXPECT_EQ(pose->time, MonotonicTime(milliseconds(500)));
-    EXPECT_LT(slip_m(step_between(standing, pose->table_from_prop), 0.0775), 0.001);
+    EXPECT_LT(tracking::slip_m(tracking::step_between(standing, pose->table_from_prop), 0.0775), 0.001);
     EXPECT_EQ(reader.counts().posed, 1U);
 }
 
@@ -51,25 +52,28 @@ TEST(TagReader, AFrameGivesThePoseOnTheTable) {
 /// middle row's.
 TEST(TagReader, WhatARollingShutterSkewsIsTakenOut) {
     const auto prop = [](double t_s) {
-        return RigidTransform{standing.rotation, standing.translation + glm::dvec3(0.3 * t_s, 0.0, 0.0)};
+        return geometry::RigidTransform{standing.rotation,
+                                        standing.translation + glm::dvec3(0.3 * t_s, 0.0, 0.0)};
     };
-    SceneCamera camera = above();
+    simulators::SceneCamera camera = above();
     camera.rolling_ms = 25.0;
-    const TagScene scene(make_frustum(shipped_frustum), tags_of({}), camera, {});
+    const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum),
+                                     simulators::tags_of({}), camera, {});
     TagSetUp known = set_up();
     known.readout_s = 0.025;
     const MonotonicTime begin(std::chrono::seconds(1));
     TagReader reader(known, [] { return 0.0; });
     TagReader unknowing(set_up(), [] { return 0.0; });
-    PoseStep off, skewed;
+    tracking::PoseStep off, skewed;
     for (int k = 0; k < 4; ++k) {
         const double first_row_s = k / 30.0;
         const auto nanoseconds = [](double s) { return Nanoseconds(std::llround(1e9 * s)); };
-        const CameraFrame frame{begin + nanoseconds(first_row_s + 0.5 * known.readout_s), 1, 1280, 720,
-                                scene.picture([&](double t_s) { return prop(first_row_s + t_s); }, 1)};
-        const auto off_truth = [&](const std::optional<UncertainPose>& pose) {
+        const camera::CameraFrame frame{
+            begin + nanoseconds(first_row_s + 0.5 * known.readout_s), 1, 1280, 720,
+            scene.picture([&](double t_s) { return prop(first_row_s + t_s); }, 1)};
+        const auto off_truth = [&](const std::optional<tracking::UncertainPose>& pose) {
             const double exposed_s = to_seconds(pose->time - begin) + 0.5e-3 * camera.exposure_ms;
-            return step_between(prop(exposed_s), pose->table_from_prop);
+            return tracking::step_between(prop(exposed_s), pose->table_from_prop);
         };
         const auto pose = reader.read(frame);
         const auto without = unknowing.read(frame);
@@ -116,17 +120,18 @@ TEST(TagReader, SearchesTheWholePictureWhileThatIsCheap) {
 /// Tags of 18 pixels, on a processor that takes 13 ms for a whole picture: at half size none is found, so
 /// only two frames in 202 may be lost, not a hundred in 101.
 TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong) {
-    SceneCamera small = above();
+    simulators::SceneCamera small = above();
     small.pinhole = small.pinhole.scaled_to(640, 360);
-    const TagScene scene(make_frustum(shipped_frustum), tags_of({}), small, {});
+    const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum),
+                                     simulators::tags_of({}), small, {});
     const std::vector<std::uint8_t> picture = scene.picture([](double) { return standing; }, 1);
     std::vector<FoundTag> at_half;
     TagDetector({.decimate = 2.0}).find(picture, 640, 360, at_half);
-    ASSERT_FALSE(pose_from_tags(at_half, tags_of({}), small.pinhole, usual_corner_sd_px))
+    ASSERT_FALSE(pose_from_tags(at_half, simulators::tags_of({}), small.pinhole, usual_corner_sd_px))
         << "this proves nothing";
 
     double busy_s = 0.0;
-    TagReader reader({small.pinhole, small.table_from_camera, tags_of({})},
+    TagReader reader({small.pinhole, small.table_from_camera, simulators::tags_of({})},
                      [&busy_s] { return busy_s += 0.013; });
     for (int k = 1; k <= 202; ++k) {
         static_cast<void>(reader.read({MonotonicTime(milliseconds(100 * k)), 1, 640, 360, picture}));
@@ -138,7 +143,7 @@ TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong
 
 TEST(TagReader, AFrameOfAnotherShapeGivesNone) {
     TagReader reader(set_up());
-    CameraFrame frame = frame_at(milliseconds(1));
+    camera::CameraFrame frame = frame_at(milliseconds(1));
     frame.width = 960;
     frame.luma.resize(960 * 720);
     EXPECT_FALSE(reader.read(frame));
@@ -152,25 +157,28 @@ TEST(TagTracker, PosesComeFromTheCamerasThread) {
             tracker.use(frame_at(milliseconds(1000 * k)));
         }
     }).join();
-    std::vector<UncertainPose> poses;
+    std::vector<tracking::UncertainPose> poses;
     tracker.poll(MonotonicTime(std::chrono::hours(1)), poses);
     ASSERT_EQ(poses.size(), 3U);
     EXPECT_LT(poses[0].time, poses[1].time);
-    EXPECT_LT(slip_m(step_between(standing, poses[1].table_from_prop), 0.0775), 0.001);
+    EXPECT_LT(tracking::slip_m(tracking::step_between(standing, poses[1].table_from_prop), 0.0775), 0.001);
     EXPECT_EQ(tracker.trouble(), "");
 }
 
 TEST(TagSettings, PlaceATagAsASkirtDoes) {
     for (const double slope : {0.0, 35.0}) {
-        for (const PropTag& tag : tags_of({.slope_deg = slope})) {
+        for (const PropTag& tag : simulators::tags_of({.slope_deg = slope})) {
             const int side = tag.id / 2;
-            const TagSettings written{tag.id, tag.size_m, tag.prop_from_tag.translation, 90.0 * side, slope};
-            const PoseStep off = step_between(tag.prop_from_tag, prop_from_tag(written));
+            const settings::TagSettings written{tag.id, tag.size_m, tag.prop_from_tag.translation,
+                                                90.0 * side, slope};
+            const tracking::PoseStep off =
+                tracking::step_between(tag.prop_from_tag, settings::prop_from_tag(written));
             EXPECT_LT(glm::length(off.shift_m) + glm::length(off.turn_rad), 1e-12);
         }
     }
     // An upright tag at the front edge faces the visitor, its top up.
-    const RigidTransform upright = prop_from_tag({0, 0.03, {0.0, -0.15, 0.02}, 0.0, 90.0});
+    const geometry::RigidTransform upright =
+        settings::prop_from_tag({0, 0.03, {0.0, -0.15, 0.02}, 0.0, 90.0});
     EXPECT_LT(glm::distance(upright.direction({0, 0, 1}), glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_LT(glm::distance(upright.direction({0, 1, 0}), glm::dvec3(0, 0, 1)), 1e-12);
 }
@@ -180,14 +188,15 @@ TEST(TagSettings, ThePagesExampleIsTheSkirt) {
     std::ifstream file(source_dir() + "/docs/tags.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     const std::size_t begin = page.find("```toml\n") + 8;
-    const Result<CheckedSettings> settings =
-        parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");
+    const Result<settings::CheckedSettings> settings =
+        settings::parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");
     ASSERT_TRUE(settings) << settings.error().message;
-    const std::vector<PropTag> skirt = tags_of({});
+    const std::vector<PropTag> skirt = simulators::tags_of({});
     ASSERT_EQ((*settings)->camera.tag.size(), skirt.size());
     for (std::size_t k = 0; k < skirt.size(); ++k) {
-        const TagSettings& tag = (*settings)->camera.tag[k];
-        const PoseStep off = step_between(skirt[k].prop_from_tag, prop_from_tag(tag));
+        const settings::TagSettings& tag = (*settings)->camera.tag[k];
+        const tracking::PoseStep off =
+            tracking::step_between(skirt[k].prop_from_tag, settings::prop_from_tag(tag));
         EXPECT_LT(glm::length(off.shift_m) + glm::length(off.turn_rad), 1e-9) << k;
         EXPECT_EQ(tag.id, skirt[k].id);
         EXPECT_EQ(tag.size_m, skirt[k].size_m);
@@ -197,4 +206,4 @@ TEST(TagSettings, ThePagesExampleIsTheSkirt) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tags

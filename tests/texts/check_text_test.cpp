@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 
 namespace {
 

@@ -31,7 +31,7 @@ inline constexpr auto samples = std::to_array<Sample>({
 class Shaping : public ::testing::Test {
 protected:
     void SetUp() override {
-        Result<Shaper> opened = Shaper::open();
+        Result<texts::Shaper> opened = texts::Shaper::open();
         ASSERT_TRUE(opened) << opened.error().message;
         shaper.emplace(*std::move(opened));
     }
@@ -47,12 +47,12 @@ protected:
             GTEST_SKIP() << skipped;
         }
     }
-    [[nodiscard]] Result<ShapedText> shape(const std::string& language, const std::string& text,
-                                           int width_em = 200, bool bold = false) {
-        return shaper->shape({text, language, {width_em * em_units}, bold});
+    [[nodiscard]] Result<texts::ShapedText> shape(const std::string& language, const std::string& text,
+                                                  int width_em = 200, bool bold = false) {
+        return shaper->shape({text, language, {width_em * pack::em_units}, bold});
     }
 
-    std::optional<Shaper> shaper;
+    std::optional<texts::Shaper> shaper;
     std::string skipped;
 };
 

@@ -9,6 +9,7 @@
 #include <random>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {

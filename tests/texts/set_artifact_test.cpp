@@ -9,6 +9,7 @@
 #include <array>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {
@@ -18,28 +19,29 @@ constexpr double usual_em_m = 0.010;
 /// Like the kiosk's captions at two type sizes, in the units of set_artifact.
 CaptionLimits limits_for_captions() {
     CaptionLimits limits;
-    for (const double width_m : caption_widths_m) {
-        for (const double em_m : {min_caption_em_m, usual_em_m}) {
-            limits.text.push_back(static_cast<std::int32_t>(em_units * width_m / em_m));
-            limits.title.push_back(static_cast<std::int32_t>(em_units * width_m / em_m / caption_title_em));
+    for (const double width_m : typography::caption_widths_m) {
+        for (const double em_m : {typography::min_caption_em_m, usual_em_m}) {
+            limits.text.push_back(static_cast<std::int32_t>(pack::em_units * width_m / em_m));
+            limits.title.push_back(
+                static_cast<std::int32_t>(pack::em_units * width_m / em_m / typography::caption_title_em));
         }
     }
-    limits.title_em = caption_title_em;
-    limits.max_height = 25 * em_units;
+    limits.title_em = typography::caption_title_em;
+    limits.max_height = 25 * pack::em_units;
     return limits;
 }
 
 class SetArtifactTexts : public Shaping {
 protected:
-    [[nodiscard]] SetArtifact set(const std::vector<PackCaption>& captions,
-                                  const std::vector<std::vector<PackLabel>>& labels = {}) const {
+    [[nodiscard]] SetArtifact set(const std::vector<pack::PackCaption>& captions,
+                                  const std::vector<std::vector<pack::PackLabel>>& labels = {}) const {
         return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, limits_for_captions(), *shaper);
     }
 };
 
-std::vector<std::string> keys_of(const SetLanguage& language) {
+std::vector<std::string> keys_of(const pack::SetLanguage& language) {
     std::vector<std::string> keys;
-    for (const GlyphText& text : language.runs.texts) {
+    for (const pack::GlyphText& text : language.runs.texts) {
         keys.push_back(text.key);
     }
     return keys;
@@ -56,8 +58,9 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
     if (!has("de")) {
         return;
     }
-    const PackCaption german{"de", "Krug", "Ein Krug.", "um 1600", "Köln", "", "Schenkung", "Er ist hoch."};
-    const PackCaption english{"en", "Jug", ""};
+    const pack::PackCaption german{"de",   "Krug", "Ein Krug.", "um 1600",
+                                   "Köln", "",     "Schenkung", "Er ist hoch."};
+    const pack::PackCaption english{"en", "Jug", ""};
     const SetArtifact made = set({german, english}, {{{"en", "Handle"}}, {{"de", "Fuß"}, {"en", "Foot"}}});
     EXPECT_TRUE(made.notes.empty()) << made.notes.front();
     ASSERT_EQ(made.languages.size(), 2U);
@@ -65,7 +68,7 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
               (std::vector<std::string>{"title", "text", "attribution", "description.0", "label.1"}));
     EXPECT_EQ(keys_of(made.languages[1]),
               (std::vector<std::string>{"title", "attribution", "label.0", "label.1"}));
-    const auto lines = [](const SetLanguage& language) {
+    const auto lines = [](const pack::SetLanguage& language) {
         return language.runs.find("attribution")->settings.front().lines.size();
     };
     EXPECT_EQ(lines(made.languages[0]), 3U) << "Köln and um 1600, the gift, who made the scan";
@@ -84,16 +87,17 @@ TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
         }
         const SetArtifact made = set({{sample.language, sample.text, text}});
         ASSERT_EQ(made.languages.size(), 1U);
-        const SetLanguage& language = made.languages.front();
-        for (const double em_m : {min_caption_em_m, usual_em_m}) {
+        const pack::SetLanguage& language = made.languages.front();
+        for (const double em_m : {typography::min_caption_em_m, usual_em_m}) {
             double last_height_m = 0.0;
             for (const double width_m : {0.30, 0.16}) { // words may be wider than 0.075 m
                 constexpr double texels_per_m = 2000.0;
-                const CaptionImage image =
-                    make_caption(language.runs, language.atlas,
-                                 std::array{GlyphPart{CaptionRole::Title, language.runs.find("title")},
-                                            GlyphPart{CaptionRole::Text, language.runs.find("text")}},
-                                 em_m, width_m, texels_per_m);
+                const typography::CaptionImage image = typography::make_caption(
+                    language.runs, language.atlas,
+                    std::array{
+                        typography::GlyphPart{typography::CaptionRole::Title, language.runs.find("title")},
+                        typography::GlyphPart{typography::CaptionRole::Text, language.runs.find("text")}},
+                    em_m, width_m, texels_per_m);
                 EXPECT_LE(image.size_m.x, width_m + 0.1 * em_m) << sample.language;
                 EXPECT_GE(image.size_m.x, 0.75 * width_m) << sample.language << ": room is left unused";
                 EXPECT_GT(image.size_m.y, last_height_m) << sample.language;
@@ -111,7 +115,7 @@ TEST_F(SetArtifactTexts, what_cannot_be_set_is_said_and_the_rest_is_set) {
     for (int k = 0; k < 1500; ++k) {
         long_text += "Wort ";
     }
-    PackCaption caption{"de", "Krug \xf0\x9f\x98\x80", "Kurz."};
+    pack::PackCaption caption{"de", "Krug \xf0\x9f\x98\x80", "Kurz."};
     caption.description = long_text;
     const SetArtifact made = set({caption});
     ASSERT_EQ(made.languages.size(), 1U);
@@ -139,7 +143,7 @@ TEST_F(SetArtifactTexts, a_caption_that_is_too_high_for_a_table_is_said) {
     ASSERT_EQ(high.notes.size(), 1U);
     EXPECT_NE(high.notes.front().find("does not fit on a table"), std::string::npos) << high.notes.front();
     ASSERT_EQ(high.languages.size(), 1U) << "it is set all the same";
-    const GlyphText* text = high.languages.front().runs.find("text");
+    const pack::GlyphText* text = high.languages.front().runs.find("text");
     ASSERT_NE(text, nullptr);
     EXPECT_LT(text->settings.size(), 6U) << "but not for 0.075 m, where it would be three metres high";
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {
@@ -68,7 +69,7 @@ TEST_F(Shaping, one_word_of_each_script_is_shaped_as_harfbuzz_does) {
         ASSERT_EQ(found.size(), expected.size()) << word.language;
         for (std::size_t k = 0; k < found.size(); ++k) {
             EXPECT_EQ(found[k].glyph, expected[k].glyph) << word.language << " glyph " << k;
-            EXPECT_NEAR(found[k].x / static_cast<double>(em_units), expected[k].x_em, 0.002)
+            EXPECT_NEAR(found[k].x / static_cast<double>(pack::em_units), expected[k].x_em, 0.002)
                 << word.language << " glyph " << k;
         }
     }
@@ -83,7 +84,7 @@ TEST_F(Shaping, lines_of_right_to_left_scripts_begin_at_the_right) {
             language == std::string("ar") ? "من فضلك، ضع المجسّم على الطاولة." : "נא להניח את הגוף על השולחן.";
         const Result<ShapedText> shaped = shape(language, text, 8);
         ASSERT_TRUE(shaped) << shaped.error().message;
-        EXPECT_EQ(shaped->direction, TextDirection::RightToLeft);
+        EXPECT_EQ(shaped->direction, pack::TextDirection::RightToLeft);
         const ShapedSetting& setting = shaped->settings[0];
         ASSERT_GE(setting.lines.size(), 2U);
         // The full stop ends the last line: it is that line's leftmost glyph, and the line ends to the left
@@ -130,7 +131,7 @@ TEST_F(Shaping, thai_and_chinese_break_without_spaces) {
         ASSERT_TRUE(shaped) << shaped.error().message;
         EXPECT_TRUE(shaped->notes.empty()) << shaped->notes[0];
         EXPECT_GE(shaped->settings[0].lines.size(), 2U) << language;
-        EXPECT_LE(shaped->settings[0].width, 9 * em_units) << language;
+        EXPECT_LE(shaped->settings[0].width, 9 * pack::em_units) << language;
     }
 }
 
@@ -159,10 +160,11 @@ TEST_F(Shaping, a_han_letter_is_drawn_as_its_country_writes_it) {
 }
 
 TEST_F(Shaping, every_width_has_lines_that_fit_it) {
-    const Result<ShapedText> shaped = shaper->shape({"Slide and turn the white block on the table.",
-                                                     "en",
-                                                     {6 * em_units, 30 * em_units, 12 * em_units},
-                                                     false});
+    const Result<ShapedText> shaped =
+        shaper->shape({"Slide and turn the white block on the table.",
+                       "en",
+                       {6 * pack::em_units, 30 * pack::em_units, 12 * pack::em_units},
+                       false});
     ASSERT_TRUE(shaped) << shaped.error().message;
     ASSERT_EQ(shaped->settings.size(), 3U);
     std::size_t lines = 0;
@@ -193,14 +195,14 @@ TEST_F(Shaping, a_letter_that_no_typeface_has_is_named) {
 }
 
 TEST_F(Shaping, a_word_that_fits_nowhere_is_named_and_broken) {
-    const Result<ShapedText> shaped =
-        shaper->shape({"Donaudampfschifffahrtsgesellschaft", "de", {9 * em_units, 5 * em_units}, false});
+    const Result<ShapedText> shaped = shaper->shape(
+        {"Donaudampfschifffahrtsgesellschaft", "de", {9 * pack::em_units, 5 * pack::em_units}, false});
     ASSERT_TRUE(shaped) << shaped.error().message;
     ASSERT_EQ(shaped->notes.size(), 1U);
     EXPECT_NE(shaped->notes[0].find("a word is wider than 9.0 times the type size"), std::string::npos)
         << shaped->notes[0];
     ASSERT_EQ(shaped->settings.size(), 1U) << "the narrower width is left out";
-    EXPECT_LE(shaped->settings[0].width, 9 * em_units);
+    EXPECT_LE(shaped->settings[0].width, 9 * pack::em_units);
     EXPECT_GE(shaped->settings[0].lines.size(), 2U);
 }
 
@@ -228,10 +230,11 @@ TEST_F(Shaping, glyph_runs_of_all_scripts_come_back_from_their_bytes) {
     }
     const Result<GlyphSheet> sheet = builder.finish();
     ASSERT_TRUE(sheet) << sheet.error().message;
-    const Result<GlyphRuns> back = decode_glyph_runs(encode_glyph_runs(sheet->runs));
+    const Result<pack::GlyphRuns> back = pack::decode_glyph_runs(pack::encode_glyph_runs(sheet->runs));
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_TRUE(*back == sheet->runs);
-    const Result<DistanceAtlas> atlas = decode_distance_atlas(encode_distance_atlas(sheet->atlas), *back);
+    const Result<pack::DistanceAtlas> atlas =
+        pack::decode_distance_atlas(pack::encode_distance_atlas(sheet->atlas), *back);
     ASSERT_TRUE(atlas) << atlas.error().message;
     EXPECT_EQ(atlas->texels, sheet->atlas.texels);
 }

@@ -13,6 +13,7 @@
 #include <map>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {
@@ -27,14 +28,14 @@ public:
     Reference(const Reference&) = delete;
     Reference& operator=(const Reference&) = delete;
 
-    [[nodiscard]] Image<std::uint8_t> draw(const ShapedText& text, const ShapedSetting& setting, double em_px,
-                                           const GlyphImage& like) {
-        Image<std::uint8_t> large(like.coverage.width * fine, like.coverage.height * fine);
+    [[nodiscard]] image::Image<std::uint8_t> draw(const ShapedText& text, const ShapedSetting& setting,
+                                                  double em_px, const typography::GlyphImage& like) {
+        image::Image<std::uint8_t> large(like.coverage.width * fine, like.coverage.height * fine);
         std::size_t next = 0;
-        for (const GlyphLine& line : setting.lines) {
+        for (const pack::GlyphLine& line : setting.lines) {
             for (std::size_t k = 0; k < line.glyphs; ++k, ++next) {
                 const ShapedGlyph& glyph = setting.glyphs[next];
-                const double scale = em_px * fine / em_units;
+                const double scale = em_px * fine / pack::em_units;
                 draw_glyph(text.faces[glyph.face], glyph.glyph, em_px * fine,
                            glyph.x * scale + like.left_px * fine,
                            (line.baseline - glyph.up) * scale + like.top_px * fine, large);
@@ -45,7 +46,7 @@ public:
 
 private:
     void draw_glyph(const FontFace& from, std::uint32_t glyph, double em_px, double x, double y,
-                    Image<std::uint8_t>& into) {
+                    image::Image<std::uint8_t>& into) {
         FT_Face& face = faces_[from];
         if (face == nullptr) {
             ASSERT_EQ(FT_New_Face(library_, from.file.c_str(), from.index, &face), 0);
@@ -68,8 +69,9 @@ private:
             }
         }
     }
-    static Image<std::uint8_t> averaged(const Image<std::uint8_t>& large, const GlyphImage& like) {
-        Image<std::uint8_t> image(like.coverage.width, like.coverage.height);
+    static image::Image<std::uint8_t> averaged(const image::Image<std::uint8_t>& large,
+                                               const typography::GlyphImage& like) {
+        image::Image<std::uint8_t> image(like.coverage.width, like.coverage.height);
         for (int y = 0; y < image.height; ++y) {
             for (int x = 0; x < image.width; ++x) {
                 int sum = 0;
@@ -92,7 +94,7 @@ struct Difference {
     double sharpness = 0.0; ///< sum of the steps between neighbours, relative to the reference's
 };
 
-double steps(const Image<std::uint8_t>& image) {
+double steps(const image::Image<std::uint8_t>& image) {
     double sum = 0.0;
     for (int y = 1; y < image.height; ++y) {
         for (int x = 1; x < image.width; ++x) {
@@ -102,7 +104,7 @@ double steps(const Image<std::uint8_t>& image) {
     return sum;
 }
 
-Difference compare(const Image<std::uint8_t>& image, const Image<std::uint8_t>& reference) {
+Difference compare(const image::Image<std::uint8_t>& image, const image::Image<std::uint8_t>& reference) {
     Difference difference;
     double squares = 0.0;
     int count = 0;
@@ -128,8 +130,8 @@ protected:
         builder.add("text", *text);
         const Result<GlyphSheet> sheet = builder.finish();
         EXPECT_TRUE(sheet) << sheet.error().message;
-        const GlyphImage image =
-            glyph_image(sheet->runs, sheet->atlas, sheet->runs.texts[0].settings[0], em_px);
+        const typography::GlyphImage image =
+            typography::glyph_image(sheet->runs, sheet->atlas, sheet->runs.texts[0].settings[0], em_px);
         return compare(image.coverage, reference.draw(*text, text->settings[0], em_px, image));
     }
 
@@ -162,7 +164,7 @@ TEST_F(Sharpness, DISABLED_figures) {
                 builder.add("text", *text);
                 const Result<GlyphSheet> sheet = builder.finish();
                 fmt::print("{} {:>2} spread {}: {:>6} B ", sample.language, texels, spread,
-                           encode_distance_atlas(sheet->atlas).size());
+                           pack::encode_distance_atlas(sheet->atlas).size());
                 for (const double em_px : {20.0, 60.0}) {
                     const Difference difference = measure(sample, {texels, spread}, em_px);
                     fmt::print(" | {:.0f} px: rms {:5.2f} worst {:3.0f} sharp {:.3f}", em_px, difference.rms,
@@ -179,17 +181,17 @@ TEST_F(Sharpness, DISABLED_bytes_of_words_beside_pictures_of_them_figures) {
         const Result<std::vector<CollectedWords>> collected =
             collect_words({}, std::vector<std::string>{language});
         const Result<BakedWords> baked = bake_words(*collected, *shaper);
-        const LanguageWords& words = baked->languages[0];
-        const Result<Bytes> file = write_words(baked->languages);
+        const pack::LanguageWords& words = baked->languages[0];
+        const Result<Bytes> file = pack::write_words(baked->languages);
         fmt::print("{}: {} letters, atlas {} B, file {} B; pictures", language, words.runs.boxes.size(),
-                   encode_distance_atlas(words.atlas).size(), file->size());
+                   pack::encode_distance_atlas(words.atlas).size(), file->size());
         for (const double em_px : {20.0, 60.0}) {
             std::size_t bytes = 0;
-            for (const GlyphText& text : words.runs.texts) {
-                for (const GlyphSetting& setting : text.settings) {
-                    bytes +=
-                        encode_distance_atlas(glyph_image(words.runs, words.atlas, setting, em_px).coverage)
-                            .size();
+            for (const pack::GlyphText& text : words.runs.texts) {
+                for (const pack::GlyphSetting& setting : text.settings) {
+                    bytes += pack::encode_distance_atlas(
+                                 typography::glyph_image(words.runs, words.atlas, setting, em_px).coverage)
+                                 .size();
                 }
             }
             fmt::print(" at {:.0f} px {} B", em_px, bytes);

@@ -4,11 +4,12 @@
 #include "tests/texts/wav_bytes.h"
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {
 
-class SpeakArtifact : public ProgramFolder {
+class SpeakArtifact : public programs::ProgramFolder {
 protected:
     /// A tone of this length, which identifies a recording.
     std::filesystem::path tone(const std::string& file, double seconds) const {
@@ -16,8 +17,9 @@ protected:
         EXPECT_TRUE(write_file(folder / file, wav16(sine(0.2, seconds))));
         return folder / file;
     }
-    [[nodiscard]] static PackCaption caption(const std::string& language, const std::string& description) {
-        PackCaption made{language, "Jug", ""};
+    [[nodiscard]] static pack::PackCaption caption(const std::string& language,
+                                                   const std::string& description) {
+        pack::PackCaption made{language, "Jug", ""};
         made.description = description;
         return made;
     }

@@ -15,6 +15,7 @@
 #include <thread>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 using namespace std::chrono_literals;
 
@@ -137,7 +138,7 @@ TEST_F(Voices, one_that_fails_is_quoted) {
 TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_silent) {
     std::filesystem::create_directories(folder / "de");
     std::filesystem::copy(folder / "good.wav", folder / "de" / "help.wav");
-    std::vector<LanguageWords> languages(1);
+    std::vector<pack::LanguageWords> languages(1);
     languages[0].language = "de";
     languages[0].words = {{"help", "Hilfe", "de"}, {"name", "Deutsch", "de"}};
     const Result<std::vector<std::string>> silent = speak_words(languages, {folder, std::nullopt, {}});
@@ -151,7 +152,7 @@ TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_sil
 
 TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
     const Voice voice(program("echo word >>tried.txt; exit 1"));
-    std::vector<LanguageWords> languages(1);
+    std::vector<pack::LanguageWords> languages(1);
     languages[0].language = "de";
     for (int k = 0; k < 500; ++k) {
         languages[0].words.push_back({"help", "Hilfe", "de"});
@@ -165,7 +166,7 @@ TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
 TEST_F(Voices, a_bad_recording_is_named) {
     std::filesystem::create_directories(folder / "de");
     ASSERT_TRUE(write_file(folder / "de" / "help.wav", as_bytes("no sound")));
-    std::vector<LanguageWords> languages(1);
+    std::vector<pack::LanguageWords> languages(1);
     languages[0].language = "de";
     languages[0].words = {{"help", "Hilfe", "de"}};
     const Result<std::vector<std::string>> silent =

@@ -13,14 +13,15 @@
 #include <sstream>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using namespace frustumscreen::testing;
 
 namespace {
 
-class WordsCommand : public ProgramFolder {
+class WordsCommand : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
+        programs::ProgramFolder::SetUp();
         const Result<Fonts> fonts = Fonts::open();
         ASSERT_TRUE(fonts) << fonts.error().message;
         if (const Result<void> there = fonts->check("de"); !there) {
@@ -40,9 +41,9 @@ protected:
         }
         return false;
     }
-    [[nodiscard]] Result<LanguageWords> baked(const std::string& language) const {
+    [[nodiscard]] Result<pack::LanguageWords> baked(const std::string& language) const {
         const Result<Bytes> bytes = read_file(folder / "out.fswords");
-        return bytes ? read_words(*bytes, language) : tl::unexpected<Error>(bytes.error());
+        return bytes ? pack::read_words(*bytes, language) : tl::unexpected<Error>(bytes.error());
     }
 };
 
@@ -53,7 +54,7 @@ TEST_F(WordsCommand, the_built_in_words_are_baked_and_drawn) {
         run("frustumscreen-bake --words --languages de,fr -o out.fswords --preview words.png --speech none"),
         0)
         << text("err.txt");
-    const Result<LanguageWords> german = baked("de");
+    const Result<pack::LanguageWords> german = baked("de");
     ASSERT_TRUE(german) << german.error().message;
     EXPECT_EQ(german->name, "Deutsch");
     EXPECT_NE(german->runs.find("advice.set_down"), nullptr);
@@ -72,7 +73,7 @@ TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
     ASSERT_EQ(run("frustumscreen-bake --words mine --languages de,nl -o out.fswords --speech 'cat tone.wav'"),
               0)
         << text("err.txt");
-    const Result<LanguageWords> dutch = baked("nl");
+    const Result<pack::LanguageWords> dutch = baked("nl");
     ASSERT_TRUE(dutch) << dutch.error().message;
     EXPECT_EQ(dutch->sounds.size(), dutch->words.size());
     EXPECT_NE(text("err.txt").find("the language 'nl' has no text for"), std::string::npos);

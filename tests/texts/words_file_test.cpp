@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 
 namespace {
 
 /// A language with a single word of one letter.
-LanguageWords words_in(const std::string& language, const std::string& name) {
-    LanguageWords words;
+pack::LanguageWords words_in(const std::string& language, const std::string& name) {
+    pack::LanguageWords words;
     words.language = language;
     words.name = name;
     words.words = {{"help", "Text", language}};
@@ -21,15 +22,15 @@ LanguageWords words_in(const std::string& language, const std::string& name) {
     words.runs.atlas_height = 5;
     words.runs.boxes = {{0, 0, 6, 5, -1, 4}};
     words.runs.texts = {
-        {"help", TextDirection::LeftToRight, {{9216, 1024, 1400, {{1100, 1}}, {{0, 0, 12}}}}}};
-    words.atlas = DistanceAtlas(6, 5, static_cast<std::uint8_t>(name.size()));
+        {"help", pack::TextDirection::LeftToRight, {{9216, 1024, 1400, {{1100, 1}}, {{0, 0, 12}}}}}};
+    words.atlas = pack::DistanceAtlas(6, 5, static_cast<std::uint8_t>(name.size()));
     words.sounds.emplace("help", Bytes(100, std::byte{7}));
     return words;
 }
 
 Bytes file_of_two() {
-    const Result<Bytes> file =
-        write_words(std::vector<LanguageWords>{words_in("de", "Deutsch"), words_in("fr", "Français")});
+    const Result<Bytes> file = pack::write_words(
+        std::vector<pack::LanguageWords>{words_in("de", "Deutsch"), words_in("fr", "Français")});
     EXPECT_TRUE(file);
     return file.value_or(Bytes());
 }
@@ -38,9 +39,9 @@ Bytes file_of_two() {
 
 TEST(WordsFile, a_language_comes_back_as_it_was_written) {
     const Bytes file = file_of_two();
-    const Result<LanguageWords> back = read_words(file, "fr");
+    const Result<pack::LanguageWords> back = pack::read_words(file, "fr");
     ASSERT_TRUE(back) << back.error().message;
-    const LanguageWords expected = words_in("fr", "Français");
+    const pack::LanguageWords expected = words_in("fr", "Français");
     EXPECT_EQ(back->name, expected.name);
     EXPECT_EQ(back->words, expected.words);
     EXPECT_TRUE(back->runs == expected.runs);
@@ -59,7 +60,7 @@ TEST(WordsFile, the_same_words_give_the_same_bytes_at_any_time) {
 }
 
 TEST(WordsFile, it_lists_its_languages_with_that_of_the_house_first) {
-    const Result<std::vector<WordsLanguage>> list = list_words(file_of_two());
+    const Result<std::vector<pack::WordsLanguage>> list = pack::list_words(file_of_two());
     ASSERT_TRUE(list) << list.error().message;
     ASSERT_EQ(list->size(), 2U);
     EXPECT_EQ((*list)[0].language, "de");
@@ -69,20 +70,20 @@ TEST(WordsFile, it_lists_its_languages_with_that_of_the_house_first) {
 }
 
 TEST(WordsFile, a_language_that_is_not_there_is_named) {
-    const Result<LanguageWords> back = read_words(file_of_two(), "nl");
+    const Result<pack::LanguageWords> back = pack::read_words(file_of_two(), "nl");
     ASSERT_FALSE(back);
     EXPECT_EQ(back.error().message, "there are no words in the language 'nl'; bake them with --languages");
 }
 
 TEST(WordsFile, every_byte_that_is_changed_is_noticed_or_harmless) {
     const Bytes good = file_of_two();
-    const Result<LanguageWords> expected = read_words(good, "de");
+    const Result<pack::LanguageWords> expected = pack::read_words(good, "de");
     ASSERT_TRUE(expected);
     std::size_t refused = 0;
     for (std::size_t k = 0; k < good.size(); ++k) {
         Bytes bad = good;
         bad[k] ^= std::byte{0x10};
-        const Result<LanguageWords> back = read_words(bad, "de");
+        const Result<pack::LanguageWords> back = pack::read_words(bad, "de");
         refused += back ? 0 : 1;
         if (back) {
             EXPECT_TRUE(back->runs == expected->runs && back->atlas.texels == expected->atlas.texels) << k;
@@ -95,17 +96,17 @@ TEST(WordsFile, every_byte_that_is_changed_is_noticed_or_harmless) {
 TEST(WordsFile, a_file_cut_anywhere_is_refused) {
     const Bytes good = file_of_two();
     for (std::size_t bytes = 0; bytes < good.size(); ++bytes) {
-        EXPECT_FALSE(read_words(std::span(good).first(bytes), "de")) << bytes;
+        EXPECT_FALSE(pack::read_words(std::span(good).first(bytes), "de")) << bytes;
     }
 }
 
 TEST(WordsFile, another_format_is_told_apart) {
-    pack_format::ZipWriter zip;
+    pack::ZipWriter zip;
     zip.add("manifest.json", as_bytes(R"({"format":"FrustumScreen pack","version":2})"),
-            pack_format::Packing::Stored);
+            pack::Packing::Stored);
     const Result<Bytes> file = zip.finish();
     ASSERT_TRUE(file);
-    const Result<std::vector<WordsLanguage>> list = list_words(*file);
+    const Result<std::vector<pack::WordsLanguage>> list = pack::list_words(*file);
     ASSERT_FALSE(list);
     EXPECT_EQ(list.error().id, "words.not_words");
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 using namespace frustumscreen;
+using namespace frustumscreen::texts;
 using frustumscreen::testing::Shaping;
 
 namespace {
@@ -143,7 +144,7 @@ TEST_F(Shaping, every_built_in_word_is_set_whole_at_every_width) {
         const Result<BakedWords> baked = bake_words(*collected, *shaper);
         ASSERT_TRUE(baked) << baked.error().message;
         EXPECT_TRUE(baked->notes.empty()) << baked->notes[0];
-        for (const GlyphText& text : baked->languages[0].runs.texts) {
+        for (const pack::GlyphText& text : baked->languages[0].runs.texts) {
             EXPECT_EQ(text.settings.size(), caption_widths_em.size()) << language << ": " << text.key;
         }
     }

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 ConvertedRecording converted(const std::string& text, const RecordingOptions& options = {}) {
@@ -130,4 +130,4 @@ TEST(ConvertRecording, TheRecordingsInTheSharedFolderBecomePoses) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 /// A device with a drifting clock, seen through transfers that are late, sometimes very late. Computed in
@@ -170,4 +170,4 @@ TEST(DeviceClock, ACounterThatStoodStillForAWhileIsBelievedAgainAfterASecond) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// Whether poses arrive, good or not.
 inline bool is_streaming(UsbTrackerState state) {
@@ -63,4 +63,4 @@ private:
 inline const std::vector<UsbTrackerModel> models{UsbTrackerModel::Viper, UsbTrackerModel::Patriot,
                                                  UsbTrackerModel::Hid};
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 /// A VIPER's reaction to the command that switches its filters off.
 enum class FakeFilter { Obeys, Refuses, SaysNothing, StaysOn, TurnStaysOn };
@@ -289,4 +289,4 @@ private:
     FakeUsbTracker& device_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

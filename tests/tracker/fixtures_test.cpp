@@ -5,7 +5,7 @@
 #include "firmware_host/tracker/viper_session.h"
 #include "tests/tracker/fixture.h"
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 const wire::Fixture viper("viper.txt");
@@ -176,4 +176,4 @@ TEST(LibertyFixtures, FramesAreWhatTheHeaderSays) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

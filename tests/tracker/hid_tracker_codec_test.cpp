@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using wire::bytes_in_document;
@@ -193,4 +193,4 @@ TEST(HidIds, ATrackerIsKnownByItsUsageAndASpaceMouseByItsMaker) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 const std::string node = "/dev/hidraw0";
@@ -176,4 +176,4 @@ TEST(HidapiTransport, AnotherMakersDeviceIsNoSpaceMouse) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -13,7 +13,7 @@
 #include <atomic>
 #include <cerrno>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 const wire::Fixture descriptors("descriptors.txt");
@@ -137,4 +137,4 @@ TEST(LibusbTransport, APlaceIsPassedOverOnEveryBus) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -24,7 +24,7 @@ extern "C" int fdatasync(int) {
     return errno == 0 ? 0 : -1;
 }
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 namespace fs = std::filesystem;
@@ -296,4 +296,4 @@ TEST_F(RecorderTest, BesideARunningTrackerItKeepsWhatWasPolled) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using std::chrono::milliseconds;
@@ -390,4 +390,4 @@ TEST(PacketReplayTracker, RoundsThatNobodySawAreLeftOut) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

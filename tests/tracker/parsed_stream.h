@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 
 struct ParsedStream {
     std::vector<DeviceFrame> frames;
@@ -41,4 +41,4 @@ template <typename Parse> ParsedStream parsed_stream(std::span<const std::byte> 
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

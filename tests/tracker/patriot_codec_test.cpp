@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using wire::Wire;
@@ -169,4 +169,4 @@ TEST(PatriotCodec, AHundredThousandMutantsAreSafe) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

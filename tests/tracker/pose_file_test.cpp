@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 const std::string header = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
@@ -156,4 +156,4 @@ TEST(PoseFile, MutatedFilesAreReadOrRefusedInOneLine) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 PoseSample sample_at(std::int64_t t_us, double x, int station = prop_station) {
@@ -80,4 +80,4 @@ TEST(ReplayTracker, PlaysAtAnySpeed) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 constexpr MonotonicTime start{Nanoseconds(123456789)};
@@ -148,4 +148,4 @@ TEST(SimulatedTracker, TheHeadFacesTheProp) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using std::chrono::microseconds;
@@ -167,4 +167,4 @@ TEST(SpaceMouse, AfterAMachineSleptNoSamplesAreMadeUp) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using std::chrono::milliseconds;
@@ -391,4 +391,4 @@ TEST(UsbTrackerDriver, AStreamOfWhichNothingCanBeTakenIsOpenedAnew) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using std::chrono::milliseconds;
@@ -252,4 +252,4 @@ TEST(UsbTrackerFaults, OfManyTrackersEachIsTriedBeforeOneIsTriedAgain) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 /// A device on the machine's real clock that appears and disappears; lives on the tracker's thread alone.
@@ -125,4 +125,4 @@ TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracker {
 namespace {
 
 using wire::Wire;
@@ -210,4 +210,4 @@ TEST(ViperCodec, AHundredThousandMutantsAreSafeAndGiveNoPoseThatWasNotSent) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracker

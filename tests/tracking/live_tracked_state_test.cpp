@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 const glm::dvec3 default_eye(0.0, -0.55, 0.5);
 constexpr double lever_m = 0.06;
 
-PoseSample prop_at(std::int64_t t_us, double x_m, double yaw_rad = 0.0) {
-    PoseSample sample;
+tracker::PoseSample prop_at(std::int64_t t_us, double x_m, double yaw_rad = 0.0) {
+    tracker::PoseSample sample;
     sample.time = from_microseconds(t_us);
     sample.position_m = {x_m, 0.0, 0.0};
     sample.rotation = rotation_of({0.0, 0.0, yaw_rad});
@@ -30,7 +30,7 @@ TEST(LiveTrackedState, KnowsNothingAtFirstButTheDefaultEye) {
 TEST(LiveTrackedState, CountsWhatIsNoPose) {
     LiveTrackedState live(default_eye, lever_m);
     EXPECT_TRUE(live.take(prop_at(0, 0.1)));
-    PoseSample broken = prop_at(16'000, std::numeric_limits<double>::quiet_NaN());
+    tracker::PoseSample broken = prop_at(16'000, std::numeric_limits<double>::quiet_NaN());
     EXPECT_FALSE(live.take(broken));
     broken.ok = false;
     EXPECT_TRUE(live.take(broken));
@@ -50,11 +50,11 @@ TEST(LiveTrackedState, RestsWhenThePropRests) {
     const double x = 3e-7 * static_cast<double>(t_us);
     const double yaw = 1e-6 * static_cast<double>(t_us);
     std::int64_t settled_us = 0;
-    RigidTransform before;
+    geometry::RigidTransform before;
     const std::int64_t stopped_us = t_us;
     for (; t_us < 4'000'000; t_us += 16'000) {
         live.take(prop_at(t_us, x, yaw));
-        const RigidTransform now = live.at(from_microseconds(t_us + 17'000)).table_from_prop;
+        const geometry::RigidTransform now = live.at(from_microseconds(t_us + 17'000)).table_from_prop;
         if (now.translation != before.translation || now.rotation != before.rotation) {
             settled_us = t_us;
         }
@@ -69,7 +69,7 @@ TEST(LiveTrackedState, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) 
     constexpr std::int64_t period_us = 16'667;
     constexpr int lost = 60;
     constexpr int back = 200;
-    RigidTransform before;
+    geometry::RigidTransform before;
     double largest_m = 0.0;
     int first_unknown = 0;
     for (int k = 0; k < 400; ++k) {
@@ -109,9 +109,9 @@ TEST(LiveTrackedState, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
         double largest_m = 0.0;
         for (int k = 0; k < 400; ++k) {
             if (k < lost || k >= back) {
-                PoseSample head;
+                tracker::PoseSample head;
                 head.time = from_microseconds(k * period_us);
-                head.station = head_station;
+                head.station = tracker::head_station;
                 head.position_m = k < lost ? before_loss : after_return;
                 EXPECT_TRUE(live.take(head));
             }
@@ -185,4 +185,4 @@ TEST(LightDelay, DoesNotDependOnHowManyFramesAnIntervalHas) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

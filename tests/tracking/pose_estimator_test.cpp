@@ -16,7 +16,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 using std::chrono::microseconds;
@@ -33,7 +33,7 @@ MonotonicTime at_us(std::int64_t t_us) {
     return from_microseconds(1'000'000'000 + t_us);
 }
 
-RigidTransform at_x(double x) {
+geometry::RigidTransform at_x(double x) {
     return {glm::dquat(1.0, 0.0, 0.0, 0.0), {x, 0.0, 0.0}};
 }
 
@@ -46,7 +46,7 @@ struct SteadyMotion {
     [[nodiscard]] static glm::dvec3 place(long double t_s) {
         return {static_cast<double>(0.15L * t_s), static_cast<double>(-0.2L * t_s), 0.0};
     }
-    [[nodiscard]] RigidTransform pose(long double t_s) const {
+    [[nodiscard]] geometry::RigidTransform pose(long double t_s) const {
         return {exact_pose::rounded(rotation(t_s)), place(t_s)};
     }
 };
@@ -96,7 +96,7 @@ double tremble_mm(PoseEstimator estimator, double speed_m_s) {
     constexpr int samples = 2400;
     for (int k = 0; k < samples; ++k) {
         const double t_s = k / 60.0;
-        RigidTransform pose = at_x(speed_m_s * t_s);
+        geometry::RigidTransform pose = at_x(speed_m_s * t_s);
         pose.translation += glm::dvec3(noise(random), noise(random), noise(random));
         estimator.take(at_us(std::llround(1e6 * t_s)), pose);
         const double off_m =
@@ -192,7 +192,7 @@ TEST(PoseEstimator, IsStableForStepsFromAMicrosecondToTenSeconds) {
         std::mt19937_64 random(static_cast<std::uint64_t>(step_us));
         std::normal_distribution<double> noise;
         for (int k = 0; k < 3000; ++k) {
-            const RigidTransform pose{
+            const geometry::RigidTransform pose{
                 rotation_of(0.0026 * glm::dvec3(noise(random), noise(random), noise(random))),
                 0.0003 * glm::dvec3(noise(random), noise(random), noise(random))};
             const std::int64_t t_us = k * step_us;
@@ -216,7 +216,7 @@ TEST(PoseEstimator, TakesStepsOfAllLengthsMixed) {
         t_us += static_cast<std::int64_t>(std::pow(10.0, power(random)));
         const double x = 0.1 * std::sin(1e-6 * static_cast<double>(t_us));
         ASSERT_EQ(estimator.take(at_us(t_us), at_x(x)), Taken::Used) << k;
-        const RigidTransform pose = estimator.at(at_us(t_us)).pose;
+        const geometry::RigidTransform pose = estimator.at(at_us(t_us)).pose;
         ASSERT_NEAR(pose.translation.x, x, 0.02);
         ASSERT_NEAR(glm::length(pose.rotation), 1.0, 1e-12);
     }
@@ -227,7 +227,7 @@ TEST(PoseEstimator, SurvivesDuplicatesAndSamplesOutOfOrder) {
     PoseEstimator untidy = exhibit_estimator();
     SteadyMotion motion;
     for (int k = 0; k < 100; ++k) {
-        const RigidTransform pose = motion.pose(0.016L * k);
+        const geometry::RigidTransform pose = motion.pose(0.016L * k);
         tidy.take(at_us(k * 16'000), pose);
         EXPECT_EQ(untidy.take(at_us(k * 16'000), pose), Taken::Used);
         EXPECT_EQ(untidy.take(at_us(k * 16'000), at_x(5.0)), Taken::Late);
@@ -246,7 +246,7 @@ TEST(PoseEstimator, TakesQuaternionsOfAnySignAndLength) {
     PoseEstimator odd = exhibit_estimator();
     SteadyMotion motion;
     for (int k = 0; k < 100; ++k) {
-        const RigidTransform pose = motion.pose(0.016L * k);
+        const geometry::RigidTransform pose = motion.pose(0.016L * k);
         unit.take(at_us(k * 16'000), pose);
         const double factor = (k % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, k % 7 - 3);
         EXPECT_EQ(odd.take(at_us(k * 16'000), {factor * pose.rotation, pose.translation}), Taken::Used);
@@ -318,7 +318,7 @@ TEST(PoseEstimator, HoldsThePoseInADropout) {
 TEST(PoseEstimator, AllocatesNothingAfterConstruction) {
     PoseEstimator estimator = exhibit_estimator();
     SteadyMotion motion;
-    const RigidTransform far = at_x(3.0);
+    const geometry::RigidTransform far = at_x(3.0);
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 1000; ++k) {
         const std::int64_t t_us = k * 16'000 + (k > 500 ? 3'000'000 : 0);
@@ -331,7 +331,7 @@ TEST(PoseEstimator, AllocatesNothingAfterConstruction) {
 
 struct Row {
     MonotonicTime time;
-    RigidTransform pose;
+    geometry::RigidTransform pose;
 };
 
 /// Rows as in the file, with its misordered and repeated ones.
@@ -341,11 +341,11 @@ std::vector<Row> rows_of(const std::filesystem::path& file) {
     if (!bytes) {
         return rows;
     }
-    TextRows text(as_text(*bytes), "recording");
+    tracker::TextRows text(as_text(*bytes), "recording");
     while (text.next()) {
         std::array<double, 8> numbers{};
         for (std::size_t k = 0; k < 8; ++k) {
-            numbers[k] = number_in(text.fields()[k]).value_or(0.0);
+            numbers[k] = tracker::number_in(text.fields()[k]).value_or(0.0);
         }
         const auto t_us = static_cast<std::int64_t>(std::llround(numbers[0] * 1e6));
         rows.push_back({from_microseconds(t_us),
@@ -376,7 +376,8 @@ TEST(PoseEstimator, FollowsEveryRecordingAlsoShuffled) {
                 ++used;
                 const PoseEstimate estimate = estimator.at(row.time);
                 EXPECT_EQ(estimate.status, PoseStatus::Exact);
-                const RigidTransform measured{*normalised(row.pose.rotation), row.pose.translation};
+                const geometry::RigidTransform measured{*geometry::normalised(row.pose.rotation),
+                                                        row.pose.translation};
                 near += slip_m(step_between(estimate.pose, measured), 0.06) < 0.01 ? 1 : 0;
             }
         }
@@ -386,4 +387,4 @@ TEST(PoseEstimator, FollowsEveryRecordingAlsoShuffled) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

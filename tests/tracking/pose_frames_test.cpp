@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
-PoseSample row(std::int64_t t_us, int station, double x, bool ok = true) {
-    PoseSample sample;
+tracker::PoseSample row(std::int64_t t_us, int station, double x, bool ok = true) {
+    tracker::PoseSample sample;
     sample.time = from_microseconds(t_us);
     sample.station = station;
     sample.position_m.x = x;
@@ -15,8 +15,8 @@ PoseSample row(std::int64_t t_us, int station, double x, bool ok = true) {
 }
 
 TEST(PoseFrames, AreOneForEveryTimeOfThePropAscending) {
-    const std::vector<PoseSample> rows{row(20, 1, 2), row(10, 1, 1), row(20, 1, 9), row(15, 2, 7),
-                                       row(30, 1, 3)};
+    const std::vector<tracker::PoseSample> rows{row(20, 1, 2), row(10, 1, 1), row(20, 1, 9), row(15, 2, 7),
+                                                row(30, 1, 3)};
     const auto frames = pose_frames(rows, {0, -1, 1});
     ASSERT_EQ(frames.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -28,8 +28,8 @@ TEST(PoseFrames, AreOneForEveryTimeOfThePropAscending) {
 }
 
 TEST(PoseFrames, TakeTheEyeOfTheSameTimeWhereverItStands) {
-    const std::vector<PoseSample> rows{row(10, 2, 5), row(20, 1, 0), row(10, 1, 0), row(20, 2, 6),
-                                       row(20, 3, 8)};
+    const std::vector<tracker::PoseSample> rows{row(10, 2, 5), row(20, 1, 0), row(10, 1, 0), row(20, 2, 6),
+                                                row(20, 3, 8)};
     const auto frames = pose_frames(rows, {0, -1, 1});
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[0].eye_m.x, 5.0);
@@ -37,8 +37,8 @@ TEST(PoseFrames, TakeTheEyeOfTheSameTimeWhereverItStands) {
 }
 
 TEST(PoseFrames, IgnoreUnusableRows) {
-    const std::vector<PoseSample> rows{row(10, 1, 1, false), row(20, 1, 2), row(20, 2, 9, false),
-                                       row(20, 1, 3, false)};
+    const std::vector<tracker::PoseSample> rows{row(10, 1, 1, false), row(20, 1, 2), row(20, 2, 9, false),
+                                                row(20, 1, 3, false)};
     const auto frames = pose_frames(rows, {0, -1, 1});
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_EQ(frames[0].table_from_prop.translation.x, 2.0);
@@ -46,4 +46,4 @@ TEST(PoseFrames, IgnoreUnusableRows) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

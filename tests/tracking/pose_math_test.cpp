@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 exact_pose::Vector some_axis(std::mt19937_64& random) {
@@ -41,9 +41,9 @@ TEST(PoseMath, BetweenIsTheExactSlerpAndAStraightLine) {
         const exact_pose::Quaternion b = exact_pose::about(some_axis(random), turn(random));
         const double share = static_cast<double>(k) / 199.0;
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
-        const RigidTransform from{exact_pose::rounded(a), {1.0, 2.0, -3.0}};
-        const RigidTransform to{sign * exact_pose::rounded(b), {2.0, 0.0, 1.0}};
-        const RigidTransform pose = between(from, to, share);
+        const geometry::RigidTransform from{exact_pose::rounded(a), {1.0, 2.0, -3.0}};
+        const geometry::RigidTransform to{sign * exact_pose::rounded(b), {2.0, 0.0, 1.0}};
+        const geometry::RigidTransform pose = between(from, to, share);
         EXPECT_LT(exact_pose::angle(pose.rotation, exact_pose::slerp(a, b, share)), 1e-13);
         EXPECT_LT(glm::length(pose.translation - glm::mix(from.translation, to.translation, share)),
                   1e-15 * 8);
@@ -51,9 +51,9 @@ TEST(PoseMath, BetweenIsTheExactSlerpAndAStraightLine) {
 }
 
 TEST(PoseMath, SlipIsTheWayOfAPointAtTheLeverAtMost) {
-    const RigidTransform pose{rotation_of({0.1, 0.2, 0.3}), {0.1, 0.0, 0.0}};
+    const geometry::RigidTransform pose{rotation_of({0.1, 0.2, 0.3}), {0.1, 0.0, 0.0}};
     const PoseStep step{{0.001, 0.0, 0.0}, {0.0, 0.002, 0.0}};
-    const RigidTransform other = moved(pose, step);
+    const geometry::RigidTransform other = moved(pose, step);
     const glm::dvec3 point(0.0, 0.0, 0.06);
     EXPECT_LE(glm::length(other.point(point) - pose.point(point)), slip_m(step, 0.06));
     EXPECT_DOUBLE_EQ(slip_m(step, 0.06), 0.00112);
@@ -61,4 +61,4 @@ TEST(PoseMath, SlipIsTheWayOfAPointAtTheLeverAtMost) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

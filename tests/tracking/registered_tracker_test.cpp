@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
-class FakeTracker final : public Tracker {
+class FakeTracker final : public tracker::Tracker {
 public:
     explicit FakeTracker(bool table_frame) : table_frame_(table_frame) {}
 
-    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
-        PoseSample sample;
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<tracker::PoseSample>& samples) override {
+        tracker::PoseSample sample;
         sample.time = now;
         sample.position_m = {0.1, 0.2, 0.3};
         samples.push_back(sample);
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] std::string name() const override { return "fake"; }
     [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
     [[nodiscard]] std::string_view state() const override { return "the fake is well"; }
-    [[nodiscard]] TrackerCounts counts() const override { return {.frames = 7}; }
+    [[nodiscard]] tracker::TrackerCounts counts() const override { return {.frames = 7}; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return from_microseconds(9); }
 
 private:
@@ -31,13 +31,13 @@ private:
 };
 
 /// The device's +Z points down; its origin is 0.3 m above the table.
-const RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
+const geometry::RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
 
 TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
     RegisteredTracker tracker(std::make_unique<FakeTracker>(false), {table_from_tracker});
     EXPECT_TRUE(tracker.reports_table_frame());
     ASSERT_TRUE(tracker.registration());
-    std::vector<PoseSample> samples;
+    std::vector<tracker::PoseSample> samples;
     for (int round = 0; round < 2; ++round) {
         EXPECT_FALSE(tracker.poll(from_microseconds(5 + round), samples)); // samples arrive although poll
                                                                            // returns false
@@ -55,8 +55,9 @@ TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
 TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     const double half = std::sqrt(0.5);
     const glm::dquat quarter(half, 0, 0, half);
-    const Registration registration{{{1, 0, 0, 0}, {0, 0, 1.0}}, {quarter, {0, 0, -0.05}}, {0.1, 0, 0}};
-    std::vector<PoseSample> samples(3);
+    const geometry::Registration registration{
+        {{1, 0, 0, 0}, {0, 0, 1.0}}, {quarter, {0, 0, -0.05}}, {0.1, 0, 0}};
+    std::vector<tracker::PoseSample> samples(3);
     for (int k = 0; k < 3; ++k) {
         samples[static_cast<std::size_t>(k)].station = k + 1;
         samples[static_cast<std::size_t>(k)].position_m = {1, 2, 3};
@@ -75,7 +76,7 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
 TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
     RegisteredTracker tracker(std::make_unique<FakeTracker>(true), {table_from_tracker});
     EXPECT_FALSE(tracker.registration());
-    std::vector<PoseSample> samples;
+    std::vector<tracker::PoseSample> samples;
     EXPECT_FALSE(tracker.poll(from_microseconds(5), samples));
     ASSERT_EQ(samples.size(), 2U);
     EXPECT_EQ(samples[0].position_m, glm::dvec3(0.1, 0.2, 0.3));
@@ -90,4 +91,4 @@ TEST(RegisteredTracker, IsOtherwiseItsDevice) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 using std::chrono::milliseconds;
@@ -33,8 +33,8 @@ TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
     EXPECT_FALSE(tracked_state.head_known);
     EXPECT_LT(glm::distance(tracked_state.eye_m, eye_of_head(left, {0.0, 0.0, lever_m})), 1e-3);
     EXPECT_GT(tracked_state.eye_sd_m, 0.02);
-    PoseSample sensor;
-    sensor.station = head_station;
+    tracker::PoseSample sensor;
+    sensor.station = tracker::head_station;
     sensor.position_m = right;
     for (; ms < 3000; ms += 16) {
         sensor.time = at(ms);
@@ -67,7 +67,7 @@ TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
 
 TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
     LiveTrackedState live(default_eye, lever_m);
-    PoseSample prop;
+    tracker::PoseSample prop;
     const auto step = [&](int ms, double x) {
         prop.time = at(ms);
         prop.position_m = {x, 0.0, 0.0};
@@ -124,4 +124,4 @@ TEST(ActiveVisitor, AShortStepNearerIsNoChange) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 using std::chrono::milliseconds;
@@ -26,7 +26,7 @@ MonotonicTime fill(SignalMeter& meter, double hz, Nanoseconds length, double sd_
         const glm::dvec3 off(normal(random), normal(random), normal(random));
         const glm::dvec3 turn(normal(random), normal(random), normal(random));
         const glm::dvec3 half = 0.5 * glm::radians(sd_deg) * turn;
-        PoseSample sample;
+        tracker::PoseSample sample;
         sample.time = now;
         sample.position_m = glm::dvec3(0.3, -0.2, 0.1) + 1e-3 * sd_mm * off;
         sample.rotation =
@@ -86,4 +86,4 @@ TEST(SignalMeter, AFasterTrackerFillsItAndNoMore) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

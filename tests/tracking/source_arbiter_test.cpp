@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 using std::chrono::milliseconds;
@@ -139,4 +139,4 @@ TEST(SourceArbiter, TimeThatGoesBackChangesNoLead) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 const glm::dvec3 default_eye(0.0, -0.55, 0.5);
 
-PoseSample sample_at(std::int64_t t_us, int station, const glm::dvec3& position, bool ok = true) {
-    PoseSample sample;
+tracker::PoseSample sample_at(std::int64_t t_us, int station, const glm::dvec3& position, bool ok = true) {
+    tracker::PoseSample sample;
     sample.time = from_microseconds(t_us);
     sample.station = station;
     sample.position_m = position;
@@ -29,9 +29,9 @@ TEST(TrackedState, KnowsNothingAtFirstButTheDefaultEye) {
 
 TEST(TrackedState, TakesTheLatestPoseOfEachStationAndForgetsItWhenOld) {
     TrackedStateTracker tracker(default_eye, {std::chrono::milliseconds(100), std::chrono::milliseconds(50)});
-    tracker.take(sample_at(0, prop_station, {1, 0, 0}));
-    tracker.take(sample_at(10'000, prop_station, {2, 0, 0}));
-    tracker.take(sample_at(10'000, head_station, {0, -1, 1}));
+    tracker.take(sample_at(0, tracker::prop_station, {1, 0, 0}));
+    tracker.take(sample_at(10'000, tracker::prop_station, {2, 0, 0}));
+    tracker.take(sample_at(10'000, tracker::head_station, {0, -1, 1}));
     const TrackedState fresh = tracker.at(from_microseconds(60'000));
     EXPECT_TRUE(fresh.prop_known);
     EXPECT_EQ(fresh.table_from_prop.translation, glm::dvec3(2, 0, 0));
@@ -46,13 +46,13 @@ TEST(TrackedState, TakesTheLatestPoseOfEachStationAndForgetsItWhenOld) {
 
 TEST(TrackedState, UnusableLateAndForeignSamplesChangeNothing) {
     TrackedStateTracker tracker(default_eye);
-    tracker.take(sample_at(10, prop_station, {1, 0, 0}));
-    tracker.take(sample_at(20, prop_station, {9, 0, 0}, false));
-    tracker.take(sample_at(5, prop_station, {9, 0, 0}));
-    tracker.take(sample_at(20, torch_station, {9, 0, 0}));
+    tracker.take(sample_at(10, tracker::prop_station, {1, 0, 0}));
+    tracker.take(sample_at(20, tracker::prop_station, {9, 0, 0}, false));
+    tracker.take(sample_at(5, tracker::prop_station, {9, 0, 0}));
+    tracker.take(sample_at(20, tracker::torch_station, {9, 0, 0}));
     EXPECT_EQ(tracker.at(from_microseconds(30)).table_from_prop.translation, glm::dvec3(1, 0, 0));
     EXPECT_EQ(tracker.at(from_microseconds(30)).prop_age, std::chrono::microseconds(20));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::tracking {
 namespace {
 
 constexpr double lever_m = 0.0775;
@@ -17,7 +17,7 @@ constexpr double tick_s = 0.001;
 
 /// The two sources' reports over time.
 struct Story {
-    std::function<RigidTransform(double)> truth;
+    std::function<geometry::RigidTransform(double)> truth;
     std::function<bool(double)> tracker_sends = [](double) { return true; };
     std::function<glm::dvec3(double)> bent = [](double) { return glm::dvec3(0.0); }; ///< distortion by metal,
                                                                                      ///< metres
@@ -34,11 +34,11 @@ struct Told {
     double last_off_mm = 0.0;
 };
 
-RigidTransform at_rest(double) {
+geometry::RigidTransform at_rest(double) {
     return {rotation_of({0.0, 0.0, 0.4}), {0.05, -0.02, 0.0}};
 }
 /// A hand that slides the prop to and fro, at most 0.2 m/s.
-RigidTransform slid(double t_s) {
+geometry::RigidTransform slid(double t_s) {
     return {rotation_of({0.0, 0.0, 0.3 * std::sin(1.1 * t_s)}), {0.1 * std::sin(2.0 * t_s), 0.0, 0.0}};
 }
 
@@ -47,14 +47,14 @@ Told told(const Story& story, std::uint64_t seed = 1) {
     LiveTrackedState live({0.0, -0.5, 0.5}, lever_m);
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
-    const auto noisy = [&](RigidTransform pose) {
+    const auto noisy = [&](geometry::RigidTransform pose) {
         const auto any = [&](double sd) {
             return sd * glm::dvec3(normal(random), normal(random), normal(random));
         };
         return moved(pose, {any(0.0003), any(0.0015)});
     };
     Told told;
-    std::optional<RigidTransform> before;
+    std::optional<geometry::RigidTransform> before;
     double before_s = 0.0;
     const MonotonicTime start(std::chrono::seconds(100));
     const auto time = [&](double s) { return start + Nanoseconds(std::llround(1e9 * s)); };
@@ -63,8 +63,9 @@ Told told(const Story& story, std::uint64_t seed = 1) {
         for (; trackers / 60.0 + 0.018 < now; ++trackers) {
             const double t = trackers / 60.0;
             if (story.tracker_sends(t)) {
-                const RigidTransform pose = noisy(moved(story.truth(t), {story.bent(t), {}}));
-                PoseSample sample{time(t), prop_station, pose.translation, pose.rotation, true};
+                const geometry::RigidTransform pose = noisy(moved(story.truth(t), {story.bent(t), {}}));
+                tracker::PoseSample sample{time(t), tracker::prop_station, pose.translation, pose.rotation,
+                                           true};
                 live.take(sample);
             }
         }
@@ -80,12 +81,13 @@ Told told(const Story& story, std::uint64_t seed = 1) {
         }
         ++pictures;
         const double lit_s = now + 0.033;
-        live.tracker_is(story.metal_is_told(now) ? TrackerHealth::MetalNear : TrackerHealth::Well);
+        live.tracker_is(story.metal_is_told(now) ? tracker::TrackerHealth::MetalNear
+                                                 : tracker::TrackerHealth::Well);
         const TrackedState tracked_state = live.at(time(lit_s));
         if (told.leads.empty() ? tracked_state.by_tags : told.leads.back().second != tracked_state.by_tags) {
             told.leads.emplace_back(now, tracked_state.by_tags);
         }
-        const RigidTransform truth = story.truth(lit_s);
+        const geometry::RigidTransform truth = story.truth(lit_s);
         told.last_off_mm = 1e3 * slip_m(step_between(truth, tracked_state.table_from_prop), lever_m);
         if (before && now > 1.0) {
             const PoseStep went = step_between(*before, tracked_state.table_from_prop);
@@ -174,7 +176,7 @@ TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
 /// there.
 TEST(TwoTrackers, BothLostAndFoundElsewhere) {
     const auto truth = [](double t) {
-        return RigidTransform{{1.0, 0.0, 0.0, 0.0}, {t < 3.0 ? 0.0 : 0.1, 0.0, 0.0}};
+        return geometry::RigidTransform{{1.0, 0.0, 0.0, 0.0}, {t < 3.0 ? 0.0 : 0.1, 0.0, 0.0}};
     };
     const Told told_of = told({.truth = truth,
                                .tracker_sends = [](double t) { return t < 2.0; },
@@ -183,4 +185,4 @@ TEST(TwoTrackers, BothLostAndFoundElsewhere) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::tracking

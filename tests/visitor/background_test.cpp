@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 namespace {
 
 constexpr int width = 60;
@@ -157,4 +157,4 @@ TEST(Background, BeginsAnewWhereAllChangesAtOnce) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

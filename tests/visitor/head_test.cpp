@@ -6,25 +6,25 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 namespace {
 
 /// Looks from the far edge to the front, slightly up.
-const RigidTransform table_from_camera{
+const geometry::RigidTransform table_from_camera{
     glm::quat_cast(glm::dmat3(glm::dvec3(-1, 0, 0), glm::normalize(glm::dvec3(0, -0.3, -0.95)),
                               glm::normalize(glm::dvec3(0, -0.95, 0.3)))),
     {0.0, 0.28, 0.12}};
-const Pinhole camera{320, 180, 147.0, 147.0, 160.0, 90.0, {-0.15, 0.01}};
+const geometry::Pinhole camera{320, 180, 147.0, 147.0, 160.0, 90.0, {-0.15, 0.01}};
 
 /// Pixels whose ray meets any of the ellipsoids.
-std::vector<std::uint8_t> outline_of(const std::vector<Ball>& balls) {
+std::vector<std::uint8_t> outline_of(const std::vector<simulators::Ball>& balls) {
     std::vector<std::uint8_t> mask;
     for (int row = 0; row < camera.height; ++row) {
         for (int column = 0; column < camera.width; ++column) {
             const glm::dvec3 ray = table_from_camera.direction(camera.ray({column + 0.5, row + 0.5}));
             bool met = false;
-            for (const Ball& one : balls) {
-                met = met || enter(one, table_from_camera.translation, ray).has_value();
+            for (const simulators::Ball& one : balls) {
+                met = met || simulators::enter(one, table_from_camera.translation, ray).has_value();
             }
             mask.push_back(met ? 255 : 0);
         }
@@ -51,7 +51,8 @@ double degrees_off(const glm::dvec3& a, const glm::dvec3& b) {
 TEST(Head, AnUprightEllipsoidIsFoundWhereItIs) {
     for (const glm::dvec3 place :
          {glm::dvec3(0.0, -0.4, 0.5), glm::dvec3(0.45, -0.5, 0.3), glm::dvec3(-0.5, -0.35, 0.7)}) {
-        const auto heads = heads_in(outline_of({ball(place, glm::dmat3(1.0), {0.089, 0.089, 0.116}, 0.5)}));
+        const auto heads =
+            heads_in(outline_of({simulators::ball(place, glm::dmat3(1.0), {0.089, 0.089, 0.116}, 0.5)}));
         ASSERT_EQ(heads.size(), 1U);
         EXPECT_LT(degrees_off(heads[0].middle_m, place), 0.5); // a pixel is 0.4
         EXPECT_LT(glm::distance(heads[0].middle_m, place), 2.0 * heads[0].along_sd_m);
@@ -67,13 +68,15 @@ TEST(Head, TheEyeOfAPersonIsFound) {
     double squares = 0.0;
     int people = 0;
     for (int k = 0; k < 24; ++k) {
-        const Build build = k % 3 == 0 ? Build::Child : k % 3 == 1 ? Build::Adult : Build::Seated;
-        Person person = any_person(build, random);
-        person.hair = person.hair == Hair::Hat ? Hair::Short : person.hair;
-        const glm::dvec3 eye = any_eye(build, 0.04 * (k - 12), 0.12, {0.8, 0.5}, random);
-        const auto heads = heads_in(outline_of(body_of(person, eye, prop)));
+        const simulators::Build build = k % 3 == 0   ? simulators::Build::Child
+                                        : k % 3 == 1 ? simulators::Build::Adult
+                                                     : simulators::Build::Seated;
+        simulators::Person person = simulators::any_person(build, random);
+        person.hair = person.hair == simulators::Hair::Hat ? simulators::Hair::Short : person.hair;
+        const glm::dvec3 eye = simulators::any_eye(build, 0.04 * (k - 12), 0.12, {0.8, 0.5}, random);
+        const auto heads = heads_in(outline_of(simulators::body_of(person, eye, prop)));
         ASSERT_EQ(heads.size(), 1U) << k;
-        const glm::dvec3 found = eye_of_head(heads[0].middle_m, prop);
+        const glm::dvec3 found = tracking::eye_of_head(heads[0].middle_m, prop);
         const glm::dvec3 line = glm::normalize(eye - prop);
         const double across = glm::length(glm::cross(found - eye, line));
         EXPECT_LT(across, 0.06) << k;
@@ -85,11 +88,11 @@ TEST(Head, TheEyeOfAPersonIsFound) {
 
 TEST(Head, TwoWhoStandTooCloseToPartAreTwo) {
     std::mt19937_64 random(3);
-    std::vector<Ball> both;
+    std::vector<simulators::Ball> both;
     for (const double x : {-0.14, 0.14}) {
-        Person person = any_person(Build::Adult, random);
-        person.hair = Hair::Short;
-        const auto body = body_of(person, {x, -0.42, 0.6}, {0.0, 0.0, 0.08});
+        simulators::Person person = simulators::any_person(simulators::Build::Adult, random);
+        person.hair = simulators::Hair::Short;
+        const auto body = simulators::body_of(person, {x, -0.42, 0.6}, {0.0, 0.0, 0.08});
         both.insert(both.end(), body.begin(), body.end());
     }
     EXPECT_EQ(heads_in(outline_of(both)).size(), 2U);
@@ -97,19 +100,21 @@ TEST(Head, TwoWhoStandTooCloseToPartAreTwo) {
 
 TEST(Head, WhatIsFarAwayOrAnArmIsNobody) {
     std::mt19937_64 random(5);
-    const Person person = any_person(Build::Adult, random);
-    EXPECT_TRUE(heads_in(outline_of(body_of(person, {0.3, -2.4, 0.7}, {0.0, 0.0, 0.08}))).empty());
-    const std::vector<Ball> arm{limb({-0.3, -0.4, 0.3}, {0.3, -0.4, 0.32}, 0.04, 0.5)};
+    const simulators::Person person = simulators::any_person(simulators::Build::Adult, random);
+    EXPECT_TRUE(
+        heads_in(outline_of(simulators::body_of(person, {0.3, -2.4, 0.7}, {0.0, 0.0, 0.08}))).empty());
+    const std::vector<simulators::Ball> arm{
+        simulators::limb({-0.3, -0.4, 0.3}, {0.3, -0.4, 0.32}, 0.04, 0.5)};
     EXPECT_TRUE(heads_in(outline_of(arm)).empty());
 }
 
 TEST(Head, WhoLooksLowerBendsTheHead) {
     const glm::dvec3 middle(0.0, -0.5, 0.5);
-    const glm::dvec3 level = eye_of_head(middle, {0.0, 0.0, 0.5});
+    const glm::dvec3 level = tracking::eye_of_head(middle, {0.0, 0.0, 0.5});
     EXPECT_GT(level.y, middle.y + 0.07);
-    EXPECT_LT(eye_of_head(middle, {0.0, 0.0, 0.0}).z, level.z - 0.02);
-    EXPECT_TRUE(std::isfinite(eye_of_head(middle, middle).x));
+    EXPECT_LT(tracking::eye_of_head(middle, {0.0, 0.0, 0.0}).z, level.z - 0.02);
+    EXPECT_TRUE(std::isfinite(tracking::eye_of_head(middle, middle).x));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

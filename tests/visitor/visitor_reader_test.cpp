@@ -9,7 +9,7 @@
 #include <iterator>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::visitor {
 namespace {
 
 using std::chrono::milliseconds;
@@ -18,24 +18,26 @@ const glm::dvec3 prop(0.05, 0.0, 0.0);
 const glm::dvec3 eye(0.1, -0.42, 0.6);
 
 /// A table, optionally with a person at it.
-const RoomScene& scene() {
-    static const RoomScene one({}, {}, {0.8, 0.5}, make_frustum(shipped_frustum), prop);
+const simulators::RoomScene& scene() {
+    static const simulators::RoomScene one({}, {}, {0.8, 0.5},
+                                           geometry::make_frustum(geometry::shipped_frustum), prop);
     return one;
 }
 
-CameraFrame frame_at(milliseconds time, bool is_there, std::uint64_t seed) {
-    static const Person person = [] {
+camera::CameraFrame frame_at(milliseconds time, bool is_there, std::uint64_t seed) {
+    static const simulators::Person person = [] {
         std::mt19937_64 random(2);
-        return any_person(Build::Adult, random);
+        return simulators::any_person(simulators::Build::Adult, random);
     }();
-    const Bodies bodies = [&](double /*t_s*/) {
-        return is_there ? std::vector<std::vector<Ball>>{body_of(person, eye, prop + glm::dvec3(0, 0, 0.08))}
-                        : std::vector<std::vector<Ball>>{};
+    const simulators::Bodies bodies = [&](double /*t_s*/) {
+        return is_there ? std::vector<std::vector<simulators::Ball>>{simulators::body_of(
+                              person, eye, prop + glm::dvec3(0, 0, 0.08))}
+                        : std::vector<std::vector<simulators::Ball>>{};
     };
-    const Pinhole& pinhole = scene().camera().pinhole;
+    const geometry::Pinhole& pinhole = scene().camera().pinhole;
     return {MonotonicTime(time), 1, pinhole.width, pinhole.height,
             scene().picture(
-                bodies, [](double) { return LightNow{}; }, 0.0, seed)};
+                bodies, [](double) { return simulators::LightNow{}; }, 0.0, seed)};
 }
 
 VisitorSetUp set_up() {
@@ -47,11 +49,11 @@ class Played {
 public:
     explicit Played(VisitorReader& reader) : reader_(reader) {}
     /// Returns the heads of the last frame.
-    std::vector<SeenHead> play(bool is_there, double seconds, int rate_hz) {
-        std::vector<SeenHead> heads;
+    std::vector<tracking::SeenHead> play(bool is_there, double seconds, int rate_hz) {
+        std::vector<tracking::SeenHead> heads;
         for (int k = 0; k < static_cast<int>(seconds * rate_hz); ++k) {
             time_ += milliseconds(1000 / rate_hz);
-            CameraFrame& frame = is_there ? there_ : nobody_;
+            camera::CameraFrame& frame = is_there ? there_ : nobody_;
             frame.time = MonotonicTime(time_);
             const auto seen = reader_.read(frame);
             heads.assign(seen.begin(), seen.end());
@@ -61,8 +63,8 @@ public:
 
 private:
     VisitorReader& reader_;
-    CameraFrame nobody_ = frame_at(milliseconds(0), false, 1);
-    CameraFrame there_ = frame_at(milliseconds(0), true, 2);
+    camera::CameraFrame nobody_ = frame_at(milliseconds(0), false, 1);
+    camera::CameraFrame there_ = frame_at(milliseconds(0), true, 2);
     milliseconds time_{1000};
 };
 
@@ -74,10 +76,10 @@ TEST(VisitorReader, SeesWhoComesAndWhoGoes) {
     VisitorReader reader(set_up(), free_of_charge);
     Played played(reader);
     EXPECT_TRUE(played.play(false, 1.5, 30).empty());
-    const std::vector<SeenHead> heads = played.play(true, 0.5, 30);
+    const std::vector<tracking::SeenHead> heads = played.play(true, 0.5, 30);
     ASSERT_EQ(heads.size(), 1U);
     const glm::dvec3 line = glm::normalize(eye - prop);
-    const glm::dvec3 off = eye_of_head(heads[0].middle_m, prop + glm::dvec3(0, 0, 0.08)) - eye;
+    const glm::dvec3 off = tracking::eye_of_head(heads[0].middle_m, prop + glm::dvec3(0, 0, 0.08)) - eye;
     EXPECT_LT(glm::length(glm::cross(off, line)), 0.045);
     EXPECT_LT(glm::length(off), 0.2);
     EXPECT_GT(heads[0].across_sd_m, 0.01);
@@ -110,12 +112,12 @@ TEST(VisitorReader, TakesNoMoreThanATenthOfACore) {
 
 TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
     VisitorTracker tracker(set_up());
-    std::vector<SeenHead> heads;
+    std::vector<tracking::SeenHead> heads;
     std::jthread([&tracker] {
-        CameraFrame nobody = frame_at(milliseconds(0), false, 1);
-        CameraFrame there = frame_at(milliseconds(0), true, 2);
+        camera::CameraFrame nobody = frame_at(milliseconds(0), false, 1);
+        camera::CameraFrame there = frame_at(milliseconds(0), true, 2);
         for (int k = 1; k <= 30; ++k) {
-            CameraFrame& frame = k <= 15 ? nobody : there;
+            camera::CameraFrame& frame = k <= 15 ? nobody : there;
             frame.time = MonotonicTime(milliseconds(100 * k));
             tracker.use(frame);
         }
@@ -125,7 +127,7 @@ TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
     EXPECT_LE(heads.back().time, MonotonicTime(milliseconds(2500)));
     EXPECT_EQ(heads.front().person, heads.back().person);
     EXPECT_EQ(tracker.trouble(), "");
-    CameraFrame frame = frame_at(milliseconds(9000), false, 1);
+    camera::CameraFrame frame = frame_at(milliseconds(9000), false, 1);
     frame.width = 480;
     tracker.use(frame);
     EXPECT_NE(tracker.trouble().find("another shape"), std::string_view::npos);
@@ -133,13 +135,14 @@ TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
 
 /// The whole chain: a person comes, walks in and stands, under a changing picture.
 TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
-    const Visit visit = run_visit({}, 5.0, 3);
+    const simulators::Visit visit = simulators::run_visit({}, 5.0, 3);
     double worst_mm = 0.0;
-    for (const VisitMoment& moment : visit.moments) {
+    for (const simulators::VisitMoment& moment : visit.moments) {
         EXPECT_FALSE(moment.seen && !moment.was_there) << moment.t_s;
         if (moment.is_there) {
             ASSERT_TRUE(moment.seen) << moment.t_s;
-            for (const double mm : picture_errors_mm(visit.prop_m, moment.eye_m, moment.shown_eye_m)) {
+            for (const double mm :
+                 simulators::picture_errors_mm(visit.prop_m, moment.eye_m, moment.shown_eye_m)) {
                 worst_mm = std::max(worst_mm, mm);
             }
         }
@@ -153,16 +156,16 @@ TEST(VisitorSettings, ThePagesExampleIsTheCamera) {
     std::ifstream file(source_dir() + "/docs/visitor_eye.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     const std::size_t begin = page.find("```toml\n") + 8;
-    const Result<CheckedSettings> settings =
-        parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");
+    const Result<settings::CheckedSettings> settings =
+        settings::parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");
     ASSERT_TRUE(settings) << settings.error().message;
-    const CameraSettings& camera = (*settings)->camera;
+    const settings::CameraSettings& camera = (*settings)->camera;
     EXPECT_TRUE(camera.visitor);
-    const RigidTransform measured = WatchingCamera().table_from_camera();
+    const geometry::RigidTransform measured = simulators::WatchingCamera().table_from_camera();
     EXPECT_LT(glm::distance(camera.table_from_camera.translation, measured.translation), 1e-6);
     EXPECT_LT(glm::distance(camera.table_from_camera.direction({1, 2, 3}), measured.direction({1, 2, 3})),
               1e-3);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::visitor

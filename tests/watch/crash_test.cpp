@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 constexpr std::string_view whole = "frustumscreen-crash-1\n"
@@ -79,4 +79,4 @@ TEST(Crash, TheLatestIsTheFirst) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

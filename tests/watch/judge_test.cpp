@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using std::chrono::hours;
@@ -212,4 +212,4 @@ TEST(Judge, TheSafePictureIsJudgedByItself) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

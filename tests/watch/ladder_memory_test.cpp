@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using std::chrono::hours;
@@ -116,4 +116,4 @@ TEST(LadderMemory, TimeAwakeNeverRunsFasterThanTime) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using std::chrono::hours;
@@ -188,4 +188,4 @@ TEST(LadderStates, EveryWordIsReadBack) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using std::chrono::hours;
@@ -172,4 +172,4 @@ TEST(Ladder, SafePictureThatFailsLeadsToAReboot) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -8,7 +8,7 @@
 #include <deque>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using std::chrono::hours;
@@ -127,4 +127,4 @@ TEST(LadderWalk, TenMillionEvents) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ TEST_F(MachineOfFiles, HasADisk) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

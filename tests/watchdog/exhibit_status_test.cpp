@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 const std::string status =
@@ -66,4 +66,4 @@ TEST(ExhibitStatus, ChangedBytesDoNoHarm) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,9 +35,9 @@ protected:
 };
 
 TEST_F(KeptFiles, MemoryIsRememberedInAnotherBoot) {
-    LadderMemory memory;
+    watch::LadderMemory memory;
     memory.awake = hours(5);
-    memory.mode = Mode::BuiltIn;
+    memory.mode = watch::Mode::BuiltIn;
     {
         MemoryFile file(folder_ / "memory", 1);
         EXPECT_FALSE(file.is_of_this_boot());
@@ -50,12 +50,12 @@ TEST_F(KeptFiles, MemoryIsRememberedInAnotherBoot) {
     const MemoryFile other(folder_ / "memory", 2);
     EXPECT_FALSE(other.is_of_this_boot());
     EXPECT_EQ(other.remembered(minutes(4)).awake, hours(5) + minutes(4));
-    EXPECT_EQ(other.remembered(minutes(4)).mode, Mode::BuiltIn);
+    EXPECT_EQ(other.remembered(minutes(4)).mode, watch::Mode::BuiltIn);
 }
 
 TEST_F(KeptFiles, MemoryIsWrittenAtMostOnceAMinute) {
     MemoryFile file(folder_ / "memory", 1);
-    LadderMemory memory;
+    watch::LadderMemory memory;
     int writes = 0;
     for (int second = 0; second < 3600; ++second) {
         memory.awake += seconds(1);
@@ -69,7 +69,7 @@ TEST_F(KeptFiles, MemoryIsWrittenAtMostOnceAMinute) {
         writes += file.keep(start_ + seconds(second), seconds(second), memory, false) ? 1 : 0;
     }
     EXPECT_LE(writes, 7);
-    EXPECT_EQ(fs::file_size(folder_ / "memory"), slot_count * slot_bytes);
+    EXPECT_EQ(fs::file_size(folder_ / "memory"), watch::slot_count * watch::slot_bytes);
 }
 
 TEST_F(KeptFiles, AMemoryThatCannotBeWrittenAllowsNoReboot) {
@@ -91,7 +91,8 @@ TEST_F(KeptFiles, RubbishIsAKioskWithoutAPast) {
 }
 
 Fault fault(const std::string& detail) {
-    return {"2026-01-01T10:00:00Z", seconds(12), Cause::NoPicture, Step::RestartExhibit, detail, {}};
+    return {"2026-01-01T10:00:00Z",      seconds(12), watch::Cause::NoPicture,
+            watch::Step::RestartExhibit, detail,      {}};
 }
 
 TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
@@ -150,18 +151,18 @@ TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
 
 TEST_F(KeptFiles, OrdersAreFiles) {
     const Orders orders(folder_);
-    ASSERT_TRUE(orders.begin(Mode::Normal));
+    ASSERT_TRUE(orders.begin(watch::Mode::Normal));
     EXPECT_EQ(content("mode"), "normal\n");
-    ASSERT_TRUE(orders.give(Step::BuiltIn, Mode::BuiltIn, "a reason"));
+    ASSERT_TRUE(orders.give(watch::Step::BuiltIn, watch::Mode::BuiltIn, "a reason"));
     EXPECT_EQ(content("mode"), "built_in\n");
     EXPECT_EQ(content("reason"), "a reason\n");
     EXPECT_TRUE(fs::exists(folder_ / "steps/restart-exhibit"));
-    ASSERT_TRUE(orders.give(Step::Reboot, Mode::Normal, "another"));
+    ASSERT_TRUE(orders.give(watch::Step::Reboot, watch::Mode::Normal, "another"));
     EXPECT_TRUE(fs::exists(folder_ / "steps/reboot"));
-    ASSERT_TRUE(orders.begin(Mode::Normal));
+    ASSERT_TRUE(orders.begin(watch::Mode::Normal));
     EXPECT_FALSE(fs::exists(folder_ / "steps/reboot")) << "an old order counts no more";
-    EXPECT_FALSE(Orders(folder_ / "missing").give(Step::Reboot, Mode::Normal, ""));
+    EXPECT_FALSE(Orders(folder_ / "missing").give(watch::Step::Reboot, watch::Mode::Normal, ""));
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

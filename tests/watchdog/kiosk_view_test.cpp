@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ protected:
               "{\"boot_id\": \"" + boot + "\", \"monotonic_ns\": " + std::to_string(written_s) +
                   "000000000, \"health\": \"well\", \"artifact\": \"A\", \"drawn\": 4, \"probes\": 1}");
     }
-    [[nodiscard]] Outcome look(KioskView& view, int now_s = 102) const {
+    [[nodiscard]] watch::Outcome look(KioskView& view, int now_s = 102) const {
         return view.look(MonotonicTime(seconds(now_s)),
                          std::chrono::sys_days(std::chrono::year{2027} / 1 / 1));
     }
@@ -54,7 +54,7 @@ protected:
 
 TEST_F(KioskOfFiles, IsSeen) {
     KioskView view(places_, boot_id(root_));
-    const Outcome outcome = look(view);
+    const watch::Outcome outcome = look(view);
     EXPECT_EQ(outcome.process, 498);
     EXPECT_EQ(outcome.failures, 0U);
     ASSERT_TRUE(outcome.exhibit);
@@ -73,7 +73,7 @@ TEST_F(KioskOfFiles, IsSeen) {
 TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
     fs::remove_all(root_);
     KioskView view(places_, boot_id(root_));
-    const Outcome outcome = look(view);
+    const watch::Outcome outcome = look(view);
     EXPECT_EQ(outcome.process, 0);
     EXPECT_FALSE(outcome.exhibit);
     EXPECT_EQ(outcome.memory_free, 1.0);
@@ -132,7 +132,7 @@ TEST_F(KioskOfFiles, CapabilitiesAreWhatIsThere) {
 }
 
 TEST_F(KioskOfFiles, NotesAreForStaff) {
-    Outcome outcome;
+    watch::Outcome outcome;
     outcome.projector = false;
     outcome.disk_free = 0.01;
     outcome.disk_worn = 0.9;
@@ -163,4 +163,4 @@ TEST_F(KioskOfFiles, SaysWhyTheExhibitEnded) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::watch {
 namespace {
 
 using namespace std::chrono_literals;
@@ -27,7 +27,7 @@ protected:
 };
 
 TEST_F(WatchedFolder, AWrittenARenamedAndARemovedFileCount) {
-    Result<FolderWatch> watch = FolderWatch::open(folder);
+    Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch) << watch.error().message;
     EXPECT_FALSE(*watch->take()) << "nothing has happened yet";
     put("artifact.toml");
@@ -44,7 +44,7 @@ TEST_F(WatchedFolder, AWrittenARenamedAndARemovedFileCount) {
 }
 
 TEST_F(WatchedFolder, AFileThatIsStillWrittenDoesNotCountYet) {
-    Result<FolderWatch> watch = FolderWatch::open(folder);
+    Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     std::ofstream scan(folder / "scan.glb");
     scan << "half of it" << std::flush;
@@ -54,7 +54,7 @@ TEST_F(WatchedFolder, AFileThatIsStillWrittenDoesNotCountYet) {
 }
 
 TEST_F(WatchedFolder, AFolderThatComesLaterIsWatchedToo) {
-    Result<FolderWatch> watch = FolderWatch::open(folder);
+    Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     fs::create_directories(folder / "recordings" / "de");
     EXPECT_TRUE(*watch->take());
@@ -69,7 +69,7 @@ TEST_F(WatchedFolder, FoldersThatLinksLeadToAreWatchedToo) {
     fs::create_directory_symlink(folder, folder / "recordings" / "back"); // and round and round
     fs::create_directory_symlink(folder / "recordings", elsewhere / "deep" / "again");
     fs::create_symlink("itself", folder / "itself");
-    Result<FolderWatch> watch = FolderWatch::open(folder);
+    Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch) << watch.error().message;
     std::ofstream(elsewhere / "deep" / "scan.glb") << "x";
     EXPECT_TRUE(*watch->take());
@@ -90,7 +90,7 @@ TEST_F(WatchedFolder, FoldersThatLinksLeadToAreWatchedToo) {
 }
 
 TEST_F(WatchedFolder, ThatItIsGoneIsSaid) {
-    Result<FolderWatch> watch = FolderWatch::open(folder);
+    Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     const fs::path elsewhere = folder.string() + "_moved";
     fs::rename(folder, elsewhere);
@@ -99,22 +99,22 @@ TEST_F(WatchedFolder, ThatItIsGoneIsSaid) {
     ASSERT_FALSE(taken);
     EXPECT_NE(taken.error().message.find(folder.string() + ": this folder is gone"), std::string::npos)
         << taken.error().message;
-    EXPECT_FALSE(FolderWatch::open(folder)) << "and now there is none";
+    EXPECT_FALSE(programs::FolderWatch::open(folder)) << "and now there is none";
 }
 
 TEST(PassingNames, AreThoseOfEditorsAndCopies) {
     for (const char* name :
          {".artifact.toml.swp", "artifact.toml~", "#artifact.toml#", "4913", "x.html.part123", "a.tmp"}) {
-        EXPECT_TRUE(is_passing_name(name)) << name;
+        EXPECT_TRUE(programs::is_passing_name(name)) << name;
     }
     for (const char* name : {"artifact.toml", "scan.glb", "x.party", "49131", "spare.part.glb"}) {
-        EXPECT_FALSE(is_passing_name(name)) << name;
+        EXPECT_FALSE(programs::is_passing_name(name)) << name;
     }
 }
 
 TEST(SettleTime, IsOverWhenNothingHasChangedForAWhile) {
     const MonotonicTime start = from_microseconds(5'000'000);
-    SettleTime settle(300ms);
+    programs::SettleTime settle(300ms);
     EXPECT_FALSE(settle.take(start));
     EXPECT_FALSE(settle.left(start));
     settle.changed(start);
@@ -127,4 +127,4 @@ TEST(SettleTime, IsOverWhenNothingHasChangedForAWhile) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::watch

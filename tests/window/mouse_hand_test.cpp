@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 namespace {
 
 TEST(MouseHand, SlidesThePropWithoutAJumpWhereverItIsHeld) {
@@ -35,7 +35,7 @@ TEST(MouseHand, TurnsAboutTheVertical) {
 
 TEST(MouseHand, TakesTheEyeAroundTheTable) {
     MouseHand hand({0.3, 0.2}, {0.0, -0.6, 0.6});
-    EXPECT_EQ(hand.head({}).station, head_station);
+    EXPECT_EQ(hand.head({}).station, tracker::head_station);
     EXPECT_NEAR(glm::distance(hand.head({}).position_m, {0.0, -0.6, 0.6}), 0.0, 1e-12);
     hand.look(glm::half_pi<double>(), 0.0);
     EXPECT_NEAR(glm::distance(hand.head({}).position_m, {0.6, 0.0, 0.6}), 0.0, 1e-12);
@@ -48,4 +48,4 @@ TEST(MouseHand, TakesTheEyeAroundTheTable) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::window

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 namespace {
 
 constexpr int width = 320;
@@ -33,7 +33,8 @@ protected:
             return std::optional(glm::dvec2(pixel.x - width / 2, height / 2 - pixel.y) * 1e-2);
         };
         set_up.half_extent_m = {1.0, 1.0};
-        set_up.see = [this](const PoseSample& prop, const glm::dvec3& eye_m, PixelSize, SeenSurfaces& seen) {
+        set_up.see = [this](const tracker::PoseSample& prop, const glm::dvec3& eye_m, PixelSize,
+                            SeenSurfaces& seen) {
             seen_prop_m_ = prop.position_m;
             seen_eye_m_ = eye_m;
             // The upper half of the view: the picture at half its light, and a green light of its own.
@@ -72,11 +73,11 @@ protected:
         event.key.keysym.sym = code;
         SDL_PushEvent(&event);
     }
-    PoseSample prop(std::int64_t us) {
-        std::vector<PoseSample> samples;
+    tracker::PoseSample prop(std::int64_t us) {
+        std::vector<tracker::PoseSample> samples;
         EXPECT_TRUE(window_.tracker->poll(from_microseconds(us), samples));
         EXPECT_EQ(samples.size(), 2U);
-        EXPECT_EQ(samples[1].station, head_station);
+        EXPECT_EQ(samples[1].station, tracker::head_station);
         head_m_ = samples[1].position_m;
         EXPECT_EQ(samples[0].time, from_microseconds(us));
         return samples[0];
@@ -178,7 +179,7 @@ TEST_F(AWindow, KeysAreButtonsAndEscapeEnds) {
     key(SDLK_0);
     key(SDLK_6);
     static_cast<void>(prop(5));
-    std::vector<PanelEvent> events;
+    std::vector<panel::PanelEvent> events;
     ASSERT_TRUE(window_.panel->poll(from_microseconds(5), events));
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].button, 1);
@@ -206,4 +207,4 @@ TEST(NoDesktop, IsSaidAndNotTakenForOne) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::window

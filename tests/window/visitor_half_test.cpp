@@ -8,15 +8,15 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::window {
 namespace {
 
 constexpr int width = 640;
 constexpr int height = 400;
 
 /// Bands and a bright frame, so that a picture out of place is seen.
-Image8 bands() {
-    Image8 picture(width, height);
+image::Image8 bands() {
+    image::Image8 picture(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const auto code =
@@ -39,11 +39,12 @@ protected:
         set_up.height = height;
         set_up.eye_m = settings_.eye.default_m;
         set_up.table_from_picture = [](const glm::dvec2&) { return std::nullopt; };
-        set_up.see = [this](const PoseSample&, const glm::dvec3& eye_m, PixelSize half, SeenSurfaces& seen) {
+        set_up.see = [this](const tracker::PoseSample&, const glm::dvec3& eye_m, PixelSize half,
+                            SeenSurfaces& seen) {
             half_ = half;
             visitor_->see(pose_, eye_m, half, seen);
         };
-        Result<WindowHelp> help = help_picture();
+        Result<WindowHelp> help = programs::help_picture();
         ASSERT_TRUE(help) << help.error().message;
         EXPECT_EQ(help->rgba.size(), 4U * static_cast<std::size_t>(help->size.width * help->size.height));
         set_up.help = std::move(*help);
@@ -52,7 +53,7 @@ protected:
         window_ = std::move(*opened);
     }
     /// Presents the picture and reads the window's right half, row 0 at the top.
-    Image8 shown(const Image8& picture) {
+    image::Image8 shown(const image::Image8& picture) {
         GLuint texture = 0;
         glGenTextures(1, &texture);
         glBindTexture(GL_TEXTURE_2D, texture);
@@ -66,7 +67,7 @@ protected:
         glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         EXPECT_TRUE(window_.display->present({}));
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        Image8 half(half_.width, half_.height);
+        image::Image8 half(half_.width, half_.height);
         glReadPixels(half_.width, 0, half.width, half.height, GL_RGBA, GL_UNSIGNED_BYTE, half.texels.data());
         for (int y = 0; y < half.height / 2; ++y) {
             for (int x = 0; x < half.width; ++x) {
@@ -76,24 +77,28 @@ protected:
         return half;
     }
 
-    Settings settings_;
-    std::optional<VisitorHalf> visitor_;
-    PoseSample pose_{{}, prop_station, {0.05, -0.02, 0.0}, glm::angleAxis(0.5, glm::dvec3(0, 0, 1)), true};
+    settings::Settings settings_;
+    std::optional<programs::VisitorHalf> visitor_;
+    tracker::PoseSample pose_{
+        {}, tracker::prop_station, {0.05, -0.02, 0.0}, glm::angleAxis(0.5, glm::dvec3(0, 0, 1)), true};
     PixelSize half_;
     Window window_;
 };
 
 TEST_F(TheVisitorsHalf, IsWhatARayForEveryPixelFinds) {
-    const Image8 picture = bands();
-    const Image8 half = shown(picture);
+    const image::Image8 picture = bands();
+    const image::Image8 half = shown(picture);
     if (const char* const file = std::getenv("KEEP_WINDOW_PICTURE")) {
-        ASSERT_TRUE(write_file(file, encode_png(half)));
+        ASSERT_TRUE(write_file(file, image::encode_png(half)));
     }
-    const VisitorScene scene{settings_.projector.pinhole, settings_.projector.table_from_projector,
-                             make_prop(settings_.prop),   {pose_.rotation, pose_.position_m},
-                             settings_.eye.default_m,     {settings_.table.width_m, settings_.table.depth_m}};
-    const Image8 truth =
-        visitor_view(scene, picture, visitor_->camera(settings_.eye.default_m, half_), {true, 1, false});
+    const simulation::VisitorScene scene{settings_.projector.pinhole,
+                                         settings_.projector.table_from_projector,
+                                         settings::make_prop(settings_.prop),
+                                         {pose_.rotation, pose_.position_m},
+                                         settings_.eye.default_m,
+                                         {settings_.table.width_m, settings_.table.depth_m}};
+    const image::Image8 truth = simulation::visitor_view(
+        scene, picture, visitor_->camera(settings_.eye.default_m, half_), {true, 1, false});
     int differs = 0;
     for (std::size_t k = 0; k < truth.texels.size(); ++k) {
         const glm::ivec3 apart = glm::abs(glm::ivec3(half.texels[k]) - glm::ivec3(truth.texels[k]));
@@ -109,7 +114,7 @@ TEST_F(TheVisitorsHalf, IsWhatARayForEveryPixelFinds) {
 TEST_F(TheVisitorsHalf, FindsThePlaceOnTheTableUnderAPixel) {
     const glm::dvec3 eye = settings_.eye.default_m;
     const PixelSize half{width, height};
-    const VisitorCamera camera = visitor_->camera(eye, half);
+    const simulation::VisitorCamera camera = visitor_->camera(eye, half);
     const glm::dvec3 point(0.12, -0.07, 0.0);
     const auto pixel = camera.pinhole.pixel(camera.table_from_camera.inverse().point(point));
     ASSERT_TRUE(pixel);
@@ -120,4 +125,4 @@ TEST_F(TheVisitorsHalf, FindsThePlaceOnTheTableUnderAPixel) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::window

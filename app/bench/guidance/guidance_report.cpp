@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -25,7 +25,7 @@ double quantile(const std::vector<double>& ascending, double share) {
     return ascending[static_cast<std::size_t>(std::lround(place))];
 }
 
-AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
+AdviceProof prove(const guidance::GuidanceSetup& setup, const GuidanceOptions& options,
                   const std::function<void(double)>& progress) {
     AdviceProof proof;
     proof.situations = options.situations;
@@ -36,27 +36,29 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
         if (k % 256 == 0) {
             progress(static_cast<double>(k) / options.situations);
         }
-        GuidedState tracked_state = seeded_situation(setup, seeded);
-        Advisor advisor(setup);
-        const FaceReader& reader = advisor.reader();
-        const auto whole = [&](const GuidedState& now) { return reader.shows_whole(now, reader.read(now)); };
+        guidance::GuidedState tracked_state = seeded_situation(setup, seeded);
+        guidance::Advisor advisor(setup);
+        const guidance::FaceReader& reader = advisor.reader();
+        const auto whole = [&](const guidance::GuidedState& now) {
+            return reader.shows_whole(now, reader.read(now));
+        };
         std::size_t moves = 0;
         for (; !whole(tracked_state) && moves < max_moves; ++moves) {
             if (reader.whole(
                     tracked_state)) { // no face of the artifact is seen: Guide advises standing it up
-                tracked_state = after({Action::Upright}, setup, tracked_state);
+                tracked_state = guidance::after({guidance::Action::Upright}, setup, tracked_state);
                 continue;
             }
             const MonotonicTime begun = monotonic_now();
-            const Advice advice = advisor.advise(tracked_state).value_or(Advice{});
+            const guidance::Advice advice = advisor.advise(tracked_state).value_or(guidance::Advice{});
             times_ms.push_back(1e3 * to_seconds(monotonic_now() - begun));
-            if (advice.move.action == Action::Wait) {
+            if (advice.move.action == guidance::Action::Wait) {
                 proof.without_advice += moves == 0 ? 1 : 0;
                 moves = max_moves;
                 break;
             }
-            const GuidedState next =
-                after(advice.move, setup, tracked_state, seeded_person(advice.move, setup, seeded));
+            const guidance::GuidedState next =
+                guidance::after(advice.move, setup, tracked_state, seeded_person(advice.move, setup, seeded));
             if (advice.steps == 1) {
                 ++proof.single;
                 const bool helped =
@@ -79,7 +81,7 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
     return proof;
 }
 
-VisitsOf visits(const GuidanceSetup& setup, Adviser adviser, const GuidanceOptions& options,
+VisitsOf visits(const guidance::GuidanceSetup& setup, Adviser adviser, const GuidanceOptions& options,
                 const std::function<void(double)>& progress) {
     VisitsOf all;
     all.adviser = adviser;
@@ -109,7 +111,7 @@ double VisitsOf::quantile_s(double share) const {
     return quantile(mended_s, share);
 }
 
-GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
+GuidedProp measure_guidance(const std::string& name, const guidance::GuidanceSetup& setup,
                             const GuidanceOptions& options, const std::function<void(double)>& progress) {
     constexpr double proof_share = 0.5;
     GuidedProp prop{name, prove(setup, options, [&](double done) { progress(proof_share * done); }), {}};
@@ -193,4 +195,4 @@ std::vector<LimitVerdict> judge(const GuidedProp& prop) {
          p95_s < paper.quantile_s(0.95) && ours.whole_share > paper.whole_share}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct GuidanceOptions {
     int situations = 100000; ///< for each prop
@@ -52,7 +52,7 @@ struct GuidedProp {
 };
 
 /// `progress`: share of the work that is done.
-[[nodiscard]] GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
+[[nodiscard]] GuidedProp measure_guidance(const std::string& name, const guidance::GuidanceSetup& setup,
                                           const GuidanceOptions& options,
                                           const std::function<void(double)>& progress);
 
@@ -61,4 +61,4 @@ struct GuidedProp {
 /// Targets: no advice fails, 95 % of the losses are mended within 6 s, and the picture is whole for 95 % of the time.
 [[nodiscard]] std::vector<LimitVerdict> judge(const GuidedProp& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -16,10 +16,10 @@ constexpr double begins_and_ends_s = 0.2;
 
 } // namespace
 
-GuidedState Motion::now() const {
+guidance::GuidedState Motion::now() const {
     const double share = lasts_s > 0.0 ? std::min(1.0, gone_s / lasts_s) : 1.0;
     const double eased = share * share * (3.0 - 2.0 * share);
-    GuidedState tracked_state;
+    guidance::GuidedState tracked_state;
     tracked_state.table_from_prop.rotation =
         glm::slerp(from.table_from_prop.rotation, to.table_from_prop.rotation, eased);
     tracked_state.table_from_prop.translation =
@@ -34,22 +34,23 @@ GuidedState Motion::now() const {
     return tracked_state;
 }
 
-double time_for_s(const Move& move, const GuidedState& from, const GuidedState& to) {
+double time_for_s(const guidance::Move& move, const guidance::GuidedState& from,
+                  const guidance::GuidedState& to) {
     switch (move.action) {
-    case Action::SetDown:
-    case Action::Upright:
+    case guidance::Action::SetDown:
+    case guidance::Action::Upright:
         return std::max(stand_up_s, begins_and_ends_s + glm::length(move.by_m) / slide_m_s);
-    case Action::ComeRound: {
+    case guidance::Action::ComeRound: {
         const double angle =
             std::remainder(std::atan2(to.eye_m.y, to.eye_m.x) - std::atan2(from.eye_m.y, from.eye_m.x),
                            2.0 * std::numbers::pi);
         return std::abs(angle) * glm::length(glm::dvec2(from.eye_m)) / walk_m_s;
     }
-    case Action::Turn:
+    case guidance::Action::Turn:
         return begins_and_ends_s + std::abs(move.turn_rad) / turn_rad_s;
     default:
         return begins_and_ends_s + glm::length(move.by_m) / slide_m_s;
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

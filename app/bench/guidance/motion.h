@@ -6,19 +6,20 @@
 
 #include "app/guidance/move.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct Motion {
-    GuidedState from;
-    GuidedState to;
+    guidance::GuidedState from;
+    guidance::GuidedState to;
     double lasts_s = 0.0;
     double gone_s = 0.0;
 
-    [[nodiscard]] GuidedState now() const;
+    [[nodiscard]] guidance::GuidedState now() const;
     [[nodiscard]] bool done() const { return gone_s >= lasts_s; }
 };
 
 /// Time that people take for a move between two situations.
-[[nodiscard]] double time_for_s(const Move& move, const GuidedState& from, const GuidedState& to);
+[[nodiscard]] double time_for_s(const guidance::Move& move, const guidance::GuidedState& from,
+                                const guidance::GuidedState& to);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

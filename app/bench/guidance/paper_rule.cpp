@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -15,19 +15,21 @@ constexpr double usual_way_m = 0.10;
 constexpr double usual_turn_rad = std::numbers::pi / 6.0;
 
 /// The action with the amount that a person takes if none is advised.
-Move without_amount(Move move) {
-    if (move.action == Action::Turn) {
+guidance::Move without_amount(guidance::Move move) {
+    if (move.action == guidance::Action::Turn) {
         move.turn_rad = move.turn_rad > 0.0 ? usual_turn_rad : -usual_turn_rad;
-    } else if (move.action == Action::Slide || move.action == Action::Raise || move.action == Action::Lower) {
+    } else if (move.action == guidance::Action::Slide || move.action == guidance::Action::Raise ||
+               move.action == guidance::Action::Lower) {
         move.by_m = glm::normalize(move.by_m) * usual_way_m;
     }
     return move;
 }
 
 /// A turn that brings the face towards the projector, for a face that no single action opens.
-Move towards_light(const FaceReader& reader, const GuidedState& tracked_state, std::uint32_t face) {
-    const GuidanceSetup& setup = reader.setup();
-    Move move{Action::Turn};
+guidance::Move towards_light(const guidance::FaceReader& reader, const guidance::GuidedState& tracked_state,
+                             std::uint32_t face) {
+    const guidance::GuidanceSetup& setup = reader.setup();
+    guidance::Move move{guidance::Action::Turn};
     for (std::size_t k = 0; k < setup.prop.faces.size(); ++k) {
         if ((face >> k & 1U) != 0) {
             const glm::dvec3 normal =
@@ -43,21 +45,24 @@ Move towards_light(const FaceReader& reader, const GuidedState& tracked_state, s
 
 } // namespace
 
-std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tracked_state) {
-    const FaceSets now = reader.read(tracked_state);
+std::optional<guidance::Move> paper_advice(const guidance::FaceReader& reader,
+                                           const guidance::GuidedState& tracked_state) {
+    const guidance::FaceSets now = reader.read(tracked_state);
     if (now.valid()) {
         return std::nullopt;
     }
     const std::uint32_t largest = reader.largest_of(tracked_state, now.unlit());
     const std::uint32_t valid = now.seen & now.lit;
-    std::optional<Move> best;
+    std::optional<guidance::Move> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates(reader.setup(), tracked_state, MoveSet::Only).all()) {
-        if (candidate.move.action == Action::ComeRound || stands_elsewhere(candidate.move) ||
-            candidate.effort >= least) {
+    for (const guidance::Candidate& candidate :
+         guidance::candidates(reader.setup(), tracked_state, guidance::MoveSet::Only).all()) {
+        if (candidate.move.action == guidance::Action::ComeRound ||
+            guidance::stands_elsewhere(candidate.move) || candidate.effort >= least) {
             continue;
         }
-        const FaceSets next = reader.read(after(candidate.move, reader.setup(), tracked_state));
+        const guidance::FaceSets next =
+            reader.read(guidance::after(candidate.move, reader.setup(), tracked_state));
         if ((next.unlit() & (largest | valid)) == 0) {
             best = candidate.move;
             least = candidate.effort;
@@ -66,4 +71,4 @@ std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tr
     return without_amount(best ? *best : towards_light(reader, tracked_state, largest));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,9 +12,10 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Nothing if the situation is valid. The amounts are those of people who are told none: 10 cm, 30 degrees.
-[[nodiscard]] std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tracked_state);
+[[nodiscard]] std::optional<guidance::Move> paper_advice(const guidance::FaceReader& reader,
+                                                         const guidance::GuidedState& tracked_state);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

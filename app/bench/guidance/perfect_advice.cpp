@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -16,19 +16,22 @@ constexpr double unsteady_s = 4.0;
 
 } // namespace
 
-std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& tracked_state) {
+std::optional<guidance::Move> perfect_advice(const guidance::FaceReader& reader,
+                                             const guidance::GuidedState& tracked_state) {
     if (reader.whole(tracked_state)) {
         return std::nullopt;
     }
-    std::optional<Move> best;
+    std::optional<guidance::Move> best;
     double min_cost_s = std::numeric_limits<double>::infinity();
-    for (const MoveSet set : {MoveSet::Only, MoveSet::Last}) {
-        for (const Candidate& candidate : candidates(reader.setup(), tracked_state, set).all()) {
-            const GuidedState next = after(candidate.move, reader.setup(), tracked_state);
+    for (const guidance::MoveSet set : {guidance::MoveSet::Only, guidance::MoveSet::Last}) {
+        for (const guidance::Candidate& candidate :
+             guidance::candidates(reader.setup(), tracked_state, set).all()) {
+            const guidance::GuidedState next = guidance::after(candidate.move, reader.setup(), tracked_state);
             const double lasts_s = time_for_s(candidate.move, tracked_state, next);
             if (lasts_s < min_cost_s && reader.whole(next)) {
                 int looks = 0;
-                const double cost_s = lasts_s + unsteady_s * (1.0 - steadiness(reader, next, looks));
+                const double cost_s =
+                    lasts_s + unsteady_s * (1.0 - guidance::steadiness(reader, next, looks));
                 if (cost_s < min_cost_s) {
                     best = candidate.move;
                     min_cost_s = cost_s;
@@ -36,7 +39,7 @@ std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& 
             }
         }
     }
-    return best ? best : advise(reader, tracked_state).value_or(Advice{}).move;
+    return best ? best : guidance::advise(reader, tracked_state).value_or(guidance::Advice{}).move;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,9 +9,10 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Nothing if the situation is valid.
-[[nodiscard]] std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& tracked_state);
+[[nodiscard]] std::optional<guidance::Move> perfect_advice(const guidance::FaceReader& reader,
+                                                           const guidance::GuidedState& tracked_state);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

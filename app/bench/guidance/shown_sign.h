@@ -9,32 +9,32 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Perfect: no sign; the visitor knows the advice (perfect_advice.h).
 enum class Adviser : std::uint8_t { Exhibit, Paper, None, Perfect };
 
 struct SignOnTable {
-    Move move;            ///< Wait: no known move helps
+    guidance::Move move;  ///< Wait: no known move helps
     double since_s = 0.0; ///< start of its display; another amount of the move keeps the sign
 };
 
 class ShownSign {
 public:
-    ShownSign(const GuidanceSetup& setup, Adviser adviser) : adviser_(adviser), guide_(setup) {}
+    ShownSign(const guidance::GuidanceSetup& setup, Adviser adviser) : adviser_(adviser), guide_(setup) {}
 
-    void step(double now_s, const GuidedState& tracked_state);
+    void step(double now_s, const guidance::GuidedState& tracked_state);
     /// The sign after the latest step.
     [[nodiscard]] const std::optional<SignOnTable>& shown() const { return shown_; }
 
 private:
-    void step_paper(double now_s, const GuidedState& tracked_state);
+    void step_paper(double now_s, const guidance::GuidedState& tracked_state);
 
     Adviser adviser_;
-    Guide guide_;
+    guidance::Guide guide_;
     std::optional<SignOnTable> shown_;
     std::optional<double> dark_since_s_;
     double next_look_s_ = 0.0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,12 +10,12 @@
 #include <numbers>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 constexpr double step_s = 1.0 / 60.0; // the exhibit's step
-constexpr double patience_s = std::chrono::duration<double>(Guide::patience).count();
+constexpr double patience_s = std::chrono::duration<double>(guidance::Guide::patience).count();
 constexpr double sees_success_after_s = 0.5;
 constexpr double min_reaction_s = 0.3;
 constexpr double longest_reaction_s = 1.5;
@@ -26,7 +26,7 @@ constexpr double visibly_darker = 1.1;
 
 class Visitor {
 public:
-    Visitor(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed)
+    Visitor(const guidance::GuidanceSetup& setup, Adviser adviser, std::uint64_t seed)
         : setup_(setup), reader_(setup), sign_(setup, adviser), adviser_(adviser), plays_(seed),
           reacts_(~seed), tracked_state_(seeded_situation(setup, plays_)) {
         constexpr double table_height_m = 0.8;
@@ -64,7 +64,7 @@ private:
     /// A movement, its reason, and the visitor's view of its success.
     struct Doing {
         Motion motion;
-        Move asked;           ///< Wait: the visitor's own idea
+        guidance::Move asked; ///< Wait: the visitor's own idea
         bool mends = false;   ///< meant to mend the picture
         bool wrong = false;   ///< not the advised move
         bool doubted = false; ///< the visitor has seen that it does not help
@@ -83,15 +83,15 @@ private:
         return now_s_ < noticed_at_s_ ? DarkWhile::Overlooking : DarkWhile::Reacting;
     }
 
-    void begin(const Move& move, const Execution& execution) {
-        const GuidedState to = after(move, setup_, tracked_state_, execution);
+    void begin(const guidance::Move& move, const guidance::Execution& execution) {
+        const guidance::GuidedState to = guidance::after(move, setup_, tracked_state_, execution);
         before_ = tracked_state_;
         begin(to, time_for_s(move, tracked_state_, to));
     }
 
-    void begin(const GuidedState& to, double lasts_s) {
+    void begin(const guidance::GuidedState& to, double lasts_s) {
         doing_ = Doing();
-        doing_->motion = {tracked_state_, to, lasts_s};
+        doing_->motion = {.from = tracked_state_, .to = to, .lasts_s = lasts_s};
         doing_->dark_px = reader_.lost_px(tracked_state_);
     }
 
@@ -126,15 +126,15 @@ private:
     }
 
     void play() {
-        Move move{Action::Turn};
+        guidance::Move move{guidance::Action::Turn};
         move.turn_rad = 0.9 * plays_.normal();
         const double what = plays_.between(0.0, 1.0);
         if (what < 0.25) {
             const double azimuth = plays_.between(-std::numbers::pi, std::numbers::pi);
-            move = {Action::Slide};
+            move = {guidance::Action::Slide};
             move.by_m = plays_.between(0.01, 0.08) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
         } else if (what < 0.30) {
-            move = {Action::Raise};
+            move = {guidance::Action::Raise};
             move.by_m.z = plays_.between(0.03, 0.15);
         }
         begin(move, {});
@@ -184,7 +184,7 @@ private:
         if (!read_since_s_ || *read_since_s_ != sign->since_s) {
             read_since_s_ = sign->since_s;
             acts_at_s_.reset();
-            const bool follows = doing_ && doing_->mends && alike(doing_->asked, sign->move);
+            const bool follows = doing_ && doing_->mends && guidance::alike(doing_->asked, sign->move);
             if (!follows) {
                 react();
             }
@@ -214,8 +214,8 @@ private:
             return false;
         }
         const bool goes_away =
-            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(tracked_state_);
-        const bool darkens = doing_->asked.action == Action::Wait &&
+            doing_->wrong && !guidance::GivenAdvice{doing_->asked, doing_->motion.from}.holds(tracked_state_);
+        const bool darkens = doing_->asked.action == guidance::Action::Wait &&
                              reader_.lost_px(tracked_state_) > visibly_darker * doing_->dark_px;
         doing_->doubted = goes_away || darkens;
         return doing_->doubted;
@@ -223,10 +223,10 @@ private:
 
     void act(VisitResult& result) {
         if (adviser_ == Adviser::Perfect) {
-            const std::optional<Move> move = perfect_advice(reader_, tracked_state_);
-            begin(move.value_or(Move{}), {});
+            const std::optional<guidance::Move> move = perfect_advice(reader_, tracked_state_);
+            begin(move.value_or(guidance::Move{}), {});
             ++result.advices;
-        } else if (sign_.shown() && sign_.shown()->move.action != Action::Wait) {
+        } else if (sign_.shown() && sign_.shown()->move.action != guidance::Action::Wait) {
             follow(sign_.shown()->move);
             ++result.advices;
         } else {
@@ -235,27 +235,27 @@ private:
         doing_->mends = true;
     }
 
-    void follow(const Move& asked) {
+    void follow(const guidance::Move& asked) {
         const bool wrong = reacts_.happens(misunderstands);
-        const Move move = wrong ? instead_of(asked) : asked;
+        const guidance::Move move = wrong ? instead_of(asked) : asked;
         begin(move, seeded_person(move, setup_, reacts_));
         doing_->asked = asked;
         doing_->wrong = wrong;
     }
 
     /// The opposite move; a slide in any direction if there is no opposite.
-    [[nodiscard]] Move instead_of(Move move) {
-        if (move.action == Action::Upright || move.action == Action::SetDown) {
+    [[nodiscard]] guidance::Move instead_of(guidance::Move move) {
+        if (move.action == guidance::Action::Upright || move.action == guidance::Action::SetDown) {
             return some_way();
         }
         move.by_m = -move.by_m;
         move.turn_rad = -move.turn_rad;
-        move.side = static_cast<Side>((static_cast<int>(move.side) + 2) % 4);
+        move.side = static_cast<guidance::Side>((static_cast<int>(move.side) + 2) % 4);
         return move;
     }
 
-    [[nodiscard]] Move some_way() {
-        Move move{Action::Slide};
+    [[nodiscard]] guidance::Move some_way() {
+        guidance::Move move{guidance::Action::Slide};
         const double azimuth = reacts_.between(-std::numbers::pi, std::numbers::pi);
         move.by_m = reacts_.between(0.04, 0.15) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0.0);
         return move;
@@ -263,31 +263,31 @@ private:
 
     /// Half of the time people undo the movement that lost the picture; a leaning prop is usually set upright.
     void try_something() {
-        const bool leans = tilt_rad(tracked_state_.table_from_prop) > 0.2;
+        const bool leans = guidance::tilt_rad(tracked_state_.table_from_prop) > 0.2;
         if (leans && !setup_.in_hand && reacts_.happens(0.7)) {
-            begin({Action::Upright}, {});
+            begin({guidance::Action::Upright}, {});
         } else if (before_ && reacts_.happens(0.5)) {
             constexpr double undone_in_s = 1.0;
-            begin(GuidedState{before_->table_from_prop, tracked_state_.eye_m}, undone_in_s);
+            begin(guidance::GuidedState{before_->table_from_prop, tracked_state_.eye_m}, undone_in_s);
             before_.reset();
         } else {
-            Move move = some_way();
+            guidance::Move move = some_way();
             if (reacts_.happens(0.4)) {
-                move = {Action::Turn};
+                move = {guidance::Action::Turn};
                 move.turn_rad = 0.8 * reacts_.normal();
             }
             begin(move, {});
         }
     }
 
-    const GuidanceSetup& setup_;
-    FaceReader reader_;
+    const guidance::GuidanceSetup& setup_;
+    guidance::FaceReader reader_;
     ShownSign sign_;
     Adviser adviser_;
     Seeded plays_;  ///< equal for all advisers
     Seeded reacts_; ///< reaction times, misunderstandings, sloppiness
-    GuidedState tracked_state_;
-    std::optional<GuidedState> before_; ///< before the latest movement
+    guidance::GuidedState tracked_state_;
+    std::optional<guidance::GuidedState> before_; ///< before the latest movement
     std::optional<Doing> doing_;
     double now_s_ = 0.0;
     double next_play_s_ = 0.0;
@@ -308,8 +308,9 @@ std::string_view name_of(Adviser adviser) {
     return names.at(static_cast<std::size_t>(adviser));
 }
 
-VisitResult simulate_visit(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed, double seconds) {
+VisitResult simulate_visit(const guidance::GuidanceSetup& setup, Adviser adviser, std::uint64_t seed,
+                           double seconds) {
     return Visitor(setup, adviser, seed).visit(seconds);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 [[nodiscard]] std::string_view name_of(Adviser adviser);
 
@@ -40,7 +40,7 @@ struct VisitResult {
 };
 
 /// Equal seeds give the same visitor at the same prop.
-[[nodiscard]] VisitResult simulate_visit(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed,
-                                         double seconds);
+[[nodiscard]] VisitResult simulate_visit(const guidance::GuidanceSetup& setup, Adviser adviser,
+                                         std::uint64_t seed, double seconds);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

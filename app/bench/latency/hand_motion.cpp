@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -79,7 +79,7 @@ HandMotion strokes(double speed_m_s, double length_s, std::uint64_t seed) {
         const auto after = std::upper_bound(path->begin() + 1, path->end() - 1, t_s,
                                             [](double t, const Stroke& s) { return t < s.begin_s; });
         const Stroke now = at(*(after - 1), *after, t_s);
-        return RigidTransform{rotation_of({0.0, 0.0, now.yaw_rad}), now.place_m};
+        return geometry::RigidTransform{tracking::rotation_of({0.0, 0.0, now.yaw_rad}), now.place_m};
     };
 }
 
@@ -88,12 +88,12 @@ HandMotion stop(double speed_m_s, double braking_m_s2, double brake_at_s) {
         const double braking = std::clamp(t_s - brake_at_s, 0.0, speed_m_s / braking_m_s2);
         const double x =
             speed_m_s * (std::fmin(t_s, brake_at_s) + braking) - 0.5 * braking_m_s2 * braking * braking;
-        return RigidTransform{glm::dquat(1.0, 0.0, 0.0, 0.0), {x, 0.0, 0.0}};
+        return geometry::RigidTransform{glm::dquat(1.0, 0.0, 0.0, 0.0), {x, 0.0, 0.0}};
     };
 }
 
 HandMotion rest() {
-    return [](double /*t_s*/) { return RigidTransform{}; };
+    return [](double /*t_s*/) { return geometry::RigidTransform{}; };
 }
 
 HandMotion recorded(std::span<const RecordedPose> poses) {
@@ -107,19 +107,19 @@ HandMotion recorded(std::span<const RecordedPose> poses) {
             return poses.back().pose;
         }
         const RecordedPose& before = *(after - 1);
-        return between(before.pose, after->pose, (t_s - before.t_s) / (after->t_s - before.t_s));
+        return tracking::between(before.pose, after->pose, (t_s - before.t_s) / (after->t_s - before.t_s));
     };
 }
 
 HandMotion slid(HandMotion hand, double begin_s) {
-    const RigidTransform begin = hand(begin_s);
+    const geometry::RigidTransform begin = hand(begin_s);
     return [hand = std::move(hand), begin_s, begin](double t_s) {
-        const RigidTransform now = hand(begin_s + t_s);
+        const geometry::RigidTransform now = hand(begin_s + t_s);
         const glm::dquat turn = now.rotation * glm::conjugate(begin.rotation);
         const glm::dquat about_z = glm::normalize(glm::dquat(turn.w, 0.0, 0.0, turn.z));
         const glm::dvec3 way = now.translation - begin.translation;
-        return RigidTransform{about_z, {way.x, way.y, 0.0}};
+        return geometry::RigidTransform{about_z, {way.x, way.y, 0.0}};
     };
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,9 +10,9 @@
 #include <functional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-using HandMotion = std::function<RigidTransform(double t_s)>;
+using HandMotion = std::function<geometry::RigidTransform(double t_s)>;
 
 /// Strokes at `speed_m_s`. After 0.10 to 0.25 m each stroke turns into roughly the opposite direction. The
 /// prop also rotates at 2 rad per metre; each turn reverses this rotation. The velocity changes along a
@@ -27,7 +27,7 @@ using HandMotion = std::function<RigidTransform(double t_s)>;
 /// One pose of a recording.
 struct RecordedPose {
     double t_s = 0.0;
-    RigidTransform pose;
+    geometry::RigidTransform pose;
 };
 /// Interpolates linearly from pose to pose, in ascending time; at rest before the first pose and after the
 /// last. The poses must outlive the motion.
@@ -37,4 +37,4 @@ struct RecordedPose {
 /// then in the table's plane, and the rotation about Z.
 [[nodiscard]] HandMotion slid(HandMotion hand, double begin_s);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

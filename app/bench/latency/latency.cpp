@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -25,9 +25,9 @@ MonotonicTime time_at(double t_s) {
 
 class Noise {
 public:
-    Noise(const PoseNoise& sd, std::uint64_t seed) : sd_(sd), random_(seed) {}
-    RigidTransform on(const RigidTransform& pose) {
-        return moved(pose, {sd_.place_m * vector(), sd_.turn_rad * vector()});
+    Noise(const tracking::PoseNoise& sd, std::uint64_t seed) : sd_(sd), random_(seed) {}
+    geometry::RigidTransform on(const geometry::RigidTransform& pose) {
+        return tracking::moved(pose, {sd_.place_m * vector(), sd_.turn_rad * vector()});
     }
 
 private:
@@ -36,7 +36,7 @@ private:
         const double y = normal_(random_);
         return {x, y, normal_(random_)};
     }
-    PoseNoise sd_;
+    tracking::PoseNoise sd_;
     std::mt19937_64 random_;
     std::normal_distribution<double> normal_;
 };
@@ -44,15 +44,15 @@ private:
 std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMotion& truth, double length_s,
                              const TrackedBy& tracker, const LatencySetting& setting,
                              const Contestant& contestant) {
-    PoseEstimatorOptions options;
+    tracking::PoseEstimatorOptions options;
     options.predicts = contestant.predicts;
     // Allow the whole latency under test plus one sample, regardless of the exhibit's own limit.
     options.predicted_for =
         std::max(options.predicted_for,
                  Nanoseconds(std::llround(1e6 * (tracker.latency_ms + setting.display_latency_ms) +
                                           2e9 / tracker.rate_hz)));
-    PoseEstimator estimator(contestant.filter(tracker.noise), options);
-    ShownPose shown({.lever_m = setting.lever_m});
+    tracking::PoseEstimator estimator(contestant.filter(tracker.noise), options);
+    tracking::ShownPose shown({.lever_m = setting.lever_m});
     std::vector<LitPicture> pictures;
     std::size_t next = 0;
     for (int frame = 0;; ++frame) {
@@ -64,7 +64,7 @@ std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMo
         for (; next < samples.size() && samples[next].t_s + 1e-3 * tracker.latency_ms <= now_s; ++next) {
             estimator.take(time_at(samples[next].t_s), samples[next].pose);
         }
-        const PoseEstimate estimate = estimator.at(time_at(lit_s));
+        const tracking::PoseEstimate estimate = estimator.at(time_at(lit_s));
         if (estimate.reinitialisations > 0) {
             pictures.push_back({lit_s,
                                 contestant.shown ? shown.follow(estimate, time_at(lit_s)) : estimate.pose,
@@ -86,13 +86,13 @@ double rms(const std::vector<double>& values) {
 } // namespace
 
 std::vector<Contestant> contestants() {
-    const auto none = [](const PoseNoise&) { return std::make_unique<NoFilter>(); };
-    const auto one_euro = [](const PoseNoise&) { return std::make_unique<OneEuroFilter>(); };
-    const auto glide = [](const PoseNoise& noise) {
-        return std::make_unique<MotionFilter>(constant_velocity_filter(noise));
+    const auto none = [](const tracking::PoseNoise&) { return std::make_unique<NoFilter>(); };
+    const auto one_euro = [](const tracking::PoseNoise&) { return std::make_unique<OneEuroFilter>(); };
+    const auto glide = [](const tracking::PoseNoise& noise) {
+        return std::make_unique<tracking::MotionFilter>(tracking::constant_velocity_filter(noise));
     };
-    const auto exhibit = [](const PoseNoise& noise) {
-        return std::make_unique<MotionFilter>(exhibit_filter(noise));
+    const auto exhibit = [](const tracking::PoseNoise& noise) {
+        return std::make_unique<tracking::MotionFilter>(tracking::exhibit_filter(noise));
     };
     return {{"no filter", none, false, false},
             {"One Euro", one_euro, false, false},
@@ -133,7 +133,8 @@ Slip slip_of(std::span<const LitPicture> pictures, double lever_m) {
     std::vector<double> slips;
     for (const LitPicture& picture : pictures) {
         if (picture.lit_s >= warm_up_s) {
-            slips.push_back(1e3 * slip_m(step_between(picture.truth, picture.drawn), lever_m));
+            slips.push_back(1e3 *
+                            tracking::slip_m(tracking::step_between(picture.truth, picture.drawn), lever_m));
         }
     }
     return {mean(slips), quantile(slips, 0.95), rms(slips)};
@@ -143,10 +144,12 @@ Slip tremble_of(std::span<const LitPicture> pictures, double lever_m) {
     std::vector<double> steps;
     for (std::size_t k = 1; k < pictures.size(); ++k) {
         if (pictures[k].lit_s >= warm_up_s) {
-            const PoseStep before = step_between(pictures[k - 1].truth, pictures[k - 1].drawn);
-            const PoseStep now = step_between(pictures[k].truth, pictures[k].drawn);
-            steps.push_back(1e3 *
-                            slip_m({now.shift_m - before.shift_m, now.turn_rad - before.turn_rad}, lever_m));
+            const tracking::PoseStep before =
+                tracking::step_between(pictures[k - 1].truth, pictures[k - 1].drawn);
+            const tracking::PoseStep now = tracking::step_between(pictures[k].truth, pictures[k].drawn);
+            steps.push_back(
+                1e3 *
+                tracking::slip_m({now.shift_m - before.shift_m, now.turn_rad - before.turn_rad}, lever_m));
         }
     }
     return {mean(steps), quantile(steps, 0.95), rms(steps)};
@@ -172,15 +175,26 @@ Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, 
             }
         }
     }
-    return {mean(past),  quantile(past, 0.95),  quantile(past, 1.0), rms(past),
-            mean(ahead), quantile(ahead, 0.95), rms(ahead)};
+    return {.mean = mean(past),
+            .p95 = quantile(past, 0.95),
+            .worst = quantile(past, 1.0),
+            .rms = rms(past),
+            .ahead_mean = mean(ahead),
+            .ahead_p95 = quantile(ahead, 0.95),
+            .ahead_rms = rms(ahead)};
 }
 
 TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options) {
     const LatencySetting& setting = options.setting;
     TrackerResult result{tracker, tracker.latency_ms + setting.display_latency_ms, {}};
     for (const Contestant& contestant : contestants()) {
-        ContestantResult one{contestant.name, contestant.predicts, {}, {}, {}, {}, {}};
+        ContestantResult one{.name = contestant.name,
+                             .predicts = contestant.predicts,
+                             .strokes = {},
+                             .trembles = {},
+                             .rest = {},
+                             .stop = {},
+                             .latencies = {}};
         const auto slip = [&](const HandMotion& motion, const LatencySetting& with) {
             return slip_of(lit_pictures(motion, options.length_s, tracker, with, contestant, options.seed),
                            setting.lever_m);
@@ -211,7 +225,7 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
 }
 
 RecordingResult measure_recording(const PoseRecording& recording, const LatencyOptions& options) {
-    TrackedBy tracker{recording.name, 60.0, 18.0, {}};
+    TrackedBy tracker{.name = recording.name, .rate_hz = 60.0, .latency_ms = 18.0, .noise = {}};
     RecordingResult result{recording.name, tracker.latency_ms + options.setting.display_latency_ms, {}};
     if (recording.poses.size() > 1) {
         tracker.rate_hz = static_cast<double>(recording.poses.size() - 1) /
@@ -222,7 +236,9 @@ RecordingResult measure_recording(const PoseRecording& recording, const LatencyO
     }
     for (Contestant contestant : contestants()) {
         // The filters expect their default noise, even if the recording has its own.
-        contestant.filter = [make = contestant.filter](const PoseNoise&) { return make(PoseNoise{}); };
+        contestant.filter = [make = contestant.filter](const tracking::PoseNoise&) {
+            return make(tracking::PoseNoise{});
+        };
         result.slips.emplace_back(
             contestant.name,
             slip_of(lit_pictures(recording.poses, tracker, options.setting, contestant, options.seed),
@@ -231,4 +247,4 @@ RecordingResult measure_recording(const PoseRecording& recording, const LatencyO
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct TrackedBy {
     std::string name;
     double rate_hz = 60.0;
-    double latency_ms = 18.0; ///< from a pose until the exhibit receives its sample
-    PoseNoise noise;          ///< per axis, RMS
+    double latency_ms = 18.0;  ///< from a pose until the exhibit receives its sample
+    tracking::PoseNoise noise; ///< per axis, RMS
 };
 
 struct LatencySetting {
@@ -37,7 +37,7 @@ struct LatencySetting {
 /// A filter to compare.
 struct Contestant {
     std::string name;
-    std::function<std::unique_ptr<PoseFilter>(const PoseNoise&)> filter;
+    std::function<std::unique_ptr<tracking::PoseFilter>(const tracking::PoseNoise&)> filter;
     bool predicts = true;
     bool shown = false; ///< through ShownPose, as in the exhibit
 };
@@ -48,8 +48,8 @@ struct Contestant {
 /// One picture of a run.
 struct LitPicture {
     double lit_s = 0.0;
-    RigidTransform drawn;
-    RigidTransform truth;
+    geometry::RigidTransform drawn;
+    geometry::RigidTransform truth;
 };
 
 [[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
@@ -137,4 +137,4 @@ struct RecordingResult {
 [[nodiscard]] RecordingResult measure_recording(const PoseRecording& recording,
                                                 const LatencyOptions& options);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

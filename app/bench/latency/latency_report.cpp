@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -50,29 +50,30 @@ std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOption
     if (with != nullptr && without != nullptr && without->rms > 0.0) {
         const double gain = 1.0 - with->rms / without->rms;
         verdicts.push_back(
-            {fmt::format("RMS slip at {:g} m/s at least {:g} % below the same filter's without "
-                         "prediction",
-                         judged_speed_m_s, 100.0 * min_gain),
-             fmt::format("{:.2f} mm against {:.2f} mm, {:.0f} % below", with->rms, without->rms,
-                         100.0 * gain),
-             gain >= min_gain});
+            {.what = fmt::format("RMS slip at {:g} m/s at least {:g} % below the same filter's without "
+                                 "prediction",
+                                 judged_speed_m_s, 100.0 * min_gain),
+             .found = fmt::format("{:.2f} mm against {:.2f} mm, {:.0f} % below", with->rms, without->rms,
+                                  100.0 * gain),
+             .held = gain >= min_gain});
     }
-    verdicts.push_back({fmt::format("rest jitter <= {:g} mm RMS", max_rest_mm),
-                        fmt::format("{:.3f} mm against the truth", shown.rest.rms),
-                        shown.rest.rms <= max_rest_mm});
+    verdicts.push_back({.what = fmt::format("rest jitter <= {:g} mm RMS", max_rest_mm),
+                        .found = fmt::format("{:.3f} mm against the truth", shown.rest.rms),
+                        .held = shown.rest.rms <= max_rest_mm});
     verdicts.push_back(
-        {fmt::format(
+        {.what = fmt::format(
              "jitter <= {:g} mm RMS from picture to picture while the prop slides at {:g} m/s at most",
              max_tremble_mm, fastest_calm_m_s),
-         fmt::format("{:.2f} mm at the worst speed", worst_tremble_mm(shown)),
-         worst_tremble_mm(shown) <= max_tremble_mm});
+         .found = fmt::format("{:.2f} mm at the worst speed", worst_tremble_mm(shown)),
+         .held = worst_tremble_mm(shown) <= max_tremble_mm});
     const double total_s = 1e-3 * (result.tracker.latency_ms + options.setting.display_latency_ms);
     const double limit_mm = 1e3 * 0.5 * stop_braking_m_s2 * total_s * total_s + overshoot_margin_mm;
-    verdicts.push_back({fmt::format("overshoot when stopping from {:g} m/s at {:g} m/s^2 <= {:.2f} mm",
-                                    stop_speed_m_s, stop_braking_m_s2, limit_mm),
-                        fmt::format("95th percentile of the stops {:.2f} mm, mean {:.2f}, worst {:.2f}",
-                                    shown.stop.p95, shown.stop.mean, shown.stop.worst),
-                        shown.stop.p95 <= limit_mm});
+    verdicts.push_back(
+        {.what = fmt::format("overshoot when stopping from {:g} m/s at {:g} m/s^2 <= {:.2f} mm",
+                             stop_speed_m_s, stop_braking_m_s2, limit_mm),
+         .found = fmt::format("95th percentile of the stops {:.2f} mm, mean {:.2f}, worst {:.2f}",
+                              shown.stop.p95, shown.stop.mean, shown.stop.worst),
+         .held = shown.stop.p95 <= limit_mm});
     return verdicts;
 }
 
@@ -154,4 +155,4 @@ std::string latency_csv(std::span<const TrackerResult> results, std::span<const 
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

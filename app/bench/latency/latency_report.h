@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Targets for a 60 Hz display, 18 ms + 17 ms of latency, 0.3 mm and 0.15 degrees of noise. They judge the
 /// exhibit's filter as shown; the stop is judged by the 95th percentile of the runs.
@@ -22,4 +22,4 @@ namespace frustumscreen {
 [[nodiscard]] std::string latency_csv(std::span<const TrackerResult> results,
                                       std::span<const RecordingResult> recordings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

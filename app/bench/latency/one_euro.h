@@ -9,7 +9,7 @@
 #include "app/tracking/pose_filter.h"
 #include "app/tracking/pose_math.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct OneEuroOptions {
     double min_cutoff_hz = 1.0;
@@ -18,30 +18,30 @@ struct OneEuroOptions {
     double derivative_cutoff_hz = 8.0;
 };
 
-class OneEuroFilter final : public PoseFilter {
+class OneEuroFilter final : public tracking::PoseFilter {
 public:
     explicit OneEuroFilter(const OneEuroOptions& options = {}) : options_(options) {}
 
-    void restart(const RigidTransform& measured) override;
-    void take(const RigidTransform& measured, double dt_s) override;
-    [[nodiscard]] RigidTransform ahead(double ahead_s) const override;
+    void restart(const geometry::RigidTransform& measured) override;
+    void take(const geometry::RigidTransform& measured, double dt_s) override;
+    [[nodiscard]] geometry::RigidTransform ahead(double ahead_s) const override;
 
 private:
     OneEuroOptions options_;
-    RigidTransform measured_;
-    RigidTransform pose_;
-    PoseStep rate_; ///< per second
+    geometry::RigidTransform measured_;
+    geometry::RigidTransform pose_;
+    tracking::PoseStep rate_; ///< per second
 };
 
 /// Returns the latest pose unchanged.
-class NoFilter final : public PoseFilter {
+class NoFilter final : public tracking::PoseFilter {
 public:
-    void restart(const RigidTransform& measured) override { pose_ = measured; }
-    void take(const RigidTransform& measured, double /*dt_s*/) override { pose_ = measured; }
-    [[nodiscard]] RigidTransform ahead(double /*ahead_s*/) const override { return pose_; }
+    void restart(const geometry::RigidTransform& measured) override { pose_ = measured; }
+    void take(const geometry::RigidTransform& measured, double /*dt_s*/) override { pose_ = measured; }
+    [[nodiscard]] geometry::RigidTransform ahead(double /*ahead_s*/) const override { return pose_; }
 
 private:
-    RigidTransform pose_;
+    geometry::RigidTransform pose_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

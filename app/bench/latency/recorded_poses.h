@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// In ascending time.
 [[nodiscard]] Result<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The pack must outlive this.
 struct Comparison {
@@ -26,11 +26,11 @@ struct ComparisonOptions {
     int poses = 50;
     std::uint64_t seed = 1;
 };
-[[nodiscard]] Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
+[[nodiscard]] Result<Comparison> open_comparison(const SetUp& set_up, const pack::Pack& pack,
                                                  std::span<const std::uint32_t> levels,
-                                                 const std::shared_ptr<const SourceMesh>& mesh,
+                                                 const std::shared_ptr<const bake::SourceMesh>& mesh,
                                                  const ComparisonOptions& options);
 /// The default level and, if different, the finest.
-[[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
+[[nodiscard]] std::vector<std::uint32_t> default_and_finest(const pack::Pack& pack);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

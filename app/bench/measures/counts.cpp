@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -33,18 +33,18 @@ double distinct(const std::vector<std::uint32_t>& indices, std::vector<bool>& se
     return static_cast<double>(count);
 }
 
-FrameCounts counts_of(const FramePlan& plan, std::vector<bool>& seen) {
+FrameCounts counts_of(const scene::FramePlan& plan, std::vector<bool>& seen) {
     constexpr double bytes_per_sample = 2.0 * (4.0 + 4.0); // colour and depth: each cleared, then drawn or
                                                            // read
     constexpr double bytes_per_pixel = 4.0;
-    const glm::ivec2 grid = SampleGrid::of(plan.samples);
+    const glm::ivec2 grid = render::SampleGrid::of(plan.samples);
     FrameCounts counts;
     counts.triangles = static_cast<double>(plan.indices.size()) / 3.0;
     counts.vertices = distinct(plan.indices, seen);
     counts.draw_calls = static_cast<double>(plan.faces.size());
     counts.samples = static_cast<double>(plan.lit.pixels()) * grid.x * grid.y;
     counts.bytes = static_cast<double>(plan.indices.size()) * sizeof(std::uint32_t) +
-                   counts.vertices * sizeof(PackVertex) + counts.samples * bytes_per_sample +
+                   counts.vertices * sizeof(pack::PackVertex) + counts.samples * bytes_per_sample +
                    bytes_per_pixel * plan.projector.width * plan.projector.height;
     return counts;
 }
@@ -74,20 +74,22 @@ std::string cell(double now, double reference, bool compared) {
 
 } // namespace
 
-FrameCounts count_frames(const Settings& settings, const Pack& pack, std::span<const BenchPose> poses) {
-    const PropShape prop = make_prop(settings.prop);
-    const PlacedLevel level = placed(pack, pack.default_level, place(pack, prop).metres_per_box);
-    FramePlan plan = make_plan(prop, level);
+FrameCounts count_frames(const settings::Settings& settings, const pack::Pack& pack,
+                         std::span<const BenchPose> poses) {
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const scene::PlacedLevel level =
+        scene::placed(pack, pack.default_level, pack::place(pack, prop).metres_per_box);
+    scene::FramePlan plan = scene::make_plan(prop, level);
     std::vector<bool> seen(pack.levels[pack.default_level].vertices.size());
     FrameCounts sum;
     for (const BenchPose& pose : poses) {
-        plan_frame(prop, level,
-                   {settings.projector.pinhole,
-                    settings.projector.table_from_projector,
-                    pose.table_from_prop,
-                    {&pose.eye_m, 1},
-                    std::nullopt},
-                   plan);
+        scene::plan_frame(prop, level,
+                          {.projector = settings.projector.pinhole,
+                           .table_from_projector = settings.projector.table_from_projector,
+                           .table_from_prop = pose.table_from_prop,
+                           .eyes_m = {&pose.eye_m, 1},
+                           .light = std::nullopt},
+                          plan);
         const FrameCounts one = counts_of(plan, seen);
         for (const Quantity& quantity : quantities) {
             sum.*quantity.of += one.*quantity.of / static_cast<double>(poses.size());
@@ -96,9 +98,9 @@ FrameCounts count_frames(const Settings& settings, const Pack& pack, std::span<c
     return sum;
 }
 
-Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses, std::uint64_t seed) {
+Result<CountedPack> count_frames(const SetUp& set_up, const pack::Pack& pack, int poses, std::uint64_t seed) {
     TRY(const std::vector<BenchPose> drawn,
-        at(set_up.name, draw_poses(set_up.settings, make_prop(set_up.settings.prop), poses, seed)));
+        at(set_up.name, draw_poses(set_up.settings, settings::make_prop(set_up.settings.prop), poses, seed)));
     return CountedPack{
         fmt::format("{}, {} triangles", pack.provenance.source_name, pack.provenance.source_triangles),
         set_up.name, count_frames(set_up.settings, pack, drawn)};
@@ -186,4 +188,4 @@ std::string counts_table(std::span<const CountedPack> counted, std::span<const C
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct FrameCounts {
     double triangles = 0.0;
@@ -33,10 +33,10 @@ struct CountedPack {
 };
 
 /// The pack's default level, averaged over the poses.
-[[nodiscard]] FrameCounts count_frames(const Settings& settings, const Pack& pack,
+[[nodiscard]] FrameCounts count_frames(const settings::Settings& settings, const pack::Pack& pack,
                                        std::span<const BenchPose> poses);
 /// Like the overload above, over `poses` poses from `seed`.
-[[nodiscard]] Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses,
+[[nodiscard]] Result<CountedPack> count_frames(const SetUp& set_up, const pack::Pack& pack, int poses,
                                                std::uint64_t seed);
 
 [[nodiscard]] std::string counts_json(std::span<const CountedPack> counted);
@@ -60,4 +60,4 @@ struct CountChange {
 [[nodiscard]] std::string counts_table(std::span<const CountedPack> counted,
                                        std::span<const CountChange> against);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

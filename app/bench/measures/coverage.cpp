@@ -7,13 +7,13 @@
 
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Coverage coverage_of(const TechniqueResult& technique) {
     Coverage coverage;
     std::vector<double> ratios;
     for (std::size_t k = 0; k < technique.estimates.size(); ++k) {
-        const std::optional<ErrorEstimate>& estimate = technique.estimates[k];
+        const std::optional<scene::ErrorEstimate>& estimate = technique.estimates[k];
         const PictureError& error = technique.errors[k];
         if (!estimate || error.truth_pixels == 0) {
             continue;
@@ -29,8 +29,8 @@ Coverage coverage_of(const TechniqueResult& technique) {
     return coverage;
 }
 
-Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
-                                      const std::shared_ptr<const SourceMesh>& mesh,
+Result<SetUpResult> measure_estimates(const SetUp& set_up, const pack::Pack& pack,
+                                      const std::shared_ptr<const bake::SourceMesh>& mesh,
                                       const EstimateOptions& options, const StepProgress& progress) {
     const std::string step = set_up.name + ": estimates";
     progress(step, 0.0);
@@ -45,8 +45,14 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
                                      [&](double done) { progress(step, done); });
         });
     TRY_VOID(at(set_up.name, measured));
-    SetUpResult result{set_up.name, set.driver(), pack.default_level, levels.back(),
-                       !pack.unlit, {},           set.results(),      {}};
+    SetUpResult result{.name = set_up.name,
+                       .driver = set.driver(),
+                       .default_level = pack.default_level,
+                       .finest_level = levels.back(),
+                       .baked_light = !pack.unlit,
+                       .poses = {},
+                       .techniques = set.results(),
+                       .worst = {}};
     result.poses = std::move(opened.poses);
     return result;
 }
@@ -55,7 +61,8 @@ std::vector<NamedCoverage> coverages_of(const std::string& artifact, const SetUp
     std::vector<NamedCoverage> rows;
     for (const TechniqueResult& technique : result.techniques) {
         if (const Coverage coverage = coverage_of(technique); coverage.poses > 0) {
-            rows.push_back({artifact, result.name, technique.name, coverage});
+            rows.push_back(
+                {.artifact = artifact, .set_up = result.name, .level = technique.name, .coverage = coverage});
         }
     }
     return rows;
@@ -88,7 +95,7 @@ std::string estimates_csv(const std::string& artifact, const SetUpResult& result
     std::string csv;
     for (const TechniqueResult& technique : result.techniques) {
         for (std::size_t k = 0; k < technique.estimates.size(); ++k) {
-            if (const std::optional<ErrorEstimate>& estimate = technique.estimates[k]) {
+            if (const std::optional<scene::ErrorEstimate>& estimate = technique.estimates[k]) {
                 const PictureError& error = technique.errors[k];
                 csv += fmt::format("{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", quoted(artifact),
                                    quoted(result.name), quoted(technique.name), k, error.geometric_mean_mm,
@@ -109,10 +116,11 @@ LimitVerdict judge(std::span<const NamedCoverage> rows) {
     }
     const double share = poses > 0 ? static_cast<double>(covered) / static_cast<double>(poses) : 0.0;
     return {
-        fmt::format(
+        .what = fmt::format(
             "true mean error within {:g} to {:g} x the estimate and below its p95, in >= {:g} % of the poses",
             min_of_estimate, max_of_estimate, 100.0 * min_covered),
-        fmt::format("{:.1f} % of {}", 100.0 * share, poses), share >= min_covered};
+        .found = fmt::format("{:.1f} % of {}", 100.0 * share, poses),
+        .held = share >= min_covered};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr double min_of_estimate = 0.7;
 inline constexpr double max_of_estimate = 1.4;
@@ -38,8 +38,8 @@ struct EstimateOptions {
     int rays = 1;
 };
 /// Every level and relief of the pack and the level that `auto` chooses, without times.
-[[nodiscard]] Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
-                                                    const std::shared_ptr<const SourceMesh>& mesh,
+[[nodiscard]] Result<SetUpResult> measure_estimates(const SetUp& set_up, const pack::Pack& pack,
+                                                    const std::shared_ptr<const bake::SourceMesh>& mesh,
                                                     const EstimateOptions& options,
                                                     const StepProgress& progress);
 
@@ -61,4 +61,4 @@ inline constexpr const char* estimates_csv_header =
 /// All poses together.
 [[nodiscard]] LimitVerdict judge(std::span<const NamedCoverage> rows);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -90,10 +90,12 @@ LimitVerdict judge_level(const SetUpResult& result, const TechniqueResult& level
     if (!tied.empty()) {
         found += fmt::format("; within {:g} % of its cost: {}", 100.0 * cost_tolerance, tied);
     }
-    return {by == Dominance::Shape ? fmt::format("{}: no peer of {} samples a pixel dominates its shape",
-                                                 level.name, level.samples)
-                                   : fmt::format("{}: no peer dominates its colour", level.name),
-            found, dominating.empty()};
+    return {.what = by == Dominance::Shape
+                        ? fmt::format("{}: no peer of {} samples a pixel dominates its shape", level.name,
+                                      level.samples)
+                        : fmt::format("{}: no peer dominates its colour", level.name),
+            .found = found,
+            .held = dominating.empty()};
 }
 
 } // namespace
@@ -146,4 +148,4 @@ std::vector<LimitVerdict> judge_dominance(const SetUpResult& result) {
     return verdicts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

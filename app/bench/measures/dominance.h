@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr double cost_tolerance = 0.05;
 
@@ -35,4 +35,4 @@ enum class Dominance { Shape, Colour };
 /// samples; none by colour for a pack with baked light. Every eye image counts here.
 [[nodiscard]] std::vector<LimitVerdict> judge_dominance(const SetUpResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

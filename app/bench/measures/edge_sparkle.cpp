@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -33,7 +33,7 @@ struct Segment {
 };
 
 /// The corners shared by two faces; exact comparison works because both were computed from the same numbers.
-std::vector<glm::dvec3> common_corners(const PropFace& a, const PropFace& b) {
+std::vector<glm::dvec3> common_corners(const geometry::PropFace& a, const geometry::PropFace& b) {
     std::vector<glm::dvec3> common;
     for (const glm::dvec3& corner : a.corners) {
         if (std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end()) {
@@ -43,13 +43,15 @@ std::vector<glm::dvec3> common_corners(const PropFace& a, const PropFace& b) {
     return common;
 }
 
-std::vector<Segment> shared_edges(const Settings& settings, const PropShape& prop, const BenchPose& pose) {
-    const RigidTransform prop_from_table = pose.table_from_prop.inverse();
-    const RigidTransform& table_from_projector = settings.projector.table_from_projector;
+std::vector<Segment> shared_edges(const settings::Settings& settings, const geometry::PropShape& prop,
+                                  const BenchPose& pose) {
+    const geometry::RigidTransform prop_from_table = pose.table_from_prop.inverse();
+    const geometry::RigidTransform& table_from_projector = settings.projector.table_from_projector;
     const glm::dvec3 eye = prop_from_table.point(pose.eye_m);
     const glm::dvec3 lens = prop_from_table.point(table_from_projector.translation);
-    const RigidTransform projector_from_prop = table_from_projector.inverse() * pose.table_from_prop;
-    const auto shows = [&](const PropFace& face) {
+    const geometry::RigidTransform projector_from_prop =
+        table_from_projector.inverse() * pose.table_from_prop;
+    const auto shows = [&](const geometry::PropFace& face) {
         return face.plane.distance(eye) > 0.0 && face.plane.distance(lens) > 0.0;
     };
     std::vector<Segment> edges;
@@ -88,7 +90,7 @@ std::optional<EdgeZone> judged_as(EdgeZone before, EdgeZone after) {
                                                                    : std::nullopt;
 }
 
-bool shows_artifact(const Image8& picture, int x, int y) {
+bool shows_artifact(const image::Image8& picture, int x, int y) {
     for (int k = 0; k < 9; ++k) {
         const glm::u8vec4& code = picture.at(x + k % 3 - 1, y + k / 3 - 1);
         if (code.r == 0 && code.g == 0 && code.b == 0) {
@@ -98,7 +100,7 @@ bool shows_artifact(const Image8& picture, int x, int y) {
     return true;
 }
 
-int change_of(const std::array<Image8, 2>& pictures, int x, int y) {
+int change_of(const std::array<image::Image8, 2>& pictures, int x, int y) {
     const glm::ivec3 change = glm::abs(glm::ivec3(pictures[1].at(x, y)) - glm::ivec3(pictures[0].at(x, y)));
     return std::max({change.r, change.g, change.b});
 }
@@ -127,8 +129,8 @@ private:
 
     TechniqueSet& set_;
     std::size_t sharp_technique_, feathered_technique_;
-    std::array<Image8, 2> sharp_, feathered_; ///< before and after the step
-    std::array<Image<EdgeZone>, 2> zones_;
+    std::array<image::Image8, 2> sharp_, feathered_; ///< before and after the step
+    std::array<image::Image<EdgeZone>, 2> zones_;
     EdgeSparkle sparkle_;
     int poses_ = 0;
 };
@@ -183,9 +185,10 @@ void EdgeSparkle::add(const EdgeSparkle& other) {
     beside_feathered.add(other.beside_feathered);
 }
 
-Image<EdgeZone> edge_zones(const Settings& settings, const PropShape& prop, const BenchPose& pose) {
-    const Pinhole& pinhole = settings.projector.pinhole;
-    Image<EdgeZone> zones(pinhole.width, pinhole.height, EdgeZone::Away);
+image::Image<EdgeZone> edge_zones(const settings::Settings& settings, const geometry::PropShape& prop,
+                                  const BenchPose& pose) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    image::Image<EdgeZone> zones(pinhole.width, pinhole.height, EdgeZone::Away);
     for (const Segment& edge : shared_edges(settings, prop, pose)) {
         const glm::ivec2 low(glm::floor(glm::min(edge.from, edge.to) - beside_to_px));
         const glm::ivec2 high(glm::ceil(glm::max(edge.from, edge.to) + beside_to_px));
@@ -198,8 +201,8 @@ Image<EdgeZone> edge_zones(const Settings& settings, const PropShape& prop, cons
     return zones;
 }
 
-void add_step(const std::array<Image8, 2>& sharp, const std::array<Image8, 2>& feathered,
-              const std::array<Image<EdgeZone>, 2>& zones, EdgeSparkle& sparkle) {
+void add_step(const std::array<image::Image8, 2>& sharp, const std::array<image::Image8, 2>& feathered,
+              const std::array<image::Image<EdgeZone>, 2>& zones, EdgeSparkle& sparkle) {
     for (int y = 1; y + 1 < zones[0].height; ++y) {
         for (int x = 1; x + 1 < zones[0].width; ++x) {
             const std::optional<EdgeZone> zone = judged_as(zones[0].at(x, y), zones[1].at(x, y));
@@ -213,7 +216,7 @@ void add_step(const std::array<Image8, 2>& sharp, const std::array<Image8, 2>& f
     }
 }
 
-Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const Pack& pack,
+Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const pack::Pack& pack,
                                              const std::vector<BenchPose>& poses, int steps,
                                              const PictureOptions& picture, const Progress& progress) {
     TRY(std::unique_ptr<TechniqueSet> set, TechniqueSet::open(set_up));
@@ -240,4 +243,4 @@ Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const Pack& pa
     return rows;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr double sparkle_step_m = 1e-4;
 
@@ -56,13 +56,13 @@ struct EdgeSparkle {
 /// A pixel's zone relative to the shared edges of one picture; with several edges the last of these values
 /// wins.
 enum class EdgeZone : std::uint8_t { Away, Beside, Near, Shared };
-[[nodiscard]] Image<EdgeZone> edge_zones(const Settings& settings, const PropShape& prop,
-                                         const BenchPose& pose);
+[[nodiscard]] image::Image<EdgeZone> edge_zones(const settings::Settings& settings,
+                                                const geometry::PropShape& prop, const BenchPose& pose);
 
 /// Adds one step. `sharp` and `feathered` hold the pictures before and after it, `zones` the zones of these
 /// poses.
-void add_step(const std::array<Image8, 2>& sharp, const std::array<Image8, 2>& feathered,
-              const std::array<Image<EdgeZone>, 2>& zones, EdgeSparkle& sparkle);
+void add_step(const std::array<image::Image8, 2>& sharp, const std::array<image::Image8, 2>& feathered,
+              const std::array<image::Image<EdgeZone>, 2>& zones, EdgeSparkle& sparkle);
 
 /// One prop pushed along X or Y.
 struct SparkleRow {
@@ -71,9 +71,9 @@ struct SparkleRow {
     EdgeSparkle sparkle;
 };
 /// Two rows per pose, with `steps` steps each.
-[[nodiscard]] Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const Pack& pack,
+[[nodiscard]] Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const pack::Pack& pack,
                                                            const std::vector<BenchPose>& poses, int steps,
                                                            const PictureOptions& picture,
                                                            const Progress& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

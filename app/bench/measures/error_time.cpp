@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -19,8 +19,8 @@ int rounds_of(const ErrorTimeOptions& options) {
 }
 
 /// A picture of the pack's level in the pose with the greatest geometric error.
-Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
-                             std::uint32_t level) {
+Result<image::Image8> worst_picture(TechniqueSet& set, const Truth& truth,
+                                    const std::vector<BenchPose>& poses, std::uint32_t level) {
     std::size_t k = 0;
     while (set.results()[k].kind != TechniqueKind::PackLevel ||
            set.results()[k].level != static_cast<int>(level)) {
@@ -35,8 +35,8 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
     return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), drawn);
 }
 
-Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth, const Pack& pack,
-                       const glm::dmat4& prop_from_artifact, PeerChoice choice,
+Result<void> add_peers(TechniqueSet& set, const bake::SourceMesh& mesh, const Truth& truth,
+                       const pack::Pack& pack, const glm::dmat4& prop_from_artifact, PeerChoice choice,
                        const PictureOptions& picture) {
     if (choice.samples.empty()) {
         choice.samples = pack.samples > 1 ? std::vector{1, pack.samples} : std::vector{1};
@@ -64,9 +64,9 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
     return added;
 }
 
-Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
-                            const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
-                            const StepProgress& progress) {
+Result<SetUpResult> compare(const SetUp& set_up, const pack::Pack& pack,
+                            const std::shared_ptr<const bake::SourceMesh>& mesh,
+                            const ErrorTimeOptions& options, const StepProgress& progress) {
     progress(set_up.name + ": meshes", 0.0);
     std::vector<std::uint32_t> levels(pack.levels.size());
     std::iota(levels.begin(), levels.end(), 0U);
@@ -90,11 +90,17 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     set->measure_times(poses, rounds_of(options),
                        [&](double done) { progress(set_up.name + ": times", done); });
     const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
-    SetUpResult result{
-        set_up.name, set->driver(), pack.default_level, finest, !pack.unlit, {}, set->results(), {}};
+    SetUpResult result{.name = set_up.name,
+                       .driver = set->driver(),
+                       .default_level = pack.default_level,
+                       .finest_level = finest,
+                       .baked_light = !pack.unlit,
+                       .poses = {},
+                       .techniques = set->results(),
+                       .worst = {}};
     for (const auto& [name, level] :
          {std::pair("default", pack.default_level), std::pair("finest", finest)}) {
-        TRY(Image8 picture, worst_picture(*set, truth, poses, level));
+        TRY(image::Image8 picture, worst_picture(*set, truth, poses, level));
         result.worst.emplace_back(name, std::move(picture));
     }
     result.poses = std::move(poses);
@@ -103,14 +109,15 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
 
 } // namespace
 
-std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
+std::vector<WorkStep> work_steps(const SetUp& set_up, const pack::Pack& pack, const bake::SourceMesh& mesh,
                                  const ErrorTimeOptions& options) {
     const PeerChoice& peers = options.peers;
     const auto eye_images = static_cast<double>(peers.eye_pixels.size());
     const auto details = static_cast<double>(peers.lod_triangles.size());
     const auto times = static_cast<double>(std::max<std::size_t>(peers.samples.size(), 2));
     const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
-    const auto reliefs = static_cast<double>(reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size());
+    const auto reliefs =
+        static_cast<double>(pack::reliefs_of(pack).value_or(std::vector<pack::ReliefOutline>{}).size());
     constexpr double as_many_frames = 10.0; // assumes a driver that draws on the processor
     const double small = static_cast<double>(pack.levels.size()) +
                          (peers.relief_gpu ? 1.0 + as_many_frames : 1.0) * reliefs + 2.0 +
@@ -124,10 +131,10 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
         {set_up.name + ": times", "times", options.poses * rounds_of(options) * frames_s}};
 }
 
-Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
-                               const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
-                               const StepProgress& progress) {
+Result<SetUpResult> error_time(const SetUp& set_up, const pack::Pack& pack,
+                               const std::shared_ptr<const bake::SourceMesh>& mesh,
+                               const ErrorTimeOptions& options, const StepProgress& progress) {
     return at(set_up.name, compare(set_up, pack, mesh, options, progress));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

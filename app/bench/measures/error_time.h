@@ -8,7 +8,7 @@
 #include "app/bench/measures/technique_set.h"
 #include "app/bench/measures/time_left.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct SetUpResult {
     std::string name;
@@ -21,7 +21,7 @@ struct SetUpResult {
     std::vector<TechniqueResult> techniques; ///< the floor first
     /// `error_picture` of the default and the finest level, each in the pose with its greatest geometric
     /// error.
-    std::vector<std::pair<std::string, Image8>> worst;
+    std::vector<std::pair<std::string, image::Image8>> worst;
 };
 
 struct ErrorTimeOptions {
@@ -36,11 +36,11 @@ struct ErrorTimeOptions {
 using StepProgress = std::function<void(const std::string& step, double done)>;
 
 /// The steps that `error_time` reports, with estimates of their seconds.
-[[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
-                                               const ErrorTimeOptions& options);
+[[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const pack::Pack& pack,
+                                               const bake::SourceMesh& mesh, const ErrorTimeOptions& options);
 
-[[nodiscard]] Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
-                                             const std::shared_ptr<const SourceMesh>& mesh,
+[[nodiscard]] Result<SetUpResult> error_time(const SetUp& set_up, const pack::Pack& pack,
+                                             const std::shared_ptr<const bake::SourceMesh>& mesh,
                                              const ErrorTimeOptions& options, const StepProgress& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

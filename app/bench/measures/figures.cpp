@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -23,17 +23,17 @@ bool agree(float said, float measured) {
 
 } // namespace
 
-std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh) {
-    const std::vector<glm::dvec3> points = in_box(mesh, pack.box_from_file);
-    const SourceScene source(mesh, points);
-    const SourceSamples samples =
-        sample_source(source, surface_of(pack.levels.back(), pack.box_size), seen_reach_box);
+std::vector<LevelFigures> measure_figures(const pack::Pack& pack, const bake::SourceMesh& mesh) {
+    const std::vector<glm::dvec3> points = bake::in_box(mesh, pack.box_from_file);
+    const bake::SourceScene source(mesh, points);
+    const bake::SourceSamples samples =
+        bake::sample_source(source, bake::surface_of(pack.levels.back(), pack.box_size), seen_reach_box);
     std::vector<LevelFigures> figures;
     for (std::uint32_t k = 0; k < pack.levels.size(); ++k) {
-        const PackLevel& level = pack.levels[k];
+        const pack::PackLevel& level = pack.levels[k];
         figures.push_back(
             {k, level.error,
-             measure(level, pack.textures[level.texture], pack.box_size, source, samples, false)});
+             bake::measure(level, pack.textures[level.texture], pack.box_size, source, samples, false)});
     }
     return figures;
 }
@@ -42,12 +42,12 @@ std::vector<LimitVerdict> judge(const std::vector<LevelFigures>& figures, double
     std::vector<LimitVerdict> verdicts;
     for (const LevelFigures& each : figures) {
         const auto mm = [mm_per_box](float box) { return mm_per_box * static_cast<double>(box); };
-        verdicts.push_back({fmt::format("level {}: the pack says {:.4f} mm mean, {:.4f} mm p95", each.level,
-                                        mm(each.said.mean_box), mm(each.said.p95_box)),
-                            fmt::format("measured {:.4f} mm mean, {:.4f} mm p95", mm(each.measured.mean_box),
-                                        mm(each.measured.p95_box)),
-                            agree(each.said.mean_box, each.measured.mean_box) &&
-                                agree(each.said.p95_box, each.measured.p95_box)});
+        verdicts.push_back({.what = fmt::format("level {}: the pack says {:.4f} mm mean, {:.4f} mm p95",
+                                                each.level, mm(each.said.mean_box), mm(each.said.p95_box)),
+                            .found = fmt::format("measured {:.4f} mm mean, {:.4f} mm p95",
+                                                 mm(each.measured.mean_box), mm(each.measured.p95_box)),
+                            .held = agree(each.said.mean_box, each.measured.mean_box) &&
+                                    agree(each.said.p95_box, each.measured.p95_box)});
     }
     return verdicts;
 }
@@ -64,4 +64,4 @@ Result<void> require_true(std::span<const LimitVerdict> figures, const std::stri
                      pack, false_one->what, false_one->found);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -16,13 +16,13 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct LevelFigures {
     std::uint32_t level = 0;
-    LevelError said, measured; ///< box units
+    pack::LevelError said, measured; ///< box units
 };
-[[nodiscard]] std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh);
+[[nodiscard]] std::vector<LevelFigures> measure_figures(const pack::Pack& pack, const bake::SourceMesh& mesh);
 
 inline constexpr double slack_box = 5e-5; ///< a few micrometres on a prop
 inline constexpr double slack_share = 0.25;
@@ -31,4 +31,4 @@ inline constexpr double slack_share = 0.25;
 /// An error that names the first false figure.
 [[nodiscard]] Result<void> require_true(std::span<const LimitVerdict> figures, const std::string& pack);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
-bool is_hit(const ImageFloat& points, int x, int y) {
+bool is_hit(const image::ImageFloat& points, int x, int y) {
     return !std::isnan(points.at(x, y).x);
 }
 
-bool on_outline(const Image<std::uint8_t>& hit, int x, int y) {
+bool on_outline(const image::Image<std::uint8_t>& hit, int x, int y) {
     const auto missed = [&hit](int column, int row) {
         return column < 0 || row < 0 || column >= hit.width || row >= hit.height || hit.at(column, row) == 0;
     };
@@ -92,8 +92,8 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
 }
 
 ShownError measure_shown(const TruthPicture& truth, const ShownImages& shown,
-                         const Image<float>& cover_of_samples, const ImageFloat& points_m) {
-    const std::array<float, 256>& linear = linear_from_srgb8();
+                         const image::Image<float>& cover_of_samples, const image::ImageFloat& points_m) {
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
     ShownError error;
     ColourSum colour;
     std::int64_t outline_pixels = 0;
@@ -173,4 +173,4 @@ ErrorSummary summarise(std::span<const PictureError> errors) {
     return summary;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

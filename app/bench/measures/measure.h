@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The result of a technique; same shape as the truth's images.
 struct Drawn {
-    Image8 colour;
-    ImageFloat point_m; ///< hit point, prop frame; NaN = no hit
+    image::Image8 colour;
+    image::ImageFloat point_m; ///< hit point, prop frame; NaN = no hit
 };
 
 struct ColourError {
@@ -63,14 +63,15 @@ struct PictureError {
 
 /// As drawn by `ShownPicture`.
 struct ShownImages {
-    Image8 colour;
-    Image8 white;
+    image::Image8 colour;
+    image::Image8 white;
     int samples = 1; ///< samples per pixel of `white`
 };
 /// Requires `shown16` in the truth. `cover_of_samples`: from Truth::cover, with as many rays as samples.
 /// `points_m` as in `Drawn`.
 [[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownImages& shown,
-                                       const Image<float>& cover_of_samples, const ImageFloat& points_m);
+                                       const image::Image<float>& cover_of_samples,
+                                       const image::ImageFloat& points_m);
 
 /// Mean and worst value of each error over many pictures.
 struct ErrorSummary {
@@ -80,4 +81,4 @@ struct ErrorSummary {
 };
 [[nodiscard]] ErrorSummary summarise(std::span<const PictureError> errors);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -2,14 +2,14 @@
 
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// The sum of the channels in linear light.
-Image<float> light_of(const Image8& picture) {
-    const std::array<float, 256>& linear = linear_from_srgb8();
-    Image<float> light(picture.width, picture.height);
+image::Image<float> light_of(const image::Image8& picture) {
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
+    image::Image<float> light(picture.width, picture.height);
     for (std::size_t k = 0; k < picture.texels.size(); ++k) {
         const glm::u8vec4& texel = picture.texels[k];
         light.texels[k] = linear[texel.r] + linear[texel.g] + linear[texel.b];
@@ -17,16 +17,16 @@ Image<float> light_of(const Image8& picture) {
     return light;
 }
 
-glm::dvec2 gradient(const Image<float>& light, int x, int y) {
+glm::dvec2 gradient(const image::Image<float>& light, int x, int y) {
     return 0.5 * glm::dvec2(light.at(x + 1, y) - light.at(x - 1, y), light.at(x, y + 1) - light.at(x, y - 1));
 }
 
 } // namespace
 
-std::optional<glm::dvec2> picture_shift(const Image8& truth, const Image8& drawn) {
+std::optional<glm::dvec2> picture_shift(const image::Image8& truth, const image::Image8& drawn) {
     assert(truth.width == drawn.width && truth.height == drawn.height);
-    const Image<float> a = light_of(truth);
-    const Image<float> b = light_of(drawn);
+    const image::Image<float> a = light_of(truth);
+    const image::Image<float> b = light_of(drawn);
     glm::dmat2 normal(0.0);
     glm::dvec2 right(0.0);
     for (int y = 1; y < a.height - 1; ++y) {
@@ -45,4 +45,4 @@ std::optional<glm::dvec2> picture_shift(const Image8& truth, const Image8& drawn
     return glm::inverse(normal) * right;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -14,9 +14,9 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Compares two pictures of one size, sRGB codes. nullopt if they show no edge in one of the directions.
-[[nodiscard]] std::optional<glm::dvec2> picture_shift(const Image8& truth, const Image8& drawn);
+[[nodiscard]] std::optional<glm::dvec2> picture_shift(const image::Image8& truth, const image::Image8& drawn);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -18,14 +18,14 @@ constexpr int rays_per_side = 4;
 constexpr const char* ray_cast_technique = "ray-cast picture";
 constexpr glm::u8vec4 black(0, 0, 0, 255);
 
-VisitorScene scene_of(const Stage& stage, const BenchPose& pose) {
-    const Settings& settings = stage.settings;
-    return {settings.projector.pinhole,
-            settings.projector.table_from_projector,
-            stage.prop,
-            pose.table_from_prop,
-            pose.eye_m,
-            {settings.table.width_m, settings.table.depth_m}};
+simulation::VisitorScene scene_of(const Stage& stage, const BenchPose& pose) {
+    const settings::Settings& settings = stage.settings;
+    return {.projector = settings.projector.pinhole,
+            .table_from_projector = settings.projector.table_from_projector,
+            .prop = stage.prop,
+            .table_from_prop = pose.table_from_prop,
+            .eye_m = pose.eye_m,
+            .table_size_m = {settings.table.width_m, settings.table.depth_m}};
 }
 
 int codes_off(const glm::u8vec4& a, const glm::u8vec4& b) {
@@ -44,10 +44,10 @@ glm::u8vec4 colour_of_difference(int codes) {
 /// The visitor's rays in the prop's frame.
 struct VisitorRays {
     glm::dvec3 eye_m;
-    RigidTransform prop_from_camera;
-    const Pinhole& pinhole;
+    geometry::RigidTransform prop_from_camera;
+    const geometry::Pinhole& pinhole;
 
-    VisitorRays(const VisitorScene& scene, const VisitorCamera& camera)
+    VisitorRays(const simulation::VisitorScene& scene, const simulation::VisitorCamera& camera)
         : eye_m(scene.table_from_prop.inverse().point(camera.table_from_camera.translation)),
           prop_from_camera(scene.table_from_prop.inverse() * camera.table_from_camera),
           pinhole(camera.pinhole) {}
@@ -58,13 +58,14 @@ struct VisitorRays {
 
 /// Projector pixels per step of one pixel of the visitor's picture, at the place seen through `at`, in the
 /// direction with the fewest; infinite off the prop.
-double min_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
-    PropHit hit;
-    if (!intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
+double min_span(const simulation::VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
+    geometry::PropHit hit;
+    if (!geometry::intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
         return std::numeric_limits<double>::infinity();
     }
-    const Plane& plane = scene.prop.faces[static_cast<std::size_t>(hit.face)].plane;
-    const RigidTransform projector_from_prop = scene.table_from_projector.inverse() * scene.table_from_prop;
+    const geometry::Plane& plane = scene.prop.faces[static_cast<std::size_t>(hit.face)].plane;
+    const geometry::RigidTransform projector_from_prop =
+        scene.table_from_projector.inverse() * scene.table_from_prop;
     const auto lit_pixel = [&](double u, double v) {
         const glm::dvec3 ray = rays.through(u, v);
         const double t = -plane.distance(rays.eye_m) / glm::dot(plane.normal, ray);
@@ -80,7 +81,7 @@ double min_span(const VisitorScene& scene, const VisitorRays& rays, const glm::d
 }
 
 /// Minimum over the prop's pixels on a grid of `step`; infinite if there are none.
-double min_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
+double min_span(const simulation::VisitorScene& scene, const simulation::VisitorCamera& camera, int step) {
     const VisitorRays rays(scene, camera);
     double least = std::numeric_limits<double>::infinity();
     for (int y = step / 2; y < camera.pinhole.height; y += step) {
@@ -94,7 +95,7 @@ double min_span(const VisitorScene& scene, const VisitorCamera& camera, int step
 /// Judges projector pictures by what one visitor sees of them.
 class Judge {
 public:
-    Judge(const Truth& truth, const VisitorScene& scene)
+    Judge(const Truth& truth, const simulation::VisitorScene& scene)
         : scene_(scene), camera_(no_finer_camera(scene)), one_ray_(cast_visitor(truth, scene, camera_, 1)),
           sixteen_rays_(cast_visitor(truth, scene, camera_, rays_per_side)) {
         row_.size_px = {camera_.pinhole.width, camera_.pinhole.height};
@@ -102,34 +103,36 @@ public:
     }
 
     /// `for_one_ray` and `for_sixteen_rays` are the pictures for the two comparisons.
-    [[nodiscard]] ProjectionRow judge(const Image8& for_one_ray, const Image8& for_sixteen_rays) {
-        VisitorViewOptions sixteen = exact_check();
+    [[nodiscard]] ProjectionRow judge(const image::Image8& for_one_ray,
+                                      const image::Image8& for_sixteen_rays) {
+        simulation::VisitorViewOptions sixteen = simulation::exact_check();
         sixteen.rays_per_side = rays_per_side;
         ProjectionRow row = row_;
-        row.one_ray = pixel_accuracy(visitor_view(scene_, for_one_ray, camera_, exact_check()), one_ray_);
-        smooth_ = visitor_view(scene_, for_sixteen_rays, camera_, sixteen);
+        row.one_ray = pixel_accuracy(
+            simulation::visitor_view(scene_, for_one_ray, camera_, simulation::exact_check()), one_ray_);
+        smooth_ = simulation::visitor_view(scene_, for_sixteen_rays, camera_, sixteen);
         row.sixteen_rays = pixel_accuracy(smooth_, sixteen_rays_);
         return row;
     }
-    [[nodiscard]] Image8 pictures() const { return side_by_side(smooth_, sixteen_rays_); }
+    [[nodiscard]] image::Image8 pictures() const { return side_by_side(smooth_, sixteen_rays_); }
 
 private:
-    VisitorScene scene_;
-    VisitorCamera camera_;
+    simulation::VisitorScene scene_;
+    simulation::VisitorCamera camera_;
     VisitorTruth one_ray_;
     VisitorTruth sixteen_rays_;
     ProjectionRow row_;
-    Image8 smooth_;
+    image::Image8 smooth_;
 };
 
-Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
-                                 const std::shared_ptr<const SourceMesh>& mesh,
+Result<ProjectionResult> compare(const SetUp& set_up, const pack::Pack& pack,
+                                 const std::shared_ptr<const bake::SourceMesh>& mesh,
                                  const ProjectionOptions& options, const StepProgress& progress) {
     TRY(Comparison opened, open_comparison(set_up, pack, default_and_finest(pack), mesh,
                                            {options.picture, options.poses, options.seed}));
     TechniqueSet& set = *opened.set;
     const Truth& truth = opened.truth;
-    ProjectionResult result{set_up.name, std::move(opened.poses), {}, {}};
+    ProjectionResult result{.name = set_up.name, .poses = std::move(opened.poses), .rows = {}, .worst = {}};
     double worst_percent = std::numeric_limits<double>::infinity();
     for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
         const BenchPose& at = result.poses[pose];
@@ -147,7 +150,7 @@ Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
             if (drawn.kind != TechniqueKind::PackLevel) {
                 continue;
             }
-            const Image8 picture = set.picture(k, at);
+            const image::Image8 picture = set.picture(k, at);
             add(judge.judge(picture, picture), drawn.name, drawn.level);
             if (result.rows.back().sixteen_rays.prop_percent() < worst_percent) {
                 worst_percent = result.rows.back().sixteen_rays.prop_percent();
@@ -162,18 +165,18 @@ Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
 
 } // namespace
 
-VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene, const VisitorCamera& camera,
-                          int rays_per_side_of_pixel) {
+VisitorTruth cast_visitor(const Truth& truth, const simulation::VisitorScene& scene,
+                          const simulation::VisitorCamera& camera, int rays_per_side_of_pixel) {
     const VisitorRays rays(scene, camera);
     const int width = camera.pinhole.width;
     const int height = camera.pinhole.height;
     const int n = rays_per_side_of_pixel;
     VisitorTruth picture{{width, height}, {width, height}, {width, height, black}};
     const auto cast_pixel = [&](int x, int y) {
-        PropHit face;
+        geometry::PropHit face;
         Truth::Hit hit;
         const glm::dvec3 middle = rays.through(x + 0.5, y + 0.5);
-        picture.prop.at(x, y) = intersect(scene.prop, rays.eye_m, middle, face) ? 1 : 0;
+        picture.prop.at(x, y) = geometry::intersect(scene.prop, rays.eye_m, middle, face) ? 1 : 0;
         if (picture.prop.at(x, y) == 0) {
             return;
         }
@@ -187,8 +190,8 @@ VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene, const V
             }
         }
         sum /= static_cast<float>(n * n);
-        picture.colour.at(x, y) = {srgb8_from_linear(sum.r), srgb8_from_linear(sum.g),
-                                   srgb8_from_linear(sum.b), 255};
+        picture.colour.at(x, y) = {image::srgb8_from_linear(sum.r), image::srgb8_from_linear(sum.g),
+                                   image::srgb8_from_linear(sum.b), 255};
     };
     parallel_for(static_cast<std::size_t>(height), 4, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -207,7 +210,7 @@ double PixelAccuracy::artifact_percent() const {
     return percent_of(artifact_right, artifact_pixels);
 }
 
-PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth) {
+PixelAccuracy pixel_accuracy(const image::Image8& view, const VisitorTruth& truth) {
     PixelAccuracy found;
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x) {
@@ -225,7 +228,7 @@ PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth) {
     return found;
 }
 
-VisitorCamera no_finer_camera(const VisitorScene& scene) {
+simulation::VisitorCamera no_finer_camera(const simulation::VisitorScene& scene) {
     // A picture half as wide has pixels twice as wide. The span varies smoothly, so a coarse grid is enough.
     constexpr int grid_px = 4;
     constexpr double margin = 0.99;
@@ -233,15 +236,15 @@ VisitorCamera no_finer_camera(const VisitorScene& scene) {
         const auto pixels = [scale](int all) {
             return std::max(1, static_cast<int>(std::floor(scale * all)));
         };
-        return visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, pixels(scene.projector.width),
-                              pixels(scene.projector.height));
+        return simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
+                                          pixels(scene.projector.width), pixels(scene.projector.height));
     };
     const double span = min_span(scene, camera(1.0), grid_px);
     return camera(std::min(1.0, margin * span));
 }
 
-Image8 side_by_side(const Image8& view, const VisitorTruth& truth) {
-    Image8 difference(view.width, view.height, black);
+image::Image8 side_by_side(const image::Image8& view, const VisitorTruth& truth) {
+    image::Image8 difference(view.width, view.height, black);
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x) {
             if (truth.prop.at(x, y) != 0) {
@@ -252,10 +255,10 @@ Image8 side_by_side(const Image8& view, const VisitorTruth& truth) {
     return side_by_side(std::array{&view, &truth.colour, &std::as_const(difference)}, box_of(truth.prop));
 }
 
-Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,
-                                    const std::shared_ptr<const SourceMesh>& mesh,
+Result<ProjectionResult> projection(const SetUp& set_up, const pack::Pack& pack,
+                                    const std::shared_ptr<const bake::SourceMesh>& mesh,
                                     const ProjectionOptions& options, const StepProgress& progress) {
     return at(set_up.name, compare(set_up, pack, mesh, options, progress));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -26,17 +26,17 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The picture that the visitor should see; same shape as the camera's picture.
 struct VisitorTruth {
-    Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre meets a face of the prop
-    Image<std::uint8_t> hit;  ///< 1: that ray meets the artifact
-    Image8 colour;            ///< black off the prop and where no artifact is hit
+    image::Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre meets a face of the prop
+    image::Image<std::uint8_t> hit;  ///< 1: that ray meets the artifact
+    image::Image8 colour;            ///< black off the prop and where no artifact is hit
 };
 /// `rays_per_side` squared rays per pixel, distributed as by `VisitorViewOptions`.
-[[nodiscard]] VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene,
-                                        const VisitorCamera& camera, int rays_per_side);
+[[nodiscard]] VisitorTruth cast_visitor(const Truth& truth, const simulation::VisitorScene& scene,
+                                        const simulation::VisitorCamera& camera, int rays_per_side);
 
 /// Number of correct pixels of a view.
 struct PixelAccuracy {
@@ -48,14 +48,14 @@ struct PixelAccuracy {
     [[nodiscard]] double prop_percent() const;
     [[nodiscard]] double artifact_percent() const;
 };
-[[nodiscard]] PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth);
+[[nodiscard]] PixelAccuracy pixel_accuracy(const image::Image8& view, const VisitorTruth& truth);
 
 /// The camera with the picture size described at the top.
-[[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
+[[nodiscard]] simulation::VisitorCamera no_finer_camera(const simulation::VisitorScene& scene);
 
 /// View, ray cast and difference of the prop next to each other, enlarged. The difference is red where a
 /// pixel is wrong, elsewhere grey and four times as bright.
-[[nodiscard]] Image8 side_by_side(const Image8& view, const VisitorTruth& truth);
+[[nodiscard]] image::Image8 side_by_side(const image::Image8& view, const VisitorTruth& truth);
 
 struct ProjectionOptions {
     int poses = 10;
@@ -80,11 +80,12 @@ struct ProjectionResult {
     std::string name; ///< name of the set-up
     std::vector<BenchPose> poses;
     std::vector<ProjectionRow> rows; ///< ray-cast picture, default and finest level, pose by pose
-    Image8 worst; ///< `side_by_side`, 16 rays: the level and pose with the smallest share of right pixels
+    image::Image8
+        worst; ///< `side_by_side`, 16 rays: the level and pose with the smallest share of right pixels
 };
 
-[[nodiscard]] Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,
-                                                  const std::shared_ptr<const SourceMesh>& mesh,
+[[nodiscard]] Result<ProjectionResult> projection(const SetUp& set_up, const pack::Pack& pack,
+                                                  const std::shared_ptr<const bake::SourceMesh>& mesh,
                                                   const ProjectionOptions& options,
                                                   const StepProgress& progress);
 
@@ -95,4 +96,4 @@ inline constexpr int max_codes_off = 16;
 [[nodiscard]] std::string projection_csv(std::span<const ProjectionResult> results);
 [[nodiscard]] std::string projection_table(const ProjectionResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

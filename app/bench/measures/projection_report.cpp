@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -71,21 +71,22 @@ std::vector<LimitVerdict> judge(const ProjectionResult& result) {
              {std::pair{&Summary::sixteen_rays, "16 rays"}, std::pair{&Summary::one_ray, "1 ray"}}) {
             const Share& found = summary.*share;
             verdicts.push_back(
-                {fmt::format("{}: >= {:g} % of the prop's pixels within {} codes, {} a pixel",
-                             summary.technique, min_right_percent, max_codes_off, rays),
-                 fmt::format("worst pose {:.2f} %, mean {:.2f} %; the ray-cast picture {:.2f} %, {:.2f} %",
-                             found.worst_percent, found.mean_percent,
-                             (summaries.front().*share).worst_percent,
-                             (summaries.front().*share).mean_percent),
-                 found.worst_percent >= min_right_percent});
+                {.what = fmt::format("{}: >= {:g} % of the prop's pixels within {} codes, {} a pixel",
+                                     summary.technique, min_right_percent, max_codes_off, rays),
+                 .found = fmt::format(
+                     "worst pose {:.2f} %, mean {:.2f} %; the ray-cast picture {:.2f} %, {:.2f} %",
+                     found.worst_percent, found.mean_percent, (summaries.front().*share).worst_percent,
+                     (summaries.front().*share).mean_percent),
+                 .held = found.worst_percent >= min_right_percent});
         }
     }
     double span = result.rows.empty() ? 0.0 : result.rows.front().min_span_px;
     for (const ProjectionRow& row : result.rows) {
         span = std::min(span, row.min_span_px);
     }
-    verdicts.push_back({"the visitor's pixels are no finer than the projector's on the prop",
-                        fmt::format("the finest spans {:.2f} projector pixels", span), span >= 1.0});
+    verdicts.push_back({.what = "the visitor's pixels are no finer than the projector's on the prop",
+                        .found = fmt::format("the finest spans {:.2f} projector pixels", span),
+                        .held = span >= 1.0});
     return verdicts;
 }
 
@@ -124,4 +125,4 @@ std::string projection_table(const ProjectionResult& result) {
     return table + lines_of(judge(result));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -238,4 +238,4 @@ std::string console_table(const SetUpResult& result) {
     return table + lines_of(judge(result));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// One row per technique of each set-up: mean and worst errors, times, ratio to the floor; `best_eye_image`
 /// is 0 for a two-pass picture that another eye image of the same mesh betters, else 1.
@@ -26,4 +26,4 @@ namespace frustumscreen {
 /// The table for a reader, with the verdicts below it.
 [[nodiscard]] std::string console_table(const SetUpResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

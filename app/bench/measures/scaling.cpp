@@ -9,7 +9,7 @@
 #include <array>
 #include <chrono>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr std::array drawn = {&ScalingRow::default_level, &ScalingRow::finest_le
 Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std::vector<BenchPose>& poses,
                       const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
-    const glm::dmat4 prop_from_artifact = place(source.pack, set.stage().prop).prop_from_artifact;
+    const glm::dmat4 prop_from_artifact = pack::place(source.pack, set.stage().prop).prop_from_artifact;
     TRY(Truth truth, Truth::build(source.mesh, prop_from_artifact));
     const auto finest = static_cast<std::uint32_t>(source.pack.levels.size() - 1);
     for (const std::uint32_t level : {source.pack.default_level, finest}) {
@@ -32,9 +32,9 @@ Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std:
     return set.measure_errors(truth, poses, first, progress);
 }
 
-Result<SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& options) {
-    Result<SourceMesh> made =
-        make_builtin("amphora", options.same_surface ? options.triangles.front() : triangles);
+Result<bake::SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& options) {
+    Result<bake::SourceMesh> made =
+        artifacts::make_builtin("amphora", options.same_surface ? options.triangles.front() : triangles);
     while (made && options.same_surface && std::ssize(made->triangles) < triangles * 9 / 10) {
         *made = subdivide(*made);
     }
@@ -44,18 +44,18 @@ Result<SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& op
 Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions& options,
                                    const StepProgress& progress) {
     const std::string what = fmt::format("{} triangles: ", triangles);
-    TRY(SourceMesh made, make_amphora(triangles, options));
-    BakeOptions bake_options;
+    TRY(bake::SourceMesh made, make_amphora(triangles, options));
+    bake::BakeOptions bake_options;
     bake_options.size = options.size;
     bake_options.unlit = true;
     bake_options.progress = [&](std::string_view step, double done) {
         progress(what + std::string(step), done);
     };
     const auto start = std::chrono::steady_clock::now();
-    Result<Pack> baked = bake(made, bake_options);
+    Result<pack::Pack> baked = bake::bake(made, bake_options);
     const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    TRY(Pack pack, at(what + "bake", std::move(baked)));
-    return ScalingSource{std::make_shared<const SourceMesh>(std::move(made)), std::move(pack), bake_s};
+    TRY(pack::Pack pack, at(what + "bake", std::move(baked)));
+    return ScalingSource{std::make_shared<const bake::SourceMesh>(std::move(made)), std::move(pack), bake_s};
 }
 
 std::string growth_line(std::string_view name, TechniqueResult ScalingRow::*each, double most,
@@ -91,7 +91,12 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
     for (const ScalingSource& source : sources) {
         const std::string what = fmt::format("{} triangles: errors", source.mesh->triangles.size());
         TRY_VOID(at(what, add_size(set, source, poses, options, [&](double done) { progress(what, done); })));
-        rows.push_back({source.mesh->triangles.size(), source.bake_s, {}, {}, {}, {}});
+        rows.push_back({.source_triangles = source.mesh->triangles.size(),
+                        .bake_s = source.bake_s,
+                        .default_level = {},
+                        .finest_level = {},
+                        .relief = {},
+                        .two_pass = {}});
     }
     set.measure_times(poses, options.timing_rounds, [&](double done) { progress("times", done); });
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -143,4 +148,4 @@ std::string scaling_table(std::span<const ScalingRow> rows) {
                : table;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,7 +8,7 @@
 
 #include "app/bench/measures/error_time.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct ScalingOptions {
     std::vector<std::int64_t> triangles = {100'000, 1'000'000, 4'000'000};
@@ -25,8 +25,8 @@ struct ScalingOptions {
 
 /// One triangle count, baked.
 struct ScalingSource {
-    std::shared_ptr<const SourceMesh> mesh;
-    Pack pack;
+    std::shared_ptr<const bake::SourceMesh> mesh;
+    pack::Pack pack;
     double bake_s = 0.0;
 };
 [[nodiscard]] Result<std::vector<ScalingSource>> bake_amphoras(const ScalingOptions& options,
@@ -52,4 +52,4 @@ inline constexpr double max_relief_growth = 1.10; ///< the finest relief
 [[nodiscard]] std::string scaling_csv(std::span<const ScalingRow> rows);
 [[nodiscard]] std::string scaling_table(std::span<const ScalingRow> rows);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -2,7 +2,7 @@
 
 #include "app/bench/measures/comparison.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -27,18 +27,22 @@ void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& option
                 worst_percent = found.excess_percent();
                 result.worst = side_by_side(maps);
             }
-            result.rows.push_back({set.results()[technique].name, k / 2, direction, found});
+            result.rows.push_back({.technique = set.results()[technique].name,
+                                   .pose = k / 2,
+                                   .direction = direction,
+                                   .shimmer = found});
         }
         progress(static_cast<double>(k + 1) / sequences);
     }
 }
 
-Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
-                              const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
-                              const StepProgress& progress) {
+Result<ShimmerResult> compare(const SetUp& set_up, const pack::Pack& pack,
+                              const std::shared_ptr<const bake::SourceMesh>& mesh,
+                              const ShimmerOptions& options, const StepProgress& progress) {
     TRY(Comparison opened, open_comparison(set_up, pack, default_and_finest(pack), mesh,
                                            {options.picture, options.poses, options.seed}));
-    ShimmerResult result{set_up.name, std::move(opened.poses), {}, {}, {}};
+    ShimmerResult result{
+        .name = set_up.name, .poses = std::move(opened.poses), .rows = {}, .worst = {}, .edges = {}};
     measure(
         *opened.set, opened.truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); },
         result);
@@ -47,9 +51,9 @@ Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
 
 } // namespace
 
-Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
-                              const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
-                              const StepProgress& progress) {
+Result<ShimmerResult> shimmer(const SetUp& set_up, const pack::Pack& pack,
+                              const std::shared_ptr<const bake::SourceMesh>& mesh,
+                              const ShimmerOptions& options, const StepProgress& progress) {
     TRY(ShimmerResult result, at(set_up.name, compare(set_up, pack, mesh, options, progress)));
     TRY(result.edges,
         at(set_up.name, edge_sparkle(set_up, pack, result.poses, options.steps, options.picture,
@@ -57,4 +61,4 @@ Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct ShimmerOptions {
     int poses = 3;
@@ -39,12 +39,12 @@ struct ShimmerResult {
     std::vector<BenchPose> poses;
     std::vector<ShimmerRow> rows;
     /// `side_by_side` of the sequence with the most excess.
-    Image8 worst;
+    image::Image8 worst;
     std::vector<SparkleRow> edges; ///< as many steps of 0.1 mm in each
 };
 
-[[nodiscard]] Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
-                                            const std::shared_ptr<const SourceMesh>& mesh,
+[[nodiscard]] Result<ShimmerResult> shimmer(const SetUp& set_up, const pack::Pack& pack,
+                                            const std::shared_ptr<const bake::SourceMesh>& mesh,
                                             const ShimmerOptions& options, const StepProgress& progress);
 
 inline constexpr double max_ratio = 1.0;
@@ -55,4 +55,4 @@ inline constexpr double max_excess_percent = 0.1;
 [[nodiscard]] std::string edge_sparkle_csv(std::span<const ShimmerResult> results);
 [[nodiscard]] std::string shimmer_table(const ShimmerResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

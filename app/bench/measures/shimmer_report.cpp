@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -105,9 +105,10 @@ std::string edge_sparkle_csv(std::span<const ShimmerResult> results) {
 std::vector<LimitVerdict> judge(const ShimmerResult& result) {
     std::vector<LimitVerdict> verdicts;
     const auto add = [&verdicts](const std::string& what, const Spans& found, double most, const char* unit) {
-        verdicts.push_back({fmt::format("{} <= {:g}{}", what, most, unit),
-                            fmt::format("worst {:.3f}{}, mean {:.3f}{}", found.worst, unit, found.mean, unit),
-                            found.worst <= most});
+        verdicts.push_back(
+            {.what = fmt::format("{} <= {:g}{}", what, most, unit),
+             .found = fmt::format("worst {:.3f}{}, mean {:.3f}{}", found.worst, unit, found.mean, unit),
+             .held = found.worst <= most});
     };
     for (const auto& [name, rows] : by_level(result)) {
         add(name + ": shimmer / one ray's, RMS", spans(rows, of_rms), max_ratio, "");
@@ -118,10 +119,10 @@ std::vector<LimitVerdict> judge(const ShimmerResult& result) {
     const EdgeSparkle edges = all_edges(result);
     if (edges.sharp.changes() > 0) {
         const double ratio = edges.feathered.rms() / edges.sharp.rms();
-        verdicts.push_back({"edges between faces: changes, feathered / sharp, RMS <= 1",
-                            fmt::format("{:.3f}; beside them {:.3f}", ratio,
-                                        edges.beside_feathered.rms() / edges.sharp.rms()),
-                            ratio <= 1.0});
+        verdicts.push_back({.what = "edges between faces: changes, feathered / sharp, RMS <= 1",
+                            .found = fmt::format("{:.3f}; beside them {:.3f}", ratio,
+                                                 edges.beside_feathered.rms() / edges.sharp.rms()),
+                            .held = ratio <= 1.0});
     }
     return verdicts;
 }
@@ -173,4 +174,4 @@ std::string shimmer_table(const ShimmerResult& result) {
     return table + edge_lines(all_edges(result)) + lines_of(judge(result));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

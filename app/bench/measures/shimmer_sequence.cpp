@@ -7,15 +7,15 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 constexpr int rays_per_side = 4;
 
-std::optional<glm::dvec2> projected(const Settings& settings, const BenchPose& pose,
+std::optional<glm::dvec2> projected(const settings::Settings& settings, const BenchPose& pose,
                                     const glm::dvec3& in_prop) {
-    const ProjectorSettings& projector = settings.projector;
+    const settings::ProjectorSettings& projector = settings.projector;
     return projector.pinhole.pixel(
         projector.table_from_projector.inverse().point(pose.table_from_prop.point(in_prop)));
 }
@@ -26,7 +26,7 @@ BenchPose pushed(BenchPose pose, const glm::dvec2& by_m) {
 }
 
 /// Metres on the table per step that move the prop's middle by `step_px`.
-glm::dvec2 step_m(const Settings& settings, const PropShape& prop, const BenchPose& pose,
+glm::dvec2 step_m(const settings::Settings& settings, const geometry::PropShape& prop, const BenchPose& pose,
                   PushDirection direction) {
     constexpr double probe_m = 1e-4;
     const auto middle_px = [&](const glm::dvec2& by_m) {
@@ -40,9 +40,9 @@ glm::dvec2 step_m(const Settings& settings, const PropShape& prop, const BenchPo
 }
 
 /// Averages blocks of `split` x `split` pixels in linear light.
-Image8 averaged(const Image8& fine, int split) {
-    const std::array<float, 256>& linear = linear_from_srgb8();
-    Image8 made(fine.width / split, fine.height / split);
+image::Image8 averaged(const image::Image8& fine, int split) {
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
+    image::Image8 made(fine.width / split, fine.height / split);
     for (int y = 0; y < made.height; ++y) {
         for (int x = 0; x < made.width; ++x) {
             glm::vec3 sum(0.0F);
@@ -51,17 +51,17 @@ Image8 averaged(const Image8& fine, int split) {
                 sum += glm::vec3(linear[code.r], linear[code.g], linear[code.b]);
             }
             sum /= static_cast<float>(split * split);
-            made.at(x, y) = {srgb8_from_linear(sum.r), srgb8_from_linear(sum.g), srgb8_from_linear(sum.b),
-                             255};
+            made.at(x, y) = {image::srgb8_from_linear(sum.r), image::srgb8_from_linear(sum.g),
+                             image::srgb8_from_linear(sum.b), 255};
         }
     }
     return made;
 }
 
 /// The maximum within `reach`, along rows and then along columns.
-Image<float> spread_out(const Image<float>& values, int reach) {
-    const auto along = [reach](const Image<float>& from, const glm::ivec2& step) {
-        Image<float> made(from.width, from.height);
+image::Image<float> spread_out(const image::Image<float>& values, int reach) {
+    const auto along = [reach](const image::Image<float>& from, const glm::ivec2& step) {
+        image::Image<float> made(from.width, from.height);
         for (int y = 0; y < from.height; ++y) {
             for (int x = 0; x < from.width; ++x) {
                 float most = from.at(x, y);
@@ -85,9 +85,9 @@ double ratio(double drawn, double truth) {
 
 } // namespace
 
-void Flicker::add(Image8 picture) {
+void Flicker::add(image::Image8 picture) {
     if (pictures_ == 0) {
-        squares_ = Image<float>(picture.width, picture.height);
+        squares_ = image::Image<float>(picture.width, picture.height);
     }
     if (pictures_ >= 2) {
         for (std::size_t k = 0; k < squares_.texels.size(); ++k) {
@@ -102,8 +102,8 @@ void Flicker::add(Image8 picture) {
     ++pictures_;
 }
 
-Image<float> Flicker::per_pixel() const {
-    Image<float> made = squares_;
+image::Image<float> Flicker::per_pixel() const {
+    image::Image<float> made = squares_;
     const auto differences = static_cast<float>(3 * std::max(1, pictures_ - 2));
     for (float& value : made.texels) {
         value = std::sqrt(value / differences);
@@ -111,7 +111,7 @@ Image<float> Flicker::per_pixel() const {
     return made;
 }
 
-ShimmerFigure shimmer_of(const Image<float>& per_pixel, const Image<std::uint8_t>& judged) {
+ShimmerFigure shimmer_of(const image::Image<float>& per_pixel, const image::Image<std::uint8_t>& judged) {
     std::vector<double> values;
     double squares = 0.0;
     for (std::size_t k = 0; k < judged.texels.size(); ++k) {
@@ -125,10 +125,10 @@ ShimmerFigure shimmer_of(const Image<float>& per_pixel, const Image<std::uint8_t
     return {std::sqrt(squares / pixels), quantile(std::move(values), 0.999)};
 }
 
-Image<std::uint8_t> excess(const Image<float>& technique, const Image<float>& truth,
-                           const Image<std::uint8_t>& judged) {
-    const Image<float> allowed = spread_out(truth, excess_reach_px);
-    Image<std::uint8_t> made(judged.width, judged.height);
+image::Image<std::uint8_t> excess(const image::Image<float>& technique, const image::Image<float>& truth,
+                                  const image::Image<std::uint8_t>& judged) {
+    const image::Image<float> allowed = spread_out(truth, excess_reach_px);
+    image::Image<std::uint8_t> made(judged.width, judged.height);
     for (std::size_t k = 0; k < judged.texels.size(); ++k) {
         made.texels[k] =
             judged.texels[k] != 0 && technique.texels[k] > allowed.texels[k] + excess_codes ? 1 : 0;
@@ -147,9 +147,9 @@ double SequenceShimmer::excess_percent() const {
            static_cast<double>(std::max<std::int64_t>(1, judged_pixels));
 }
 
-Image8 side_by_side(const ShimmerMaps& maps) {
+image::Image8 side_by_side(const ShimmerMaps& maps) {
     const int width = maps.drawn.width;
-    Image8 picture(3 * width, maps.drawn.height);
+    image::Image8 picture(3 * width, maps.drawn.height);
     const auto grey = [](float codes) {
         const auto value = static_cast<std::uint8_t>(std::min(255.0F, codes));
         return glm::u8vec4(value, value, value, 255);
@@ -165,15 +165,15 @@ Image8 side_by_side(const ShimmerMaps& maps) {
     return picture;
 }
 
-ShimmerSequence::ShimmerSequence(const Settings& settings, const PropShape& prop, const BenchPose& pose,
-                                 PushDirection direction, int steps)
+ShimmerSequence::ShimmerSequence(const settings::Settings& settings, const geometry::PropShape& prop,
+                                 const BenchPose& pose, PushDirection direction, int steps)
     : settings_(settings), prop_(prop) {
     const glm::dvec2 step = step_m(settings, prop, pose, direction);
     for (int k = 0; k <= steps; ++k) {
         poses_.push_back(pushed(pose, static_cast<double>(k) * step));
     }
     part_ = part_around_prop();
-    judged_ = Image<std::uint8_t>(part_.size.x, part_.size.y);
+    judged_ = image::Image<std::uint8_t>(part_.size.x, part_.size.y);
 }
 
 /// The part that contains the prop in every step, with a margin.
@@ -182,7 +182,7 @@ ShimmerSequence::Part ShimmerSequence::part_around_prop() const {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     for (const BenchPose* pose : {&poses_.front(), &poses_.back()}) {
-        for (const PropFace& face : prop_.faces) {
+        for (const geometry::PropFace& face : prop_.faces) {
             for (const glm::dvec3& corner : face.corners) {
                 const std::optional<glm::dvec2> pixel = projected(settings_, *pose, corner);
                 low = glm::min(low, pixel.value_or(low));
@@ -196,8 +196,8 @@ ShimmerSequence::Part ShimmerSequence::part_around_prop() const {
     return {glm::ivec2(from), glm::ivec2(to - from)};
 }
 
-Image8 ShimmerSequence::cut(const Image8& picture) const {
-    Image8 made(part_.size.x, part_.size.y);
+image::Image8 ShimmerSequence::cut(const image::Image8& picture) const {
+    image::Image8 made(part_.size.x, part_.size.y);
     for (int y = 0; y < made.height; ++y) {
         for (int x = 0; x < made.width; ++x) {
             made.at(x, y) = picture.at(part_.low.x + x, part_.low.y + y);
@@ -220,7 +220,7 @@ TruthView ShimmerSequence::view_of_part(const BenchPose& pose, int split) const 
 void ShimmerSequence::cast(const Truth& truth, bool sixteen_rays) {
     Flicker one_ray;
     Flicker many;
-    Image<float> hits(part_.size.x, part_.size.y);
+    image::Image<float> hits(part_.size.x, part_.size.y);
     for (const BenchPose& pose : poses_) {
         TruthPicture picture = truth.cast(prop_, view_of_part(pose, 1), false);
         for (std::size_t k = 0; k < hits.texels.size(); ++k) {
@@ -232,14 +232,14 @@ void ShimmerSequence::cast(const Truth& truth, bool sixteen_rays) {
                 averaged(truth.cast(prop_, view_of_part(pose, rays_per_side), false).colour, rays_per_side));
         }
     }
-    const Image<float> judged = spread_out(hits, 1);
+    const image::Image<float> judged = spread_out(hits, 1);
     std::transform(judged.texels.begin(), judged.texels.end(), judged_.texels.begin(),
                    [](float hit) { return static_cast<std::uint8_t>(hit > 0.0F ? 1 : 0); });
     one_ray_ = one_ray.per_pixel();
     truth_.one_ray = shimmer_of(one_ray_, judged_);
     allowed_ = one_ray_;
     if (sixteen_rays) {
-        const Image<float> smooth = many.per_pixel();
+        const image::Image<float> smooth = many.per_pixel();
         truth_.sixteen_rays = shimmer_of(smooth, judged_);
         std::transform(smooth.texels.begin(), smooth.texels.end(), one_ray_.texels.begin(),
                        allowed_.texels.begin(), [](float a, float b) { return std::max(a, b); });
@@ -252,7 +252,7 @@ SequenceShimmer ShimmerSequence::judge(const Draw& draw, ShimmerMaps& maps) cons
     for (const BenchPose& pose : poses_) {
         flicker.add(cut(draw(pose)));
     }
-    maps = {flicker.per_pixel(), one_ray_, judged_, {}};
+    maps = {.drawn = flicker.per_pixel(), .one_ray = one_ray_, .judged = judged_, .beyond = {}};
     maps.beyond = excess(maps.drawn, allowed_, judged_);
     SequenceShimmer found = truth_;
     found.drawn = shimmer_of(maps.drawn, judged_);
@@ -260,4 +260,4 @@ SequenceShimmer ShimmerSequence::judge(const Draw& draw, ShimmerMaps& maps) cons
     return found;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -31,20 +31,20 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr double step_px = 0.1;
 
 /// Takes pictures of one size in order and computes each pixel's shimmer so far.
 class Flicker {
 public:
-    void add(Image8 picture);
+    void add(image::Image8 picture);
     /// Codes; zero until there are three pictures.
-    [[nodiscard]] Image<float> per_pixel() const;
+    [[nodiscard]] image::Image<float> per_pixel() const;
 
 private:
-    std::array<Image8, 2> last_; ///< the one before last, then the last
-    Image<float> squares_;       ///< sum over steps and channels
+    std::array<image::Image8, 2> last_; ///< the one before last, then the last
+    image::Image<float> squares_;       ///< sum over steps and channels
     int pictures_ = 0;
 };
 
@@ -54,13 +54,15 @@ struct ShimmerFigure {
     double q999 = 0.0;
 };
 /// Over the pixels where `judged` is not zero.
-[[nodiscard]] ShimmerFigure shimmer_of(const Image<float>& per_pixel, const Image<std::uint8_t>& judged);
+[[nodiscard]] ShimmerFigure shimmer_of(const image::Image<float>& per_pixel,
+                                       const image::Image<std::uint8_t>& judged);
 
 inline constexpr float excess_codes = 8.0F;
 inline constexpr int excess_reach_px = 2;
 /// 1 at judged pixels that shimmer more than their whole neighbourhood in the truth.
-[[nodiscard]] Image<std::uint8_t> excess(const Image<float>& technique, const Image<float>& truth,
-                                         const Image<std::uint8_t>& judged);
+[[nodiscard]] image::Image<std::uint8_t> excess(const image::Image<float>& technique,
+                                                const image::Image<float>& truth,
+                                                const image::Image<std::uint8_t>& judged);
 
 /// One technique in one sequence.
 struct SequenceShimmer {
@@ -77,13 +79,13 @@ struct SequenceShimmer {
 
 /// A pixel's shimmer, drawn and in the truth.
 struct ShimmerMaps {
-    Image<float> drawn;
-    Image<float> one_ray;
-    Image<std::uint8_t> judged;
-    Image<std::uint8_t> beyond; ///< from `excess`
+    image::Image<float> drawn;
+    image::Image<float> one_ray;
+    image::Image<std::uint8_t> judged;
+    image::Image<std::uint8_t> beyond; ///< from `excess`
 };
 /// Drawn and one ray in grey at twice their value, the excess in red; next to each other.
-[[nodiscard]] Image8 side_by_side(const ShimmerMaps& maps);
+[[nodiscard]] image::Image8 side_by_side(const ShimmerMaps& maps);
 
 /// Along the picture's rows or its columns.
 enum class PushDirection { Row, Column };
@@ -92,15 +94,15 @@ enum class PushDirection { Row, Column };
 class ShimmerSequence {
 public:
     /// `settings` and `prop` must outlive the sequence. It has steps + 1 poses.
-    ShimmerSequence(const Settings& settings, const PropShape& prop, const BenchPose& pose,
-                    PushDirection direction, int steps);
+    ShimmerSequence(const settings::Settings& settings, const geometry::PropShape& prop,
+                    const BenchPose& pose, PushDirection direction, int steps);
     [[nodiscard]] const std::vector<BenchPose>& poses() const { return poses_; }
 
     /// Casts the truth for every technique. Call it once, before `judge`.
     void cast(const Truth& truth, bool sixteen_rays);
 
     /// Draws the projector's whole picture of a pose.
-    using Draw = std::function<Image8(const BenchPose&)>;
+    using Draw = std::function<image::Image8(const BenchPose&)>;
     [[nodiscard]] SequenceShimmer judge(const Draw& draw, ShimmerMaps& maps) const;
 
 private:
@@ -111,16 +113,16 @@ private:
     };
     [[nodiscard]] Part part_around_prop() const;
     [[nodiscard]] TruthView view_of_part(const BenchPose& pose, int split) const;
-    [[nodiscard]] Image8 cut(const Image8& picture) const;
+    [[nodiscard]] image::Image8 cut(const image::Image8& picture) const;
 
-    const Settings& settings_;
-    const PropShape& prop_;
+    const settings::Settings& settings_;
+    const geometry::PropShape& prop_;
     std::vector<BenchPose> poses_;
     Part part_;
-    Image<std::uint8_t> judged_;
-    Image<float> one_ray_;
-    Image<float> allowed_;  ///< the larger of the two truths
-    SequenceShimmer truth_; ///< the parts shared by every technique
+    image::Image<std::uint8_t> judged_;
+    image::Image<float> one_ray_;
+    image::Image<float> allowed_; ///< the larger of the two truths
+    SequenceShimmer truth_;       ///< the parts shared by every technique
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,38 +4,38 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-PixelRectangle box_of(const Image<std::uint8_t>& mask) {
+PixelRectangle box_of(const image::Image<std::uint8_t>& mask) {
     constexpr int rim = 2;
     PixelRectangle box;
     for (int y = 0; y < mask.height; ++y) {
         for (int x = 0; x < mask.width; ++x) {
             if (mask.at(x, y) != 0) {
-                box = united(box, {x - rim, y - rim, 2 * rim + 1, 2 * rim + 1});
+                box = united(box, {.x = x - rim, .y = y - rim, .width = 2 * rim + 1, .height = 2 * rim + 1});
             }
         }
     }
-    return intersected(box, {0, 0, mask.width, mask.height});
+    return intersected(box, {.x = 0, .y = 0, .width = mask.width, .height = mask.height});
 }
 
-Image8 side_by_side(std::span<const Image8* const> pictures, const PixelRectangle& part) {
+image::Image8 side_by_side(std::span<const image::Image8* const> pictures, const PixelRectangle& part) {
     constexpr int large_px = 480;
     const int enlarged = std::clamp(large_px / std::max({1, part.width, part.height}), 1, 8);
     const int width = enlarged * part.width;
-    Image8 made(static_cast<int>(pictures.size()) * width, enlarged * part.height);
+    image::Image8 made(static_cast<int>(pictures.size()) * width, enlarged * part.height);
     for (int y = 0; y < made.height; ++y) {
         for (int x = 0; x < made.width; ++x) {
-            const Image8& picture = *pictures[static_cast<std::size_t>(x / width)];
+            const image::Image8& picture = *pictures[static_cast<std::size_t>(x / width)];
             made.at(x, y) = picture.at(part.x + x % width / enlarged, part.y + y / enlarged);
         }
     }
     return made;
 }
 
-Image8 error_picture(const TruthPicture& truth, const Drawn& drawn) {
-    Image8 wrong(truth.hit.width, truth.hit.height, glm::u8vec4(0, 0, 0, 255));
-    Image<std::uint8_t> either = truth.hit;
+image::Image8 error_picture(const TruthPicture& truth, const Drawn& drawn) {
+    image::Image8 wrong(truth.hit.width, truth.hit.height, glm::u8vec4(0, 0, 0, 255));
+    image::Image<std::uint8_t> either = truth.hit;
     for (std::size_t k = 0; k < wrong.texels.size(); ++k) {
         const glm::vec3& point = drawn.point_m.texels[k];
         const bool shown = !std::isnan(point.x);
@@ -49,8 +49,8 @@ Image8 error_picture(const TruthPicture& truth, const Drawn& drawn) {
             wrong.texels[k] = {grey, grey, grey, 255};
         }
     }
-    return side_by_side(std::array{&truth.colour16, &drawn.colour, static_cast<const Image8*>(&wrong)},
+    return side_by_side(std::array{&truth.colour16, &drawn.colour, static_cast<const image::Image8*>(&wrong)},
                         box_of(either));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

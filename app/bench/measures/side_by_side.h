@@ -10,17 +10,18 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The rectangle around all non-zero pixels, with a margin of two pixels; empty if all are zero.
-[[nodiscard]] PixelRectangle box_of(const Image<std::uint8_t>& mask);
+[[nodiscard]] PixelRectangle box_of(const image::Image<std::uint8_t>& mask);
 
 /// The part must lie inside every picture.
-[[nodiscard]] Image8 side_by_side(std::span<const Image8* const> pictures, const PixelRectangle& part);
+[[nodiscard]] image::Image8 side_by_side(std::span<const image::Image8* const> pictures,
+                                         const PixelRectangle& part);
 
 /// Truth with 16 rays, the drawn picture, and the errors: red where only one of them shows the artifact,
 /// elsewhere grey by the distance of the two hit points, white at `white_mm`.
 inline constexpr float white_mm = 1.0F;
-[[nodiscard]] Image8 error_picture(const TruthPicture& truth, const Drawn& drawn);
+[[nodiscard]] image::Image8 error_picture(const TruthPicture& truth, const Drawn& drawn);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,14 +4,14 @@
 #include <map>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// Creates one middle vertex per edge, at the end of the mesh's vertices.
 class Middles {
 public:
-    explicit Middles(SourceMesh& mesh) : mesh_(mesh) {}
+    explicit Middles(bake::SourceMesh& mesh) : mesh_(mesh) {}
 
     std::uint32_t of(std::uint32_t a, std::uint32_t b) {
         const auto [middle, is_new] = found_.try_emplace(std::minmax(a, b), mesh_.positions.size());
@@ -32,14 +32,14 @@ private:
         }
     }
 
-    SourceMesh& mesh_;
+    bake::SourceMesh& mesh_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> found_;
 };
 
 } // namespace
 
-SourceMesh subdivide(const SourceMesh& mesh) {
-    SourceMesh result = mesh;
+bake::SourceMesh subdivide(const bake::SourceMesh& mesh) {
+    bake::SourceMesh result = mesh;
     result.triangles.clear();
     result.triangle_materials.clear();
     Middles middles(result);
@@ -55,4 +55,4 @@ SourceMesh subdivide(const SourceMesh& mesh) {
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

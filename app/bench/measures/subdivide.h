@@ -3,10 +3,10 @@
 
 #include "assets_baked/bake/source_mesh.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Splits each triangle into four at the middles of its edges; attributes at a middle are the mean of the
 /// edge's ends.
-[[nodiscard]] SourceMesh subdivide(const SourceMesh& mesh);
+[[nodiscard]] bake::SourceMesh subdivide(const bake::SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,27 +9,28 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-Result<std::string> TechniqueSet::keep_drawn(const Pack& pack, std::uint32_t level) {
-    const PackLevel& shown = pack.levels[level];
-    return keep_surface(pack, textured_source(shown, pack.textures[shown.texture], pack.box_size),
+Result<std::string> TechniqueSet::keep_drawn(const pack::Pack& pack, std::uint32_t level) {
+    const pack::PackLevel& shown = pack.levels[level];
+    return keep_surface(pack, bake::textured_source(shown, pack.textures[shown.texture], pack.box_size),
                         fmt::format("level {}", level));
 }
 
-Result<std::string> TechniqueSet::keep_drawn(const Pack& pack, const BlockRelief& relief,
+Result<std::string> TechniqueSet::keep_drawn(const pack::Pack& pack, const relief::BlockRelief& relief,
                                              const std::string& name) {
     return keep_surface(pack, cut_surface_of(relief), name);
 }
 
-Result<std::string> TechniqueSet::keep_surface(const Pack& pack, SourceMesh surface,
+Result<std::string> TechniqueSet::keep_surface(const pack::Pack& pack, bake::SourceMesh surface,
                                                const std::string& name) {
     if (drawn_.contains(name)) {
         return name;
     }
-    const double metres_per_box = place(pack, stage_.prop).metres_per_box;
-    TRY(Truth truth, Truth::build(std::make_shared<const SourceMesh>(std::move(surface)),
-                                  glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), Sides::Front));
+    const double metres_per_box = pack::place(pack, stage_.prop).metres_per_box;
+    TRY(Truth truth,
+        Truth::build(std::make_shared<const bake::SourceMesh>(std::move(surface)),
+                     glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), bake::Sides::Front));
     drawn_.emplace(name, std::move(truth));
     return name;
 }
@@ -44,9 +45,11 @@ std::optional<LightAim> TechniqueSet::shown_light(const BenchPose& pose) const {
 }
 
 ShownImages TechniqueSet::shown_images(ShownPicture& shown, const BenchPose& pose) const {
-    const auto read = [this] { return read_colour(stage_.framebuffer, stage_.width(), stage_.height()); };
+    const auto read = [this] {
+        return render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+    };
     shown.draw_shown(pose);
-    Image8 colour = read();
+    image::Image8 colour = read();
     const int samples = shown.draw_white(pose);
     return {std::move(colour), read(), samples};
 }
@@ -57,8 +60,8 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
         const TruthView view = view_of(stage_.settings, poses[pose]);
         const std::optional<LightAim> light = shown_light(poses[pose]);
         const TruthPicture cast = truth.cast(stage_.prop, view, true, light ? &*light : nullptr);
-        std::map<int, Image<float>> covers; // key: samples per pixel
-        std::map<std::string, Image8> surfaces;
+        std::map<int, image::Image<float>> covers; // key: samples per pixel
+        std::map<std::string, image::Image8> surfaces;
         for (const auto& [name, as_drawn] : drawn_) {
             surfaces[name] = as_drawn.cast(stage_.prop, view, true).colour16;
         }
@@ -76,7 +79,8 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                 const ShownImages images = shown_images(*shown, poses[pose]);
                 const auto cover = covers.try_emplace(images.samples).first;
                 if (cover->second.width == 0) {
-                    cover->second = truth.cover(stage_.prop, view, cast, SampleGrid::of(images.samples));
+                    cover->second =
+                        truth.cover(stage_.prop, view, cast, render::SampleGrid::of(images.samples));
                 }
                 error.shown = measure_shown(cast, images, cover->second, seen.point_m);
             }
@@ -104,13 +108,13 @@ Result<std::vector<PictureError>> TechniqueSet::shape_errors(const Truth& truth,
 
 Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<BenchPose>& poses, int rays,
                                          const Progress& progress) {
-    const glm::ivec2 grid = SampleGrid::of(rays);
-    const Pinhole centres = stage_.settings.projector.pinhole;
+    const glm::ivec2 grid = render::SampleGrid::of(rays);
+    const geometry::Pinhole centres = stage_.settings.projector.pinhole;
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         std::vector<std::vector<PictureError>> errors(techniques_.size());
         for (int ray = 0; ray < rays; ++ray) {
             // Move the principal point, to draw and cast at other places inside the pixels.
-            Pinhole& pinhole = stage_.settings.projector.pinhole;
+            geometry::Pinhole& pinhole = stage_.settings.projector.pinhole;
             pinhole.cx = centres.cx + 0.5 - (ray % grid.x + 0.5) / grid.x;
             pinhole.cy = centres.cy + 0.5 - (ray / grid.x + 0.5) / grid.y;
             const Result<std::vector<PictureError>> found = shape_errors(truth, poses[pose]);
@@ -134,4 +138,4 @@ Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<B
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

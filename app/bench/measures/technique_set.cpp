@@ -17,7 +17,7 @@
 #include <array>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -46,22 +46,23 @@ TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles
 }
 
 /// Includes the texture, without mip levels.
-std::uint64_t bytes_of(const PackLevel& level, const Pack& pack) {
-    return level.vertices.size() * sizeof(PackVertex) + level.indices.size() * sizeof(level.indices[0]) +
-           4 * pack.textures[level.texture].texels.size();
+std::uint64_t bytes_of(const pack::PackLevel& level, const pack::Pack& pack) {
+    return level.vertices.size() * sizeof(pack::PackVertex) +
+           level.indices.size() * sizeof(level.indices[0]) + 4 * pack.textures[level.texture].texels.size();
 }
 
-std::string level_name(const Pack& pack, std::uint32_t level) {
-    return fmt::format("{} {}{}", pack.levels[level].technique == LevelTechnique::Relief ? "relief" : "mesh",
+std::string level_name(const pack::Pack& pack, std::uint32_t level) {
+    return fmt::format("{} {}{}",
+                       pack.levels[level].technique == pack::LevelTechnique::Relief ? "relief" : "mesh",
                        level, level == pack.default_level ? " (default)" : "");
 }
 
 /// The first match, which is the best quality level of its kind.
-std::optional<QualityLevel> quality_level_that(const std::vector<QualityLevel>& quality_levels,
-                                               bool is_raster) {
+std::optional<scene::QualityLevel> quality_level_that(const std::vector<scene::QualityLevel>& quality_levels,
+                                                      bool is_raster) {
     const auto found =
         std::find_if(quality_levels.begin(), quality_levels.end(),
-                     [is_raster](const QualityLevel& each) { return each.relief == is_raster; });
+                     [is_raster](const scene::QualityLevel& each) { return each.relief == is_raster; });
     return found != quality_levels.end() ? std::optional(*found) : std::nullopt;
 }
 
@@ -74,12 +75,12 @@ std::string_view name_of(TechniqueKind kind) {
 }
 
 Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
-    const Pinhole& pinhole = set_up.settings.projector.pinhole;
-    TRY(std::unique_ptr<SurfacelessDisplay> display,
-        SurfacelessDisplay::create(pinhole.width, pinhole.height));
+    const geometry::Pinhole& pinhole = set_up.settings.projector.pinhole;
+    TRY(std::unique_ptr<display::SurfacelessDisplay> display,
+        display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
     const unsigned framebuffer = display->framebuffer();
     std::unique_ptr<TechniqueSet> set(new TechniqueSet(
-        std::move(display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
+        std::move(display), Stage{set_up.settings, settings::make_prop(set_up.settings.prop), framebuffer}));
     for (const FloorFilter filter : {FloorFilter::Trilinear, FloorFilter::OneLevel}) {
         TRY_VOID(set->add(make_floor(set->stage_, filter), described(TechniqueKind::Floor, -1, 0)));
     }
@@ -108,12 +109,13 @@ Result<void> TechniqueSet::add_sampled(const MakePeer& make, const TechniqueResu
     return {};
 }
 
-Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, const PictureOptions& usual) {
+Result<void> TechniqueSet::add_level(const pack::Pack& pack, std::uint32_t level,
+                                     const PictureOptions& usual) {
     PictureOptions options = usual;
     options.samples = options.samples > 0 ? options.samples : pack.samples;
     if (level + 1 == pack.levels.size()) {
         options.samples =
-            std::max(options.samples, finest_samples); // as `render --technique finest` draws it
+            std::max(options.samples, render::finest_samples); // as `render --technique finest` draws it
     }
     TechniqueResult result =
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3);
@@ -125,14 +127,14 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
     return add(make_pack_level(stage_, pack, level, options, level_name(pack, level)), std::move(result));
 }
 
-Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& options) {
-    SceneRequest request;
+Result<void> TechniqueSet::add_auto(const pack::Pack& pack, const PictureOptions& options) {
+    scene::SceneRequest request;
     request.light = options.lit;
     request.samples = options.samples;
-    TRY(const ScenePlan plan, plan_scene(stage_.settings, outline_of(pack), request));
+    TRY(const scene::ScenePlan plan, scene::plan_scene(stage_.settings, pack::outline_of(pack), request));
     const Result<void> added =
         add_auto_mesh(pack, quality_level_that(plan.quality_levels, false).value(), options);
-    const std::optional<QualityLevel> relief = quality_level_that(plan.quality_levels, true);
+    const std::optional<scene::QualityLevel> relief = quality_level_that(plan.quality_levels, true);
     if (!added || !relief) {
         return added;
     }
@@ -142,7 +144,7 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
                             [&](std::uint32_t texels) { return texels == relief->level; });
 }
 
-Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const QualityLevel& quality_level,
+Result<void> TechniqueSet::add_auto_mesh(const pack::Pack& pack, const scene::QualityLevel& quality_level,
                                          PictureOptions options) {
     TRY(std::string kept, keep_drawn(pack, quality_level.level));
     options.samples = quality_level.samples;
@@ -156,7 +158,7 @@ Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const QualityLevel& q
                std::move(result));
 }
 
-Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+Result<void> TechniqueSet::add_peers(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                      bool full_mesh, const std::vector<int>& two_pass_pixels,
                                      const std::vector<int>& samples) {
     TRY(const auto peer, PeerMesh::upload(mesh, prop_from_artifact));
@@ -185,7 +187,8 @@ Result<void> TechniqueSet::add_ray_cast(const Truth& truth, const std::vector<in
     return added;
 }
 
-Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+Result<void> TechniqueSet::add_levels_of_detail(const bake::SourceMesh& mesh,
+                                                const glm::dmat4& prop_from_artifact,
                                                 const PeerChoice& choice) {
     Result<void> added;
     for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
@@ -209,7 +212,7 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
     return added;
 }
 
-Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const bake::SourceMesh& mesh,
                                             const glm::dmat4& prop_from_artifact, int texels) {
     TRY(std::vector<ReliefPeer> peers, make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels));
     for (ReliefPeer& peer : peers) {
@@ -218,35 +221,39 @@ Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh
     return {};
 }
 
-Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,
-                                      const std::optional<SeenLevel>& seen, const PictureOptions& options,
-                                      const std::string& name) {
+Result<void> TechniqueSet::add_relief(const pack::Pack& pack, TechniqueKind kind, relief::BlockRelief relief,
+                                      const std::optional<scene::SeenLevel>& seen,
+                                      const PictureOptions& options, const std::string& name) {
     TechniqueResult result = described(kind, -1, relief.blocks.size());
     result.samples = options.samples > 0 ? options.samples : pack.samples;
     if (kind != TechniqueKind::ReliefRaster) {
-        result.bytes = bytes_of(relief);
+        result.bytes = relief::bytes_of(relief);
         TRY(result.drawn_as,
             keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box)));
     }
-    return add(make_pack_relief(stage_, pack, std::make_shared<const BlockRelief>(std::move(relief)), seen,
-                                options, name, kind == TechniqueKind::ReliefGpu),
+    return add(make_pack_relief(stage_, pack, std::make_shared<const relief::BlockRelief>(std::move(relief)),
+                                seen, options, name, kind == TechniqueKind::ReliefGpu),
                std::move(result));
 }
 
-Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind,
+Result<void> TechniqueSet::add_pack_reliefs(const pack::Pack& pack, TechniqueKind kind,
                                             const PictureOptions& options,
                                             const std::function<bool(std::uint32_t)>& wanted) {
-    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
-    TRY(const SeenByEyes seen, seen_by_eyes(outline_of(pack)));
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack));
+    TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(pack::outline_of(pack)));
     Result<void> added;
     for (std::size_t k = 0; added && k < reliefs.size(); ++k) {
-        const ReliefOutline& outline = reliefs[k];
+        const pack::ReliefOutline& outline = reliefs[k];
         if (!wanted(outline.texels)) {
             continue;
         }
-        const std::string name = name_of(
-            QualityLevel{outline.texels, pack.samples, false, true, kind == TechniqueKind::ReliefGpu});
-        added = relief_of(pack, outline).and_then([&](BlockRelief relief) {
+        const std::string name =
+            scene::name_of(scene::QualityLevel{.level = outline.texels,
+                                               .samples = pack.samples,
+                                               .enough = false,
+                                               .relief = true,
+                                               .on_gpu = kind == TechniqueKind::ReliefGpu});
+        added = pack::relief_of(pack, outline).and_then([&](relief::BlockRelief relief) {
             return add_relief(pack, kind, std::move(relief), seen.reliefs[k], options,
                               kind == TechniqueKind::Auto ? fmt::format("auto ({})", name) : name);
         });
@@ -254,14 +261,14 @@ Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind
     return added;
 }
 
-Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
+Result<void> TechniqueSet::add_reliefs(const pack::Pack& pack, const PictureOptions& options) {
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options, [](std::uint32_t) { return true; });
 }
 
-Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOptions& options) {
-    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
+Result<void> TechniqueSet::add_finest_relief(const pack::Pack& pack, const PictureOptions& options) {
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack));
     std::uint32_t max_texels = 0;
-    for (const ReliefOutline& each : reliefs) {
+    for (const pack::ReliefOutline& each : reliefs) {
         max_texels = std::max(max_texels, each.texels);
     }
     if (max_texels == 0) {
@@ -271,11 +278,11 @@ Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOpti
                             [max_texels](std::uint32_t texels) { return texels == max_texels; });
 }
 
-Result<void> TechniqueSet::add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options) {
+Result<void> TechniqueSet::add_reliefs_on_gpu(const pack::Pack& pack, const PictureOptions& options) {
     return add_pack_reliefs(pack, TechniqueKind::ReliefGpu, options, [](std::uint32_t) { return true; });
 }
 
-Result<void> TechniqueSet::add_relief_rasters(const Pack& pack, const std::vector<int>& texels,
+Result<void> TechniqueSet::add_relief_rasters(const pack::Pack& pack, const std::vector<int>& texels,
                                               const PictureOptions& options) {
     for (const int size : texels) {
         TRY_VOID(add_relief(pack, TechniqueKind::ReliefRaster, blocks_of_pack(pack, size), std::nullopt,
@@ -284,13 +291,13 @@ Result<void> TechniqueSet::add_relief_rasters(const Pack& pack, const std::vecto
     return {};
 }
 
-Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
+image::Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
     techniques_[k]->draw(pose);
-    return read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+    return render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
 }
 
 Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
-    Image8 colour = picture(k, pose);
+    image::Image8 colour = picture(k, pose);
     Result<Drawn> made = places(k, pose);
     if (made) {
         made->colour = std::move(colour);
@@ -299,8 +306,8 @@ Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
 }
 
 Result<Drawn> TechniqueSet::places(std::size_t k, const BenchPose& pose) {
-    TRY(ImageFloat points, techniques_[k]->hit_points(pose));
-    return Drawn{Image8(stage_.width(), stage_.height()), std::move(points)};
+    TRY(image::ImageFloat points, techniques_[k]->hit_points(pose));
+    return Drawn{image::Image8(stage_.width(), stage_.height()), std::move(points)};
 }
 
 void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {
@@ -331,4 +338,4 @@ void in_units_of_floor(std::span<TechniqueResult> results) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -20,12 +20,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Settings and their name in tables.
 struct SetUp {
     std::string name;
-    Settings settings;
+    settings::Settings settings;
 };
 
 enum class TechniqueKind {
@@ -54,8 +54,9 @@ struct TechniqueResult {
     std::uint64_t triangles = 0;      ///< drawn triangles
     int samples = 1;                  ///< samples per pixel
     std::vector<PictureError> errors; ///< one per pose; empty for the floor
-    std::vector<std::optional<ErrorEstimate>> estimates; ///< the exhibit's estimates, one per pose; nullopt
-                                                         ///< for peers
+    std::vector<std::optional<scene::ErrorEstimate>>
+        estimates; ///< the exhibit's estimates, one per pose; nullopt
+                   ///< for peers
     ErrorSummary error;
     Spread time_ms;
     double times_floor = 0.0; ///< median / median of the faster floor
@@ -72,35 +73,35 @@ public:
 
     /// The exhibit's choice while frames are in time: the mesh level that is good enough, and a relief
     /// if one is. The exhibit measures both and chooses the faster. The pack must outlive the set.
-    [[nodiscard]] Result<void> add_auto(const Pack& pack, const PictureOptions& options);
-    [[nodiscard]] Result<void> add_level(const Pack& pack, std::uint32_t level,
+    [[nodiscard]] Result<void> add_auto(const pack::Pack& pack, const PictureOptions& options);
+    [[nodiscard]] Result<void> add_level(const pack::Pack& pack, std::uint32_t level,
                                          const PictureOptions& options);
     /// `samples` here and below: per pixel; each peer is added once for each number.
-    [[nodiscard]] Result<void> add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
+    [[nodiscard]] Result<void> add_peers(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                          bool full_mesh, const std::vector<int>& two_pass_pixels,
                                          const std::vector<int>& samples = {1});
     [[nodiscard]] Result<void> add_ray_cast(const Truth& truth, const std::vector<int>& samples = {1});
     /// Adds the simplified source, drawn through the collineation and by two passes, as `choice` selects.
-    [[nodiscard]] Result<void> add_levels_of_detail(const SourceMesh& mesh,
+    [[nodiscard]] Result<void> add_levels_of_detail(const bake::SourceMesh& mesh,
                                                     const glm::dmat4& prop_from_artifact,
                                                     const PeerChoice& choice);
 
     /// Adds peers that show relief images of `texels` per side.
-    [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const SourceMesh& mesh,
+    [[nodiscard]] Result<void> add_relief_peers(const Truth& truth, const bake::SourceMesh& mesh,
                                                 const glm::dmat4& prop_from_artifact, int texels);
 
     /// The pack's reliefs, one per resolution. The pack must outlive the set.
-    [[nodiscard]] Result<void> add_reliefs(const Pack& pack, const PictureOptions& options);
+    [[nodiscard]] Result<void> add_reliefs(const pack::Pack& pack, const PictureOptions& options);
     /// The pack's relief with the most texels.
-    [[nodiscard]] Result<void> add_finest_relief(const Pack& pack, const PictureOptions& options);
+    [[nodiscard]] Result<void> add_finest_relief(const pack::Pack& pack, const PictureOptions& options);
     /// The pack's reliefs, drawn by the GPU.
-    [[nodiscard]] Result<void> add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options);
+    [[nodiscard]] Result<void> add_reliefs_on_gpu(const pack::Pack& pack, const PictureOptions& options);
     /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
-    [[nodiscard]] Result<void> add_relief_rasters(const Pack& pack, const std::vector<int>& texels,
+    [[nodiscard]] Result<void> add_relief_rasters(const pack::Pack& pack, const std::vector<int>& texels,
                                                   const PictureOptions& options);
 
     /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
-    [[nodiscard]] Image8 picture(std::size_t k, const BenchPose& pose);
+    [[nodiscard]] image::Image8 picture(std::size_t k, const BenchPose& pose);
 
     [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
 
@@ -118,12 +119,12 @@ public:
     [[nodiscard]] const std::vector<TechniqueResult>& results() const { return results_; }
 
 private:
-    TechniqueSet(std::unique_ptr<Display> display, Stage stage)
+    TechniqueSet(std::unique_ptr<display::Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
-    [[nodiscard]] Result<void> add_auto_mesh(const Pack& pack, const QualityLevel& quality_level,
+    [[nodiscard]] Result<void> add_auto_mesh(const pack::Pack& pack, const scene::QualityLevel& quality_level,
                                              PictureOptions options);
     /// Adds the pack's reliefs whose texel count is `wanted`.
-    [[nodiscard]] Result<void> add_pack_reliefs(const Pack& pack, TechniqueKind kind,
+    [[nodiscard]] Result<void> add_pack_reliefs(const pack::Pack& pack, TechniqueKind kind,
                                                 const PictureOptions& options,
                                                 const std::function<bool(std::uint32_t)>& wanted);
     /// Hit points without colour.
@@ -133,23 +134,24 @@ private:
     [[nodiscard]] ShownImages shown_images(ShownPicture& shown, const BenchPose& pose) const;
     /// One per technique; the floor's entries are meaningless.
     [[nodiscard]] Result<std::vector<PictureError>> shape_errors(const Truth& truth, const BenchPose& pose);
-    [[nodiscard]] Result<void> add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,
-                                          const std::optional<SeenLevel>& seen, const PictureOptions& options,
-                                          const std::string& name);
+    [[nodiscard]] Result<void> add_relief(const pack::Pack& pack, TechniqueKind kind,
+                                          relief::BlockRelief relief,
+                                          const std::optional<scene::SeenLevel>& seen,
+                                          const PictureOptions& options, const std::string& name);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
     /// Also measures pictures of the level, or of the relief, against rays at its own surface. Returns the
     /// surface's name.
-    [[nodiscard]] Result<std::string> keep_drawn(const Pack& pack, std::uint32_t level);
-    [[nodiscard]] Result<std::string> keep_drawn(const Pack& pack, const BlockRelief& relief,
+    [[nodiscard]] Result<std::string> keep_drawn(const pack::Pack& pack, std::uint32_t level);
+    [[nodiscard]] Result<std::string> keep_drawn(const pack::Pack& pack, const relief::BlockRelief& relief,
                                                  const std::string& name);
-    [[nodiscard]] Result<std::string> keep_surface(const Pack& pack, SourceMesh surface,
+    [[nodiscard]] Result<std::string> keep_surface(const pack::Pack& pack, bake::SourceMesh surface,
                                                    const std::string& name);
     using MakePeer =
         std::function<Result<std::unique_ptr<Technique>>(const std::shared_ptr<const PeerSamples>&)>;
     [[nodiscard]] Result<void> add_sampled(const MakePeer& make, const TechniqueResult& result,
                                            const std::vector<int>& samples);
 
-    std::unique_ptr<Display> display_; ///< first: its context outlives everything below
+    std::unique_ptr<display::Display> display_; ///< first: its context outlives everything below
     Stage stage_;
     std::map<std::string, Truth> drawn_;                             ///< by name of the surface
     std::map<int, std::shared_ptr<const PeerSamples>> peer_samples_; ///< by number of samples; no entry for
@@ -162,4 +164,4 @@ private:
 /// floor.
 void in_units_of_floor(std::span<TechniqueResult> results);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

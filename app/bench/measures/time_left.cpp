@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 constexpr double min_share = 0.02; ///< share of a step below which its duration is unknown
@@ -66,4 +66,4 @@ std::optional<double> TimeLeft::expected_s(const WorkStep& step) const {
     return known_s * step.guess / known_guess;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct WorkStep {
     std::string name; ///< unique
@@ -43,4 +43,4 @@ private:
     double begun_s_ = 0.0; ///< start of the current step
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

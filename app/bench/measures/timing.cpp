@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::vector<FrameTimes> time_interleaved(std::span<Technique* const> techniques,
     return times;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

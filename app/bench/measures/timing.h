@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Called repeatedly with the completed share, 0..1.
 using Progress = std::function<void(double done)>;
@@ -40,4 +40,4 @@ struct FrameTimes {
                                                        std::span<const BenchPose> poses,
                                                        const TimingPlan& plan, const Progress& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

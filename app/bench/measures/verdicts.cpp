@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -19,11 +19,12 @@ LimitVerdict judge_silhouette(const TechniqueResult& level, const Limits& limits
     const auto failed =
         std::count_if(level.errors.begin(), level.errors.end(),
                       [&limits](const PictureError& error) { return !silhouette_holds(error, limits); });
-    return {
-        fmt::format("silhouette <= {:g} % or {:g} px", limits.silhouette_percent, limits.outline_shift_px),
-        fmt::format("worst {:.3f} %, {:.3f} px; {} of {} poses beyond", level.error.worst.silhouette_percent,
-                    level.error.worst.outline_shift_px, failed, level.errors.size()),
-        failed == 0};
+    return {.what = fmt::format("silhouette <= {:g} % or {:g} px", limits.silhouette_percent,
+                                limits.outline_shift_px),
+            .found = fmt::format("worst {:.3f} %, {:.3f} px; {} of {} poses beyond",
+                                 level.error.worst.silhouette_percent, level.error.worst.outline_shift_px,
+                                 failed, level.errors.size()),
+            .held = failed == 0};
 }
 
 bool errors_hold(const TechniqueResult& level, const Limits& limits) {
@@ -42,12 +43,12 @@ LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose,
             fine = &technique;
         }
     }
-    return {fmt::format("{}: <= {:g} % or {:g} px, <= {:g} mm at <= {:g} x floor", whose,
-                        limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
-                        limits.times_floor),
-            fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
-                            : std::string("no level or relief is as accurate"),
-            fine != nullptr && fine->times_floor <= limits.times_floor};
+    return {.what = fmt::format("{}: <= {:g} % or {:g} px, <= {:g} mm at <= {:g} x floor", whose,
+                                limits.silhouette_percent, limits.outline_shift_px, limits.geometric_mean_mm,
+                                limits.times_floor),
+            .found = fine != nullptr ? fmt::format("{}: {:.2f} x", fine->name, fine->times_floor)
+                                     : std::string("no level or relief is as accurate"),
+            .held = fine != nullptr && fine->times_floor <= limits.times_floor};
 }
 
 /// Judges the picture that the kiosk shows, lit and with all its samples.
@@ -97,16 +98,16 @@ std::vector<LimitVerdict> judge(const TechniqueResult& level, const Limits& limi
          fmt::format("worst pose {:.3f} px", worst.picture_shift_px),
          worst.picture_shift_px <= limits.outline_shift_px}};
     if (!level.drawn_as.empty()) {
-        verdicts.push_back({fmt::format("drawn within {:g} px of its place", max_drawn_shift_px),
-                            fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
-                            worst.drawn_shift_px <= max_drawn_shift_px});
+        verdicts.push_back({.what = fmt::format("drawn within {:g} px of its place", max_drawn_shift_px),
+                            .found = fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
+                            .held = worst.drawn_shift_px <= max_drawn_shift_px});
     }
     const std::vector<LimitVerdict> shown = judge_shown(level, limits);
     verdicts.insert(verdicts.end(), shown.begin(), shown.end());
     if (limits.times_floor > 0.0) {
-        verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
-                            fmt::format("{:.2f} x", level.times_floor),
-                            level.times_floor <= limits.times_floor});
+        verdicts.push_back({.what = fmt::format("median cost <= {:g} x floor", limits.times_floor),
+                            .found = fmt::format("{:.2f} x", level.times_floor),
+                            .held = level.times_floor <= limits.times_floor});
     }
     return verdicts;
 }
@@ -201,4 +202,4 @@ Result<void> require_limits(std::span<const SetUpResult> results) {
                 first);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct Limits {
     double silhouette_percent = 0.0;
@@ -24,15 +24,39 @@ struct Limits {
 /// Shift of a shown level or relief against its own surface: below what a person can see, and far below half
 /// a pixel. Against the scan, it may be displaced as far as its outlines may.
 inline constexpr double max_drawn_shift_px = 0.05;
-inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
-inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
+inline constexpr Limits default_level_limits{.silhouette_percent = 0.6,
+                                             .outline_shift_px = 0.3,
+                                             .geometric_mean_mm = 0.2,
+                                             .colour_rmse = 14.0,
+                                             .times_floor = 4.0};
+inline constexpr Limits finest_level_limits{.silhouette_percent = 0.15,
+                                            .outline_shift_px = 0.1,
+                                            .geometric_mean_mm = 0.05,
+                                            .colour_rmse = 8.0,
+                                            .times_floor = 0.0};
 /// Stricter limits: for the default level, and for some fine level of the pack.
-inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 0.0};
-inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 8.0};
+inline constexpr Limits pushed_default_limits{.silhouette_percent = 0.35,
+                                              .outline_shift_px = 0.175,
+                                              .geometric_mean_mm = 0.16,
+                                              .colour_rmse = 14.0,
+                                              .times_floor = 0.0};
+inline constexpr Limits fine_level_limits{.silhouette_percent = 0.1,
+                                          .outline_shift_px = 0.067,
+                                          .geometric_mean_mm = 0.05,
+                                          .colour_rmse = 14.0,
+                                          .times_floor = 8.0};
 /// Applies to the cheapest level or relief of the pack that keeps them, regardless of its colours. They are
 /// reported and never end a run.
-inline constexpr Limits wished_cheap_limits{0.15, 0.1, 0.05, std::numeric_limits<double>::infinity(), 2.0};
-inline constexpr Limits wished_fine_limits{0.05, 0.05, 0.01, std::numeric_limits<double>::infinity(), 4.0};
+inline constexpr Limits wished_cheap_limits{.silhouette_percent = 0.15,
+                                            .outline_shift_px = 0.1,
+                                            .geometric_mean_mm = 0.05,
+                                            .colour_rmse = std::numeric_limits<double>::infinity(),
+                                            .times_floor = 2.0};
+inline constexpr Limits wished_fine_limits{.silhouette_percent = 0.05,
+                                           .outline_shift_px = 0.05,
+                                           .geometric_mean_mm = 0.01,
+                                           .colour_rmse = std::numeric_limits<double>::infinity(),
+                                           .times_floor = 4.0};
 /// Required speed-up over the two-pass method at no larger errors, for a source of a million triangles and of
 /// four million; sources more than 5 % smaller are not judged.
 inline constexpr std::uint64_t min_two_pass_triangles = 950'000;
@@ -62,4 +86,4 @@ struct LimitVerdict {
 /// Ignores wishes. The error names the number of missed verdicts, and the first of them.
 [[nodiscard]] Result<void> require_limits(std::span<const SetUpResult> results);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

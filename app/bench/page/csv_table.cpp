@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Result<CsvTable> CsvTable::parse(std::string_view text, std::string file) {
     CsvTable table(std::move(file));
@@ -87,4 +87,4 @@ Result<double> CsvTable::number(std::size_t row, std::string_view column) const 
     return value;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

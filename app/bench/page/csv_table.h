@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class CsvTable {
 public:
@@ -40,4 +40,4 @@ private:
     std::vector<Row> rows_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

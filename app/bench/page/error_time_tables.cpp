@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -237,4 +237,4 @@ std::vector<ReportTable> error_time_tables() {
          .rows = peer_rows}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

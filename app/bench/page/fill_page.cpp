@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::string line_of(const FilledTable& table, bool check) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 enum class TableState {
     Absent,  ///< its CSV is not there
@@ -38,4 +38,4 @@ struct FilledPage {
 /// "NAME: written", one line; `check`: the page is not written.
 [[nodiscard]] std::string line_of(const FilledTable& table, bool check);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

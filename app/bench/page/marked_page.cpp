@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -63,7 +63,7 @@ Result<std::vector<MarkedTable>> marked_tables(std::string_view page, std::strin
                 return bad_input("page.mark_twice", "{}, line {}: there is another table '{}' above", file,
                                  number, name);
             }
-            tables.push_back({name, number, end, end});
+            tables.push_back({.name = name, .line = number, .begin = end, .end = end});
             open = true;
         } else if (line == last_mark) {
             if (!open) {
@@ -113,4 +113,4 @@ std::string markdown_table(const std::vector<std::string>& header, const TableCe
     return table;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

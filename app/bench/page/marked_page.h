@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// A table's place in the page, without its marks.
 struct MarkedTable {
@@ -38,4 +38,4 @@ using TableCells = std::vector<std::vector<std::string>>;
 /// Markdown, a line break at the end. A first cell that repeats the one above it is left empty.
 [[nodiscard]] std::string markdown_table(const std::vector<std::string>& header, const TableCells& rows);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -119,9 +119,12 @@ Result<TableCells> latency_rows(std::span<const MeasuredRun> runs) {
         int shown_decimals;
     };
     constexpr std::array figures = {
-        Figure{"strokes", 0.05, "rms_mm", 2},        Figure{"strokes", 0.25, "rms_mm", 2},
-        Figure{"strokes", 0.5, "rms_mm", 2},         Figure{"rest", 0.0, "rms_mm", 3},
-        Figure{"stop_overshoot", 0.0, "mean_mm", 2}, Figure{"stop_overshoot", 0.0, "p95_mm", 2}};
+        Figure{.motion = "strokes", .speed_m_s = 0.05, .column = "rms_mm", .shown_decimals = 2},
+        Figure{.motion = "strokes", .speed_m_s = 0.25, .column = "rms_mm", .shown_decimals = 2},
+        Figure{.motion = "strokes", .speed_m_s = 0.5, .column = "rms_mm", .shown_decimals = 2},
+        Figure{.motion = "rest", .speed_m_s = 0.0, .column = "rms_mm", .shown_decimals = 3},
+        Figure{.motion = "stop_overshoot", .speed_m_s = 0.0, .column = "mean_mm", .shown_decimals = 2},
+        Figure{.motion = "stop_overshoot", .speed_m_s = 0.0, .column = "p95_mm", .shown_decimals = 2}};
     TableCells rows;
     for (const Filtered& filter : filters) {
         rows.push_back({filter.words});
@@ -223,4 +226,4 @@ std::vector<ReportTable> all_report_tables() {
     return tables;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

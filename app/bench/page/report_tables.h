@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// What one run of a command left in its folder.
 struct MeasuredRun {
@@ -41,4 +41,4 @@ struct ReportTable {
 /// All of them. No two have one name.
 [[nodiscard]] std::vector<ReportTable> all_report_tables();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 std::string grouped_cell(double whole_number) {
     std::string digits = fmt::format("{:.0f}", whole_number);
@@ -56,4 +56,4 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

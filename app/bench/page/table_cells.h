@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 [[nodiscard]] inline std::string decimals(double value, int count) {
     return fmt::format("{:.{}f}", value, count);
@@ -39,4 +39,4 @@ numbers_in(const CsvTable& table, const std::vector<std::size_t>& rows, std::str
 /// Of a list that is not empty.
 [[nodiscard]] double mean_of(const std::vector<double>& values);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::vector<ReportTable> view_tables() {
              .rows = shimmer_rows}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 
 extern char** environ;
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -79,4 +79,4 @@ Result<void> draw_tables(const std::filesystem::path& script, const std::vector<
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Path of the script in the build, derived from the running program's path.
 [[nodiscard]] std::filesystem::path plot_script();
@@ -20,4 +20,4 @@ namespace frustumscreen {
 [[nodiscard]] Result<void> draw_tables(const std::filesystem::path& script,
                                        const std::vector<std::string>& arguments);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

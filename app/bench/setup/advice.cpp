@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -17,19 +17,19 @@ constexpr int face_samples = 40; ///< samples along a face's edges
 constexpr double margin = 1.001; ///< the picture extends slightly beyond the table
 
 /// The largest upright box that stands on z = 0 and fits into the prop.
-Box largest_box(const PropShape& prop, double width_by_height) {
+geometry::Box largest_box(const geometry::PropShape& prop, double width_by_height) {
     const double half = 0.5 * width_by_height;
     std::vector<glm::dvec3> corners;
     for (unsigned k = 0; k < 8; ++k) {
         corners.emplace_back((k & 1U) != 0 ? half : -half, (k & 2U) != 0 ? half : -half,
                              (k & 4U) != 0 ? 1.0 : 0.0);
     }
-    const double height = largest_scale_inside(prop, corners);
+    const double height = geometry::largest_scale_inside(prop, corners);
     return {{-half * height, -half * height, 0.0}, {half * height, half * height, height}};
 }
 
 /// True if the line through two points meets the ellipsoid that fills the box.
-bool meets_ellipsoid(const Box& box, const glm::dvec3& from, const glm::dvec3& through) {
+bool meets_ellipsoid(const geometry::Box& box, const glm::dvec3& from, const glm::dvec3& through) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     const glm::dvec3 half = 0.5 * (box.high - box.low);
     const glm::dvec3 o = (from - middle) / half;
@@ -40,14 +40,15 @@ bool meets_ellipsoid(const Box& box, const glm::dvec3& from, const glm::dvec3& t
 
 /// Projector pixels on the artifact. At height h of the lens above a plane, a surface at depth Z takes fx fy h / Z^3
 /// pixels a square metre.
-double pixels_on(const PropShape& prop, const ProjectorSettings& projector, const glm::dvec3& eye_m,
-                 double yaw, const Box& artifact) {
-    const RigidTransform table_from_prop{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)};
+double pixels_on(const geometry::PropShape& prop, const settings::ProjectorSettings& projector,
+                 const glm::dvec3& eye_m, double yaw, const geometry::Box& artifact) {
+    const geometry::RigidTransform table_from_prop{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)};
     const glm::dvec3 eye = table_from_prop.inverse().point(eye_m);
-    const RigidTransform projector_from_prop = projector.table_from_projector.inverse() * table_from_prop;
+    const geometry::RigidTransform projector_from_prop =
+        projector.table_from_projector.inverse() * table_from_prop;
     const glm::dvec3 lens = projector_from_prop.inverse().translation;
     double pixels = 0.0;
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         const double h = face.plane.distance(lens);
         if (h <= 0.0 || face.plane.distance(eye) <= 0.0) {
             continue;
@@ -73,9 +74,9 @@ double pixels_on(const PropShape& prop, const ProjectorSettings& projector, cons
 }
 
 /// The points that the picture must cover, table frame: the corners of the table, and those of the prop at its edges.
-std::vector<glm::dvec3> to_cover(const Settings& settings) {
+std::vector<glm::dvec3> to_cover(const settings::Settings& settings) {
     const glm::dvec2 table = 0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m);
-    const glm::dvec2 reach = reach_on_table(settings.prop, settings.table);
+    const glm::dvec2 reach = settings::reach_on_table(settings.prop, settings.table);
     const glm::dvec2 top = reach + settings.prop.top_m / std::numbers::sqrt2;
     std::vector<glm::dvec3> points;
     for (const glm::dvec2 side :
@@ -86,9 +87,9 @@ std::vector<glm::dvec3> to_cover(const Settings& settings) {
     return points;
 }
 
-bool covers(const Settings& settings) {
-    const Pinhole& pinhole = settings.projector.pinhole;
-    const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
+bool covers(const settings::Settings& settings) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    const geometry::RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
     const std::vector<glm::dvec3> points = to_cover(settings);
     return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
         const auto pixel = pinhole.pixel(projector_from_table.point(point));
@@ -99,8 +100,8 @@ bool covers(const Settings& settings) {
 }
 
 /// Zooms the lens, and shifts it for a shifted mount, so that the picture just covers the table.
-void fit_picture(Settings& settings, Mount mount, double wider) {
-    Pinhole& pinhole = settings.projector.pinhole;
+void fit_picture(settings::Settings& settings, Mount mount, double wider) {
+    geometry::Pinhole& pinhole = settings.projector.pinhole;
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
     for (const glm::dvec3& point : to_cover(settings)) {
@@ -117,11 +118,11 @@ void fit_picture(Settings& settings, Mount mount, double wider) {
     pinhole.cy = 0.5 * size.y - f * middle.y;
 }
 
-Settings with_projector(Settings settings, double height_m, double side_m, Mount mount) {
+settings::Settings with_projector(settings::Settings settings, double height_m, double side_m, Mount mount) {
     const glm::dvec3 lens(0.0, side_m, height_m);
     const glm::dvec3 aim = mount == Mount::Tilted ? glm::dvec3(0.0) : glm::dvec3(0.0, side_m, 0.0);
     settings.projector.table_from_projector =
-        looking_at(lens, aim, 0.0).value_or(settings.projector.table_from_projector);
+        settings::looking_at(lens, aim, 0.0).value_or(settings.projector.table_from_projector);
     return settings;
 }
 
@@ -158,27 +159,27 @@ double height_of(const std::vector<glm::dvec3>& artifact) {
 }
 
 /// True if the artifacts in a prop have the required size.
-bool is_large_enough(const PropShape& prop, const SetUpFigures& now, const AdviceOptions& options) {
+bool is_large_enough(const geometry::PropShape& prop, const SetUpFigures& now, const AdviceOptions& options) {
     if (options.asks_for_zone()) {
-        return height_of(usual_artifact(prop)) >= options.artifact_m - 1e-9;
+        return height_of(settings::usual_artifact(prop)) >= options.artifact_m - 1e-9;
     }
     return largest_box(prop, 1.0).high.z >= 0.995 * now.wide_height_m &&
            largest_box(prop, 0.5).high.z >= 0.995 * now.slim_height_m;
 }
 
-std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigures& now,
-                                       const AdviceOptions& options) {
+std::vector<settings::PropSettings> props_to_try(const settings::Settings& settings, const SetUpFigures& now,
+                                                 const AdviceOptions& options) {
     const double table = std::min(settings.table.width_m, settings.table.depth_m);
-    std::vector<PropSettings> props;
+    std::vector<settings::PropSettings> props;
     for (const double base_m : steps(0.1, 0.65 * table, 0.01)) { // a larger prop could hardly be moved
         for (const double top_m : steps(0.03, 0.6 * base_m, 0.01)) {
             for (const double height_m : steps(0.06, base_m, 0.005)) {
-                PropSettings prop = settings.prop;
-                prop.kind = PropKind::Frustum;
+                settings::PropSettings prop = settings.prop;
+                prop.kind = settings::PropKind::Frustum;
                 prop.base_m = base_m;
                 prop.top_m = top_m;
                 prop.height_m = height_m;
-                if (is_large_enough(make_prop(prop), now, options)) {
+                if (is_large_enough(settings::make_prop(prop), now, options)) {
                     props.push_back(prop);
                 }
             }
@@ -187,14 +188,15 @@ std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigu
     return props;
 }
 
-SetUpFigures examine_without_zone(const Settings& settings) {
-    const PropShape prop = make_prop(settings.prop);
+SetUpFigures examine_without_zone(const settings::Settings& settings) {
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
     SetUpFigures figures;
-    figures.reach_m = reach_on_table(settings.prop, settings.table);
-    figures.light = light_range(prop, settings.projector.table_from_projector.translation, figures.reach_m);
-    figures.reference = even_light(settings);
+    figures.reach_m = settings::reach_on_table(settings.prop, settings.table);
+    figures.light =
+        settings::light_range(prop, settings.projector.table_from_projector.translation, figures.reach_m);
+    figures.reference = settings::even_light(settings);
     figures.wide_height_m = largest_box(prop, 1.0).high.z;
-    const Box slim = largest_box(prop, 0.5);
+    const geometry::Box slim = largest_box(prop, 0.5);
     figures.slim_height_m = slim.high.z;
     constexpr std::array turned{0.0, 0.25 * std::numbers::pi};
     for (const double yaw : turned) {
@@ -205,25 +207,28 @@ SetUpFigures examine_without_zone(const Settings& settings) {
     return figures;
 }
 
-void find_zone(const Settings& settings, SetUpFigures& figures) {
-    const std::vector<glm::dvec3> artifact = usual_artifact(make_prop(settings.prop));
+void find_zone(const settings::Settings& settings, SetUpFigures& figures) {
+    const std::vector<glm::dvec3> artifact = settings::usual_artifact(settings::make_prop(settings.prop));
     figures.usual_height_m = height_of(artifact);
-    figures.zone_m = 2.0 * whole_zone(settings, all_eyes(settings.eye), artifact).rectangle.half_m;
+    figures.zone_m =
+        2.0 * settings::whole_zone(settings, settings::all_eyes(settings.eye), artifact).rectangle.half_m;
 }
 
 /// The best prop for a projector; nothing if there is no prop to try. `props` must be sorted, the smallest first.
-std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount, double wider,
-                                     const std::vector<PropSettings>& props, const AdviceOptions& options,
-                                     double pixels) {
+std::optional<SetUpChoice> best_prop(const settings::Settings& projector, Mount mount, double wider,
+                                     const std::vector<settings::PropSettings>& props,
+                                     const AdviceOptions& options, double pixels) {
     std::optional<SetUpChoice> best;
-    for (const PropSettings& prop : props) {
+    for (const settings::PropSettings& prop : props) {
         if (best && best->works && prop.base_m > best->settings.prop.base_m) {
             break;
         }
-        SetUpChoice choice{projector, mount, {}, false, std::nullopt};
+        SetUpChoice choice{
+            .settings = projector, .mount = mount, .figures = {}, .works = false, .cost = std::nullopt};
         choice.settings.prop = prop;
         const glm::dvec3 lens = projector.projector.table_from_projector.translation;
-        choice.figures.light = light_range(make_prop(prop), lens, reach_on_table(prop, projector.table));
+        choice.figures.light = settings::light_range(settings::make_prop(prop), lens,
+                                                     settings::reach_on_table(prop, projector.table));
         const bool even = choice.figures.light.evenness >= options.evenness;
         if (even || !best || choice.figures.light.evenness > best->figures.light.evenness) {
             fit_picture(choice.settings, mount, wider);
@@ -251,24 +256,28 @@ std::string_view name_of(Mount mount) {
     return mount == Mount::Tilted ? "tilted" : "shifted";
 }
 
-SetUpFigures examine(const Settings& settings) {
+SetUpFigures examine(const settings::Settings& settings) {
     SetUpFigures figures = examine_without_zone(settings);
     find_zone(settings, figures);
     return figures;
 }
 
-SetUpChoice as_it_is(const Settings& settings) {
+SetUpChoice as_it_is(const settings::Settings& settings) {
     const SetUpFigures figures = examine(settings);
-    return {settings, Mount::Tilted, figures, figures.covered, std::nullopt};
+    return {.settings = settings,
+            .mount = Mount::Tilted,
+            .figures = figures,
+            .works = figures.covered,
+            .cost = std::nullopt};
 }
 
-std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,
+std::vector<SetUpChoice> choices(const settings::Settings& settings, const AdviceOptions& options,
                                  const std::function<void(double)>& progress) {
     const SetUpFigures now = examine(settings);
-    const std::vector<PropSettings> props = props_to_try(settings, now, options);
+    const std::vector<settings::PropSettings> props = props_to_try(settings, now, options);
     const std::vector<double> widths =
         options.asks_for_zone() ? std::vector{1.0, 1.1, 1.2, 1.3, 1.4} : std::vector{1.0};
-    Settings other = settings;
+    settings::Settings other = settings;
     if (options.width > 0) {
         other.projector.pinhole = other.projector.pinhole.scaled_to(options.width, options.height);
     }
@@ -283,7 +292,7 @@ std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& 
             if (side_m == 0.0 && mount == Mount::Shifted) {
                 continue; // equal to a tilt of zero
             }
-            const Settings projector = with_projector(other, height_m, side_m, mount);
+            const settings::Settings projector = with_projector(other, height_m, side_m, mount);
             for (const double wider : widths) {
                 if (auto choice =
                         best_prop(projector, mount, wider, props, options, options.pixels * now.pixels)) {
@@ -314,4 +323,4 @@ std::vector<SetUpChoice*> best_working(std::vector<SetUpChoice>& choices, std::s
     return working;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -14,12 +14,12 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The figures of a set-up for a visitor. They assume two upright bodies as artifacts, each as large as fits into the
 /// prop: one as wide as high, one half as wide as high.
 struct SetUpFigures {
-    LightRange light;
+    settings::LightRange light;
     double reference = 0.0; ///< light that every place can send back: even_light
     glm::dvec2 reach_m{0.0};
     double wide_height_m = 0.0; ///< height of the artifact that is as wide as high
@@ -31,14 +31,14 @@ struct SetUpFigures {
     glm::dvec2 zone_m{0.0};      ///< width and depth of the zone in which all eyes see it whole, at any yaw
     bool covered = false;        ///< the picture covers the table and the prop at every place
 };
-[[nodiscard]] SetUpFigures examine(const Settings& settings);
+[[nodiscard]] SetUpFigures examine(const settings::Settings& settings);
 
 /// The way to place the lens beside the table's middle: tilt the projector, or shift its lens.
 enum class Mount { Tilted, Shifted };
 [[nodiscard]] std::string_view name_of(Mount mount);
 
 struct SetUpChoice {
-    Settings settings;
+    settings::Settings settings;
     Mount mount = Mount::Tilted;
     SetUpFigures figures;
     /// True if the light is even enough, the table covered, the pixels enough, and the artifacts no smaller than at
@@ -47,7 +47,7 @@ struct SetUpChoice {
     std::optional<SetUpCost> cost; ///< nothing if it was not measured
 };
 /// The present settings, for comparison.
-[[nodiscard]] SetUpChoice as_it_is(const Settings& settings);
+[[nodiscard]] SetUpChoice as_it_is(const settings::Settings& settings);
 
 struct AdviceOptions {
     double lowest_m = 1.0; ///< height of the lens above the table
@@ -66,7 +66,8 @@ struct AdviceOptions {
 /// smallest prop that works, because it can be slid farthest, and of equally large ones the one with most light; if
 /// none works, the one whose light is most even. The projector's picture just covers the table. `settings` has the
 /// table, the eyes and the figures to improve on. `progress`: 0..1.
-[[nodiscard]] std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,
+[[nodiscard]] std::vector<SetUpChoice> choices(const settings::Settings& settings,
+                                               const AdviceOptions& options,
                                                const std::function<void(double)>& progress);
 /// The choice that works with the most room to slide, times brightness; otherwise the most even one. Null if there is
 /// none.
@@ -75,4 +76,4 @@ struct AdviceOptions {
 /// The best choices that work, at most `most`, best first.
 [[nodiscard]] std::vector<SetUpChoice*> best_working(std::vector<SetUpChoice>& choices, std::size_t most);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

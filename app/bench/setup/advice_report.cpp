@@ -4,11 +4,11 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
-double throw_ratio(const Pinhole& pinhole) {
+double throw_ratio(const geometry::Pinhole& pinhole) {
     return pinhole.fx / pinhole.width;
 }
 
@@ -19,7 +19,7 @@ std::string cost_words(const std::optional<SetUpCost>& cost) {
 }
 
 std::string line_of(std::string_view name, const SetUpChoice& choice) {
-    const Settings& settings = choice.settings;
+    const settings::Settings& settings = choice.settings;
     const SetUpFigures& figures = choice.figures;
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     return fmt::format(
@@ -33,10 +33,10 @@ std::string line_of(std::string_view name, const SetUpChoice& choice) {
 }
 
 std::string row_of(std::string_view name, const SetUpChoice& choice) {
-    const Settings& settings = choice.settings;
+    const settings::Settings& settings = choice.settings;
     const SetUpFigures& figures = choice.figures;
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
-    const Pinhole& pinhole = settings.projector.pinhole;
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     const std::string cost = choice.cost ? fmt::format("{:.4f},{:.4f},{:.0f}", choice.cost->times_first,
                                                        choice.cost->cpu_times_first, choice.cost->samples)
                                          : std::string(",,");
@@ -54,7 +54,7 @@ std::string row_of(std::string_view name, const SetUpChoice& choice) {
 
 std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& choices,
                         const AdviceOptions& options) {
-    const Settings& settings = now.settings;
+    const settings::Settings& settings = now.settings;
     const bool timed = now.cost.has_value();
     std::string table = fmt::format(
         "A table of {:g} x {:g} m; the picture is {} x {} pixels as it is, {} x {} in the choices.\n\n"
@@ -113,9 +113,9 @@ std::string setup_csv(const SetUpChoice& now, const std::vector<SetUpChoice>& ch
 }
 
 std::string setup_toml(const SetUpChoice& choice) {
-    const Settings& settings = choice.settings;
+    const settings::Settings& settings = choice.settings;
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
-    const Pinhole& pinhole = settings.projector.pinhole;
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     return fmt::format(
         "[projector]\nwidth = {}\nheight = {}\nthrow_ratio = {:.3f}\ncx = {:.1f}\ncy = {:.1f}\n"
         "position_m = [0.0, {:.3f}, {:.3f}]\naim_m = [0.0, {:.3f}, 0.0]\n\n"
@@ -125,4 +125,4 @@ std::string setup_toml(const SetUpChoice& choice) {
         settings.prop.height_m);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

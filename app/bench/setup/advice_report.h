@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// One line for the present settings (`as_it_is`) and one for each choice; the best is marked. Includes the cost of a
 /// frame if it was measured.
@@ -17,4 +17,4 @@ namespace frustumscreen {
 /// [projector] and [prop] of a choice, in TOML.
 [[nodiscard]] std::string setup_toml(const SetUpChoice& choice);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,7 +9,7 @@
 #include <memory>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -27,17 +27,19 @@ std::vector<BenchPose> turned_in_the_middle(const glm::dvec3& eye_m) {
 
 /// One set-up's picture and its renderer. Its address must not change, because the technique refers to the stage.
 struct Candidate {
-    PictureFramebuffer picture;
+    display::PictureFramebuffer picture;
     Stage stage;
     std::unique_ptr<Technique> level;
 };
 
-Result<std::unique_ptr<Candidate>> make_candidate(const Settings& settings, const Pack& pack) {
-    const Pinhole& pinhole = settings.projector.pinhole;
-    TRY(PictureFramebuffer picture, PictureFramebuffer::create(pinhole.width, pinhole.height));
+Result<std::unique_ptr<Candidate>> make_candidate(const settings::Settings& settings,
+                                                  const pack::Pack& pack) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    TRY(display::PictureFramebuffer picture,
+        display::PictureFramebuffer::create(pinhole.width, pinhole.height));
     const unsigned framebuffer = picture.name();
     auto made = std::make_unique<Candidate>(
-        Candidate{std::move(picture), {settings, make_prop(settings.prop), framebuffer}, nullptr});
+        Candidate{std::move(picture), {settings, settings::make_prop(settings.prop), framebuffer}, nullptr});
     PictureOptions options;
     options.lit = true;
     TRY(made->level, make_pack_level(made->stage, pack, pack.default_level, options, "default level"));
@@ -46,15 +48,15 @@ Result<std::unique_ptr<Candidate>> make_candidate(const Settings& settings, cons
 
 } // namespace
 
-Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_ups, const Pack& pack,
-                                           const Progress& progress) {
+Result<std::vector<SetUpCost>> frame_costs(std::span<const settings::Settings* const> set_ups,
+                                           const pack::Pack& pack, const Progress& progress) {
     if (set_ups.empty()) {
         return std::vector<SetUpCost>{};
     }
-    TRY([[maybe_unused]] const EglContext context, EglContext::without_screen());
+    TRY([[maybe_unused]] const display::EglContext context, display::EglContext::without_screen());
     std::vector<std::unique_ptr<Candidate>> candidates;
     std::vector<Technique*> techniques;
-    for (const Settings* settings : set_ups) {
+    for (const settings::Settings* settings : set_ups) {
         TRY(std::unique_ptr<Candidate> candidate, make_candidate(*settings, pack));
         techniques.push_back(candidate->level.get());
         candidates.push_back(std::move(candidate));
@@ -70,4 +72,4 @@ Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_
     return costs;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct SetUpCost {
     double times_first = 1.0;     ///< median frame time divided by that of the first set-up
@@ -24,7 +24,7 @@ struct SetUpCost {
 };
 
 /// Returns one for each set-up; the first has the ratio 1. All use the first one's eyes.
-[[nodiscard]] Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_ups,
-                                                         const Pack& pack, const Progress& progress);
+[[nodiscard]] Result<std::vector<SetUpCost>> frame_costs(std::span<const settings::Settings* const> set_ups,
+                                                         const pack::Pack& pack, const Progress& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

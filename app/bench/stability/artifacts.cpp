@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -25,7 +25,7 @@ constexpr std::array scales{1e-6, 1e-3, 1.0, 1e3, 1e6};
 struct Bounds {
     exact::Vector low{1e30L, 1e30L, 1e30L}, high{-1e30L, -1e30L, -1e30L};
 
-    explicit Bounds(const SourceMesh& mesh) {
+    explicit Bounds(const bake::SourceMesh& mesh) {
         for (const glm::dvec3& p : mesh.positions) {
             low = {std::min<exact::Real>(low.x, p.x), std::min<exact::Real>(low.y, p.y),
                    std::min<exact::Real>(low.z, p.z)};
@@ -44,9 +44,9 @@ struct Bounds {
 };
 
 /// The largest scale that keeps every point in the prop; tests all points against all planes.
-exact::Real exact_scale(const PropShape& prop, const SourceMesh& mesh, const Bounds& bounds) {
+exact::Real exact_scale(const geometry::PropShape& prop, const bake::SourceMesh& mesh, const Bounds& bounds) {
     exact::Real scale = std::numeric_limits<exact::Real>::infinity();
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         const exact::Vector a = exact::of(face.corners[0]);
         const exact::Vector normal =
             exact::cross(exact::of(face.corners[1]) - a, exact::of(face.corners[2]) - a);
@@ -63,20 +63,20 @@ struct PlacingErrors {
     double scale = 1.0;  ///< error of the placement, relative
     double matrix = 1.0; ///< error of prop_from_artifact, box units
 };
-PlacingErrors placing_errors(const SourceMesh& mesh) {
-    const Result<BoxFrame> frame = make_box_frame(mesh, {"z"});
+PlacingErrors placing_errors(const bake::SourceMesh& mesh) {
+    const Result<bake::BoxFrame> frame = bake::make_box_frame(mesh, {"z"});
     if (!frame) {
         return {};
     }
     PlacingErrors errors{0.0, 0.0, 0.0};
     const Bounds bounds(mesh);
-    const std::vector<glm::dvec3> points = in_box(mesh, *frame);
-    Pack pack;
+    const std::vector<glm::dvec3> points = bake::in_box(mesh, *frame);
+    pack::Pack pack;
     pack.box_size = frame->box_size;
     pack.box_from_file = frame->box_from_file;
-    pack.extremes = profile_extremes(points);
-    const PropShape prop = make_frustum({});
-    const Placement placement = place(pack, prop);
+    pack.extremes = bake::profile_extremes(points);
+    const geometry::PropShape prop = geometry::make_frustum({});
+    const pack::Placement placement = pack::place(pack, prop);
     const exact::Real scale = exact_scale(prop, mesh, bounds);
     errors.scale = static_cast<double>(std::abs(placement.metres_per_box / scale - 1));
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -93,7 +93,7 @@ StabilityResult placing(const StabilityOptions&) {
     StabilityResult result;
     for (const double offset : {0.0, 1e6}) {
         for (const double scale : scales) {
-            SourceMesh mesh = sphere(glm::dvec3(0.0), scale, 24);
+            bake::SourceMesh mesh = sphere(glm::dvec3(0.0), scale, 24);
             for (glm::dvec3& p : mesh.positions) { // flattened, so that a side of the prop limits the scale
                 p = p * glm::dvec3(1.0, 0.9, 0.5) + glm::dvec3(offset, -offset, 0.7 * offset);
             }
@@ -112,9 +112,9 @@ StabilityResult placing(const StabilityOptions&) {
 }
 
 /// Largest distance of a level's corners from a sphere that fills the box, box units.
-double off_sphere(const Pack& pack, const PackLevel& level) {
+double off_sphere(const pack::Pack& pack, const pack::PackLevel& level) {
     exact::Real off = 0.0L;
-    const TriangleMesh surface = surface_of(level, pack.box_size);
+    const bake::TriangleMesh surface = bake::surface_of(level, pack.box_size);
     for (const glm::vec3& p : surface.positions) {
         const exact::Vector from_centre{p.x, p.y, static_cast<exact::Real>(p.z) - 0.5L};
         off = std::max(off, std::abs(exact::length(from_centre) - 0.5L));
@@ -128,18 +128,18 @@ StabilityResult baked(const StabilityOptions&) {
     double most = 0.0;
     for (const auto& [scale, offset] : {std::pair{1.0, 0.0}, std::pair{1e-6, 0.0}, std::pair{1e6, 0.0},
                                         std::pair{1e-6, 1e6}, std::pair{1.0, 1e6}}) {
-        BakeOptions options;
+        bake::BakeOptions options;
         options.size = 32;
         options.unlit = true;
-        const Result<Pack> pack = bake(sphere(glm::dvec3(offset), scale, 12), options);
+        const Result<pack::Pack> pack = bake::bake(sphere(glm::dvec3(offset), scale, 12), options);
         const std::string where = fmt::format("radius {:g}, offset {:g}: ", scale, offset);
         if (!pack) {
             result.rows.push_back({where + "refused: " + pack.error().message, 0.0, 1.0});
             continue;
         }
-        const Result<Bytes> bytes = write_pack(*pack);
-        const bool written = bytes && verify_pack(*bytes);
-        const double metres = place(*pack, make_frustum({})).metres_per_box;
+        const Result<Bytes> bytes = pack::write_pack(*pack);
+        const bool written = bytes && pack::verify_pack(*bytes);
+        const double metres = pack::place(*pack, geometry::make_frustum({})).metres_per_box;
         least = std::fmin(least, metres);
         most = std::fmax(most, metres);
         result.rows.push_back({where + "pack not written or not verified", 0.0, written ? 0.0 : 1.0});
@@ -171,4 +171,4 @@ std::vector<StabilityCase> artifact_cases() {
             {theme, "many triangles", FloatingPoint::Strict, many_triangles}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

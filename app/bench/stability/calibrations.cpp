@@ -14,47 +14,53 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// Crosses in a grid over a share of the picture's width and height, on the table and on boards up to a
 /// height.
-Touches grid_touches(const SimulatedTable& table, double share, double block_m, const TouchNoise& noise,
-                     SeededNumbers& numbers) {
+calibration::Touches grid_touches(const simulators::SimulatedTable& table, double share, double block_m,
+                                  const calibration::TouchNoise& noise, simulators::SeededNumbers& numbers) {
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
-    Touches touches;
+    calibration::Touches touches;
     for (int k = 0; k < 15; ++k) {
         const glm::dvec2 at(0.5 + share * (0.25 * (k % 5) - 0.5), 0.5 + share * (0.5 * (k / 5) - 0.5));
-        const Cross cross{at * size, k % 2 == 0 ? 0.0 : block_m,
-                          0.5 * std::numbers::pi * ((7 * k + k / 5) % 4)};
-        touches.push_back(simulated_touch(table, {cross, 0.0}, noise, numbers));
+        const calibration::Cross cross{at * size, k % 2 == 0 ? 0.0 : block_m,
+                                       0.5 * std::numbers::pi * ((7 * k + k / 5) % 4)};
+        touches.push_back(simulators::simulated_touch(table, {cross, 0.0}, noise, numbers));
     }
     return touches;
 }
 
-TouchNoise times(double factor) {
-    const TouchNoise one;
-    return {factor * one.position_m, factor * one.rotation_rad, factor * one.pixel, factor * one.block_m};
+calibration::TouchNoise times(double factor) {
+    const calibration::TouchNoise one;
+    return {.position_m = factor * one.position_m,
+            .rotation_rad = factor * one.rotation_rad,
+            .pixel = factor * one.pixel,
+            .block_m = factor * one.block_m};
 }
 
 struct Fitted {
-    Fit fit;
+    calibration::Fit fit;
     double predicted_m = 0.0; ///< mean over the zone, one standard deviation
     double observed_m = 0.0;
 };
 
-Fitted fitted(const SimulatedTable& table, const Touches& touches, const TouchNoise& noise) {
-    const Pinhole& p = table.truth.pinhole;
-    const FitSetup setup{noise, {}, table.sensor_height_m, {}};
+Fitted fitted(const simulators::SimulatedTable& table, const calibration::Touches& touches,
+              const calibration::TouchNoise& noise) {
+    const geometry::Pinhole& p = table.truth.pinhole;
+    const calibration::FitSetup setup{
+        .noise = noise, .priors = {}, .sensor_height_m = table.sensor_height_m, .upright = {}};
     Fitted out;
-    out.fit = best_fit(touches, setup, starting_models(touches, p.width, p.height));
-    const std::vector<ZonePlace> places =
-        zone_places(out.fit.model, out.fit.middle, {0.12, touches[0].tracker_from_sensor.rotation});
-    out.predicted_m =
-        picture_uncertainty(places, out.fit.information().ldlt().solve(Covariance::Identity())).mean_m;
-    if (const auto found = in_table_frame(out.fit.model)) {
-        out.observed_m = registration_error(table, *found, 0.12).mean_m;
+    out.fit = calibration::best_fit(touches, setup, calibration::starting_models(touches, p.width, p.height));
+    const std::vector<calibration::ZonePlace> places = calibration::zone_places(
+        out.fit.model, out.fit.middle, {0.12, touches[0].tracker_from_sensor.rotation});
+    out.predicted_m = calibration::picture_uncertainty(
+                          places, out.fit.information().ldlt().solve(calibration::Covariance::Identity()))
+                          .mean_m;
+    if (const auto found = calibration::in_table_frame(out.fit.model)) {
+        out.observed_m = simulators::registration_error(table, *found, 0.12).mean_m;
     }
     return out;
 }
@@ -64,8 +70,8 @@ double observed_over_predicted(double share, double block_m, double noise) {
     constexpr int seeds = 12;
     double square = 0.0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const SimulatedTable table = some_table(seed);
-        SeededNumbers numbers(7000 + seed);
+        const simulators::SimulatedTable table = simulators::some_table(seed);
+        simulators::SeededNumbers numbers(7000 + seed);
         const Fitted one =
             fitted(table, grid_touches(table, share, block_m, times(noise), numbers), times(noise));
         square += std::pow(one.observed_m / one.predicted_m, 2.0) / seeds;
@@ -96,11 +102,11 @@ StabilityResult noises(const StabilityOptions&) {
 }
 
 /// Condition of the matrix scaled to a unit diagonal, which removes the influence of units.
-double scaled_condition(const Covariance& information) {
-    const Changes scale = information.diagonal().cwiseSqrt().cwiseInverse();
-    const Covariance scaled = scale.asDiagonal() * information * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Covariance> parts(scaled, Eigen::EigenvaluesOnly);
-    return parts.eigenvalues()[unknown_count - 1] / parts.eigenvalues()[0];
+double scaled_condition(const calibration::Covariance& information) {
+    const calibration::Changes scale = information.diagonal().cwiseSqrt().cwiseInverse();
+    const calibration::Covariance scaled = scale.asDiagonal() * information * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<calibration::Covariance> parts(scaled, Eigen::EigenvaluesOnly);
+    return parts.eigenvalues()[calibration::unknown_count - 1] / parts.eigenvalues()[0];
 }
 
 /// The uncertainty's own arithmetic: the information matrix inverted in 64-bit, and in long double by
@@ -108,25 +114,28 @@ double scaled_condition(const Covariance& information) {
 StabilityResult inverse_in_long_double(const StabilityOptions&) {
     StabilityResult result;
     for (const double share : {0.92, 0.3, 0.1}) {
-        const SimulatedTable table = some_table(3);
-        SeededNumbers numbers(7003);
+        const simulators::SimulatedTable table = simulators::some_table(3);
+        simulators::SeededNumbers numbers(7003);
         const Fitted one = fitted(table, grid_touches(table, share, 0.12, {}, numbers), {});
-        const Covariance information = one.fit.information();
-        const Covariance covariance = information.ldlt().solve(Covariance::Identity());
-        using Row = std::array<long double, 2 * unknown_count>;
-        std::array<Row, unknown_count> rows{};
-        for (int r = 0; r < unknown_count; ++r) {
-            for (int c = 0; c < unknown_count; ++c) {
+        const calibration::Covariance information = one.fit.information();
+        const calibration::Covariance covariance =
+            information.ldlt().solve(calibration::Covariance::Identity());
+        using Row = std::array<long double, 2 * calibration::unknown_count>;
+        std::array<Row, calibration::unknown_count> rows{};
+        for (int r = 0; r < calibration::unknown_count; ++r) {
+            for (int c = 0; c < calibration::unknown_count; ++c) {
                 rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = information(r, c);
             }
-            rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(unknown_count + r)] = 1.0L;
+            rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(calibration::unknown_count + r)] =
+                1.0L;
         }
-        for (std::size_t k = 0; k < unknown_count; ++k) { // positive definite: no pivoting needed
+        for (std::size_t k = 0; k < calibration::unknown_count;
+             ++k) { // positive definite: no pivoting needed
             const long double pivot = rows[k][k];
             for (long double& value : rows[k]) {
                 value /= pivot;
             }
-            for (std::size_t r = 0; r < unknown_count; ++r) {
+            for (std::size_t r = 0; r < calibration::unknown_count; ++r) {
                 const long double times_row = r == k ? 0.0L : rows[r][k];
                 for (std::size_t c = 0; c < rows[r].size(); ++c) {
                     rows[r][c] -= times_row * rows[k][c];
@@ -134,9 +143,9 @@ StabilityResult inverse_in_long_double(const StabilityOptions&) {
             }
         }
         double off = 0.0;
-        for (int k = 0; k < unknown_count; ++k) {
+        for (int k = 0; k < calibration::unknown_count; ++k) {
             const auto exact = static_cast<double>(
-                rows[static_cast<std::size_t>(k)][static_cast<std::size_t>(unknown_count + k)]);
+                rows[static_cast<std::size_t>(k)][static_cast<std::size_t>(calibration::unknown_count + k)]);
             off = std::fmax(off, std::abs(std::sqrt(covariance(k, k) / exact) - 1.0));
         }
         result.rows.push_back(
@@ -155,4 +164,4 @@ std::vector<StabilityCase> calibration_cases() {
         {"calibration", "normal equations against long double", FloatingPoint::Free, inverse_in_long_double}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -47,8 +47,8 @@ void main() { result = texture(picture, at); }
 class Canvas {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Canvas>> create(int width, int height) {
-        TRY(auto display, SurfacelessDisplay::create(width, height));
-        TRY(GlProgram program, make_program("", vertex, fragment));
+        TRY(auto display, display::SurfacelessDisplay::create(width, height));
+        TRY(gl::GlProgram program, gl::make_program("", vertex, fragment));
         return std::unique_ptr<Canvas>(new Canvas(std::move(display), std::move(program), {width, height}));
     }
 
@@ -58,7 +58,7 @@ public:
         glClearBufferfv(GL_COLOR, 0, black.data());
         glClearBufferfi(GL_DEPTH_STENCIL, 0, 1.0F, 0);
     }
-    void draw(std::span<const Corner> corners, const GlTexture& texture) const {
+    void draw(std::span<const Corner> corners, const gl::GlTexture& texture) const {
         glBindTexture(GL_TEXTURE_2D, texture.get());
         glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size_bytes()), corners.data(),
                      GL_STREAM_DRAW);
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    Canvas(std::unique_ptr<SurfacelessDisplay> display, GlProgram program, glm::ivec2 size)
+    Canvas(std::unique_ptr<display::SurfacelessDisplay> display, gl::GlProgram program, glm::ivec2 size)
         : display_(std::move(display)), program_(std::move(program)), size_(size) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
         glBindRenderbuffer(GL_RENDERBUFFER, colour_.get());
@@ -100,19 +100,19 @@ private:
                               reinterpret_cast<const void*>(offsetof(Corner, uv)));
     }
 
-    std::unique_ptr<SurfacelessDisplay> display_; ///< first: its context outlives everything below
-    GlProgram program_;
+    std::unique_ptr<display::SurfacelessDisplay> display_; ///< first: its context outlives everything below
+    gl::GlProgram program_;
     glm::ivec2 size_;
-    GlFramebuffer framebuffer_ = GlFramebuffer::generate();
-    GlRenderbuffer colour_ = GlRenderbuffer::generate();
-    GlRenderbuffer depth_ = GlRenderbuffer::generate();
-    GlVertexArray vertices_ = GlVertexArray::generate();
-    GlBuffer buffer_ = GlBuffer::generate();
+    gl::GlFramebuffer framebuffer_ = gl::GlFramebuffer::generate();
+    gl::GlRenderbuffer colour_ = gl::GlRenderbuffer::generate();
+    gl::GlRenderbuffer depth_ = gl::GlRenderbuffer::generate();
+    gl::GlVertexArray vertices_ = gl::GlVertexArray::generate();
+    gl::GlBuffer buffer_ = gl::GlBuffer::generate();
 };
 
 /// A texture with one row of grey values.
-GlTexture texture_of(std::span<const std::uint8_t> greys) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture texture_of(std::span<const std::uint8_t> greys) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, static_cast<GLsizei>(greys.size()), 1);
@@ -138,7 +138,7 @@ StabilityResult corners() {
     if (!canvas) {
         return left_out(canvas.error());
     }
-    const GlTexture white = texture_of(std::array<std::uint8_t, 1>{255});
+    const gl::GlTexture white = texture_of(std::array<std::uint8_t, 1>{255});
     double farthest = 0.0;
     std::vector<double> places;
     for (int step = 0; step < 512; ++step) {
@@ -167,8 +167,8 @@ StabilityResult corners() {
 /// A leaning plane, cut along one diagonal and then, drawn nearer or farther by `apart`, along the other: the
 /// share of pixels that show the wrong one.
 double wrongly_ordered(const Canvas& canvas, double side, double apart) {
-    const GlTexture grey = texture_of(std::array<std::uint8_t, 1>{100});
-    const GlTexture white = texture_of(std::array<std::uint8_t, 1>{255});
+    const gl::GlTexture grey = texture_of(std::array<std::uint8_t, 1>{100});
+    const gl::GlTexture white = texture_of(std::array<std::uint8_t, 1>{255});
     const auto plane = [&](double x, double y, double moved) {
         return canvas.at(x * side, y * side, 1.2 * (x - 0.4) + 0.6 * (y - 0.3) - 0.2 + moved);
     };
@@ -224,7 +224,7 @@ StabilityResult atlases() {
     for (std::size_t k = 0; k < greys.size(); ++k) {
         greys[k] = k % 2 == 0 ? 0 : 255;
     }
-    const GlTexture stripes = texture_of(greys);
+    const gl::GlTexture stripes = texture_of(greys);
     const auto corner = [&](double x, double y) {
         Corner made = (*canvas)->at(x * width, y * 4);
         made.uv = {static_cast<std::uint16_t>(x > 0.0 ? 65535 : first_code), 0};
@@ -271,4 +271,4 @@ std::vector<StabilityCase> driver_cases() {
              [](const StabilityOptions&) { return atlases(); }}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

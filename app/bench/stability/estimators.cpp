@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -24,8 +24,8 @@ constexpr double lever_m = 0.06;                         ///< half the prop's he
 constexpr std::array rates_hz{1000, 240, 60, 30, 10, 5}; ///< a slower tracker restarts the estimator with
                                                          ///< each sample
 
-PoseEstimator exhibit_estimator() {
-    return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
+tracking::PoseEstimator exhibit_estimator() {
+    return tracking::PoseEstimator(std::make_unique<tracking::MotionFilter>(tracking::exhibit_filter()));
 }
 
 Nanoseconds seconds(double value) {
@@ -33,20 +33,21 @@ Nanoseconds seconds(double value) {
 }
 
 /// A hand that slides the prop: 0.25 m/s and 1 rad/s.
-RigidTransform sliding(double t_s) {
+geometry::RigidTransform sliding(double t_s) {
     const double angle = 0.5 * t_s;
     return {glm::dquat(std::cos(angle), 0.0, 0.0, std::sin(angle)), {0.15 * t_s, -0.2 * t_s, 0.0}};
 }
 
 class Noise {
 public:
-    [[nodiscard]] RigidTransform on(const RigidTransform& pose) {
-        const PoseNoise noise;
+    [[nodiscard]] geometry::RigidTransform on(const geometry::RigidTransform& pose) {
+        const tracking::PoseNoise noise;
         const auto vector = [this](double sigma) {
             return sigma * glm::dvec3(n_(random_), n_(random_), n_(random_));
         };
         const glm::dvec3 turn = vector(noise.turn_rad);
-        return {glm::normalize(rotation_of(turn) * pose.rotation), pose.translation + vector(noise.place_m)};
+        return {glm::normalize(tracking::rotation_of(turn) * pose.rotation),
+                pose.translation + vector(noise.place_m)};
     }
 
 private:
@@ -54,8 +55,8 @@ private:
     std::normal_distribution<double> n_;
 };
 
-double off_mm(const RigidTransform& a, const RigidTransform& b) {
-    return 1e3 * slip_m(step_between(a, b), lever_m);
+double off_mm(const geometry::RigidTransform& a, const geometry::RigidTransform& b) {
+    return 1e3 * tracking::slip_m(tracking::step_between(a, b), lever_m);
 }
 
 /// Without noise: a steady slide, predicted 40 ms ahead after the first second.
@@ -63,12 +64,12 @@ StabilityResult steady_slide(const StabilityOptions&) {
     constexpr double ahead_s = 0.04;
     double worst = 0.0;
     for (const int rate : rates_hz) {
-        PoseEstimator estimator = exhibit_estimator();
+        tracking::PoseEstimator estimator = exhibit_estimator();
         for (int k = 0; k < 3 * rate; ++k) {
             const double t = static_cast<double>(k) / rate;
             estimator.take(MonotonicTime(seconds(t)), sliding(t));
             if (t > 1.0) {
-                const PoseEstimate said = estimator.at(MonotonicTime(seconds(t + ahead_s)));
+                const tracking::PoseEstimate said = estimator.at(MonotonicTime(seconds(t + ahead_s)));
                 worst = std::fmax(worst, off_mm(said.pose, sliding(t + ahead_s)));
             }
         }
@@ -80,13 +81,13 @@ StabilityResult steady_slide(const StabilityOptions&) {
 StabilityResult rest_under_noise(const StabilityOptions&) {
     double more = 0.0;
     for (const int rate : rates_hz) {
-        PoseEstimator estimator = exhibit_estimator();
+        tracking::PoseEstimator estimator = exhibit_estimator();
         Noise noise;
         double in = 0.0;
         double out = 0.0;
         for (int k = 0; k < 5000; ++k) {
             const MonotonicTime now(seconds(static_cast<double>(k) / rate));
-            const RigidTransform measured = noise.on({});
+            const geometry::RigidTransform measured = noise.on({});
             estimator.take(now, measured);
             in += std::pow(off_mm(measured, {}), 2);
             out += std::pow(off_mm(estimator.at(now + std::chrono::milliseconds(40)).pose, {}), 2);
@@ -102,13 +103,13 @@ StabilityResult outliers(const StabilityOptions&) {
     double taken = 0.0;
     for (const int rate : {1000, 240, 60}) {
         for (const double away_m : {0.1, 1.0, 1e3, 1e12}) {
-            PoseEstimator estimator = exhibit_estimator();
+            tracking::PoseEstimator estimator = exhibit_estimator();
             for (int k = 0; k < 5 * rate; ++k) {
                 const MonotonicTime now(seconds(static_cast<double>(k) / rate));
                 const bool wrong = k % 10 == 9;
-                const Taken result =
+                const tracking::Taken result =
                     estimator.take(now, {glm::dquat(1.0, 0.0, 0.0, 0.0), {wrong ? away_m : 0.0, 0.0, 0.0}});
-                taken += wrong && result != Taken::Outlier ? 1.0 : 0.0;
+                taken += wrong && result != tracking::Taken::Outlier ? 1.0 : 0.0;
                 worst = std::fmax(worst, off_mm(estimator.at(now + std::chrono::milliseconds(40)).pose, {}));
             }
         }
@@ -121,15 +122,16 @@ StabilityResult outliers(const StabilityOptions&) {
 StabilityResult uptime(const StabilityOptions&) {
     constexpr std::array years{0.0, 0.5, 10.0, 100.0};
     double different = 0.0;
-    std::vector<RigidTransform> first;
+    std::vector<geometry::RigidTransform> first;
     for (const double year : years) {
         const MonotonicTime start(seconds(year * 365.25 * 86'400.0));
-        PoseEstimator estimator = exhibit_estimator();
+        tracking::PoseEstimator estimator = exhibit_estimator();
         Noise noise;
         for (std::size_t k = 0; k < 600; ++k) {
             const auto t = Nanoseconds(16'666'667 * static_cast<std::int64_t>(k));
             estimator.take(start + t, noise.on(sliding(to_seconds(t))));
-            const RigidTransform said = estimator.at(start + t + std::chrono::milliseconds(25)).pose;
+            const geometry::RigidTransform said =
+                estimator.at(start + t + std::chrono::milliseconds(25)).pose;
             if (first.size() <= k) {
                 first.push_back(said);
             }
@@ -145,17 +147,17 @@ StabilityResult slow_trackers(const StabilityOptions&) {
     double stale = 0.0;
     double held_s = 0.0;
     for (const double step_s : {0.1, 0.5, 1.0, 1.9}) {
-        PoseEstimator estimator = exhibit_estimator();
+        tracking::PoseEstimator estimator = exhibit_estimator();
         MonotonicTime now{};
         for (int k = 0; k < 40; ++k) {
             now = MonotonicTime(seconds(k * step_s));
             estimator.take(now, {});
             for (double t = 0.0; k > 2 && t < step_s + 0.05; t += 1.0 / 60.0) {
-                stale += estimator.at(now + seconds(t)).status == PoseStatus::Stale ? 1.0 : 0.0;
+                stale += estimator.at(now + seconds(t)).status == tracking::PoseStatus::Stale ? 1.0 : 0.0;
             }
         }
         double t = 0.0;
-        while (t < 60.0 && estimator.at(now + seconds(t)).status != PoseStatus::Stale) {
+        while (t < 60.0 && estimator.at(now + seconds(t)).status != tracking::PoseStatus::Stale) {
             t += 0.01;
         }
         held_s = std::fmax(held_s, t);
@@ -170,7 +172,7 @@ StabilityResult light_delay(const StabilityOptions&) {
     constexpr double to_s = 0.033;
     double off_s = 0.0;
     for (const double step_s : sweep(1e-6, 10.0, 4)) {
-        LightDelay delay(Nanoseconds(0));
+        tracking::LightDelay delay(Nanoseconds(0));
         const Nanoseconds step = seconds(step_s);
         MonotonicTime now{};
         delay.flipped(now, now + seconds(from_s));
@@ -179,8 +181,8 @@ StabilityResult light_delay(const StabilityOptions&) {
             delay.flipped(now, now + seconds(to_s));
             const long double gone = to_seconds(k * step);
             const auto exact = static_cast<double>(
-                to_s +
-                (from_s - to_s) * std::exp(-gone / static_cast<long double>(LightDelay::time_constant_s)));
+                to_s + (from_s - to_s) *
+                           std::exp(-gone / static_cast<long double>(tracking::LightDelay::time_constant_s)));
             off_s = std::fmax(off_s, std::abs(to_seconds(delay.from_now()) - exact));
         }
     }
@@ -190,36 +192,41 @@ StabilityResult light_delay(const StabilityOptions&) {
 /// The result of a device's stream of frames: its counts, and the pose at each query.
 struct Followed {
     double refused = 0.0; ///< lost, duplicate, late or invalid frames, and restarts of the clock
-    std::vector<PoseSample> samples;
-    std::vector<RigidTransform> poses;
+    std::vector<tracker::PoseSample> samples;
+    std::vector<geometry::RigidTransform> poses;
 };
 /// Twenty seconds of a slide at 240 Hz, with noise; frames arrive up to a few milliseconds late.
 Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
     constexpr int rate_hz = 240;
-    SequenceChecker intake(1e9 / rate_hz);
-    PoseEstimator estimator = exhibit_estimator();
+    tracker::SequenceChecker intake(1e9 / rate_hz);
+    tracking::PoseEstimator estimator = exhibit_estimator();
     Noise noise;
     std::mt19937_64 random(5);
     std::exponential_distribution<double> late_s(1.0 / 0.0003);
     Followed followed;
     for (std::uint32_t k = 0; k < 20 * rate_hz; ++k) {
         const double t = static_cast<double>(k) / rate_hz;
-        const RigidTransform pose = noise.on(sliding(t));
-        DeviceFrame frame;
+        const geometry::RigidTransform pose = noise.on(sliding(t));
+        tracker::DeviceFrame frame;
         frame.counter = first_counter + k;
         frame.tick = first_tick + k;
         frame.count = 1;
-        frame.sensors[0] = {prop_station, pose.translation, pose.rotation, 0, true, true};
+        frame.sensors[0] = {.sensor = tracker::prop_station,
+                            .position_m = pose.translation,
+                            .rotation = pose.rotation,
+                            .distortion = 0,
+                            .usable = true,
+                            .present = true};
         const MonotonicTime arrival{seconds(1.0 + t + late_s(random))};
         const std::size_t before = followed.samples.size();
         intake.take(frame, arrival, followed.samples);
         for (std::size_t j = before; j < followed.samples.size(); ++j) {
-            const PoseSample& sample = followed.samples[j];
+            const tracker::PoseSample& sample = followed.samples[j];
             estimator.take(sample.time, {sample.rotation, sample.position_m});
         }
         followed.poses.push_back(estimator.at(arrival + seconds(0.04)).pose);
     }
-    const TrackerCounts counts = intake.counts();
+    const tracker::TrackerCounts counts = intake.counts();
     followed.refused = static_cast<double>(counts.lost + counts.duplicated + counts.reordered +
                                            counts.strange + counts.clock_restarts);
     return followed;
@@ -268,4 +275,4 @@ std::vector<StabilityCase> estimator_cases() {
             {"display's delay", "flips that jump", FloatingPoint::Strict, light_delay}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

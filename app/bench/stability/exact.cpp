@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen::exact {
+namespace frustumscreen::bench::exact {
 
 Vector of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -26,7 +26,7 @@ Real length(const Vector& a) {
     return std::sqrt(dot(a, a));
 }
 
-Rigid::Rigid(const RigidTransform& transform) : translation_(of(transform.translation)) {
+Rigid::Rigid(const geometry::RigidTransform& transform) : translation_(of(transform.translation)) {
     const glm::dquat& q = transform.rotation;
     Real w = q.w, x = q.x, y = q.y, z = q.z;
     const Real norm = std::sqrt(w * w + x * x + y * y + z * z);
@@ -58,7 +58,7 @@ Vector Stage::lens_in_prop() const {
 
 namespace {
 
-Vector normal_of(const PropFace& face) {
+Vector normal_of(const geometry::PropFace& face) {
     const Vector a = of(face.corners[0]);
     const Vector n = cross(of(face.corners[1]) - a, of(face.corners[2]) - a);
     return (1 / length(n)) * n;
@@ -66,11 +66,11 @@ Vector normal_of(const PropFace& face) {
 
 } // namespace
 
-Real Stage::height(const PropFace& face, const Vector& point) const {
+Real Stage::height(const geometry::PropFace& face, const Vector& point) const {
     return dot(normal_of(face), point - of(face.corners[0]));
 }
 
-std::optional<Seen> Stage::see(const PropFace& face, const Vector& x) const {
+std::optional<Seen> Stage::see(const geometry::PropFace& face, const Vector& x) const {
     const Vector eye = eye_in_prop();
     const Real eye_height = height(face, eye);
     const Real fall = eye_height - height(face, x);
@@ -98,4 +98,4 @@ std::optional<Seen> Stage::see(const PropFace& face, const Vector& x) const {
     return seen;
 }
 
-} // namespace frustumscreen::exact
+} // namespace frustumscreen::bench::exact

@@ -12,7 +12,7 @@
 #include <array>
 #include <optional>
 
-namespace frustumscreen::exact {
+namespace frustumscreen::bench::exact {
 
 using Real = long double;
 
@@ -30,7 +30,7 @@ struct Vector {
 /// A rigid transform as rows and a translation; quaternions of any length are normalised here.
 class Rigid {
 public:
-    explicit Rigid(const RigidTransform& transform);
+    explicit Rigid(const geometry::RigidTransform& transform);
     [[nodiscard]] Vector point(const Vector& p) const;
     [[nodiscard]] Vector inverse_point(const Vector& p) const;
 
@@ -50,18 +50,18 @@ struct Seen {
 
 /// A prop, an eye and a projector.
 struct Stage {
-    PropShape prop;
-    Pinhole projector;
-    RigidTransform table_from_projector;
-    RigidTransform table_from_prop;
+    geometry::PropShape prop;
+    geometry::Pinhole projector;
+    geometry::RigidTransform table_from_projector;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0}; ///< table frame
 
     [[nodiscard]] Vector eye_in_prop() const;
     [[nodiscard]] Vector lens_in_prop() const;
     /// Height of a point above the plane through a face's first three corners.
-    [[nodiscard]] Real height(const PropFace& face, const Vector& point) const;
+    [[nodiscard]] Real height(const geometry::PropFace& face, const Vector& point) const;
     /// nullopt if the ray from the eye through `x` (prop frame) does not meet the face's plane from above.
-    [[nodiscard]] std::optional<Seen> see(const PropFace& face, const Vector& x) const;
+    [[nodiscard]] std::optional<Seen> see(const geometry::PropFace& face, const Vector& x) const;
 };
 
-} // namespace frustumscreen::exact
+} // namespace frustumscreen::bench::exact

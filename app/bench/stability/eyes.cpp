@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -20,7 +20,7 @@ double radians(double degrees) {
 
 /// `degrees` above the plane of a face, at a distance from its middle, along the face's lower edge.
 glm::dvec3 eye_above(const exact::Stage& stage, std::size_t face, double degrees, double distance_m) {
-    const PropFace& f = stage.prop.faces[face];
+    const geometry::PropFace& f = stage.prop.faces[face];
     const glm::dvec3 middle = f.middle();
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     return stage.table_from_prop.point(middle + distance_m * (std::cos(radians(degrees)) * along +
@@ -51,17 +51,18 @@ StabilityResult slanting(const StabilityOptions&) {
 double darkest_sine(std::size_t face) {
     exact::Stage stage = usual_stage();
     const SeenArtifact artifact = seen_artifact(stage);
-    const PropFace& f = stage.prop.faces[face];
+    const geometry::PropFace& f = stage.prop.faces[face];
     const glm::dvec3 centre(0.0, 0.0, 0.5 * seen_box_size.z * artifact.placed.metres_per_box);
     const glm::dvec3 foot = centre - f.plane.distance(centre) * f.plane.normal;
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
-    const Box box{{-0.08, -0.08, 0.0}, {0.08, 0.08, 0.12}};
+    const geometry::Box box{{-0.08, -0.08, 0.0}, {0.08, 0.08, 0.12}};
     const glm::dmat4 clip = stage.projector.clip_from_point() * stage.table_from_projector.inverse().matrix();
     double low = 0.0;
     double high = 0.01;
     for (int k = 0; k < 40; ++k) {
         const double height = 0.5 * (low + high);
-        const bool lit = collineation(f.plane, foot + along + height * f.plane.normal, clip, box).has_value();
+        const bool lit =
+            geometry::collineation(f.plane, foot + along + height * f.plane.normal, clip, box).has_value();
         (lit ? high : low) = height;
     }
     return high / glm::distance(foot + along + high * f.plane.normal, centre);
@@ -84,9 +85,9 @@ StabilityResult on_and_behind(const StabilityOptions&) {
             exact::Stage stage = usual_stage();
             stage.eye_m = eye_above(stage, face, degrees, 0.6);
             const SeenArtifact artifact = seen_artifact(stage);
-            const FramePlan plan = plan_of(stage, artifact);
+            const scene::FramePlan plan = plan_of(stage, artifact);
             figures.include(figures_of(stage, artifact, plan));
-            for (const FacePlan& planned : plan.faces) {
+            for (const scene::FacePlan& planned : plan.faces) {
                 lit += planned.face == static_cast<int>(face) ? 1.0 : 0.0;
             }
         }
@@ -132,7 +133,7 @@ StabilityResult at_the_projector(const StabilityOptions&) {
     const SeenArtifact artifact = seen_artifact(stage);
     double off_px = 0.0;
     const exact::Rigid table_from_prop(stage.table_from_prop);
-    for (const PropFace& face : stage.prop.faces) {
+    for (const geometry::PropFace& face : stage.prop.faces) {
         for (std::uint32_t k = 0; k < artifact.level.vertices.size(); ++k) {
             const auto seen = stage.see(face, artifact.corner(k));
             const exact::Vector x = table_from_prop.point(artifact.corner(k));
@@ -180,4 +181,4 @@ std::vector<StabilityCase> eye_cases() {
             {theme, "10 m, 1 km, 1000 km away", FloatingPoint::Strict, far_away}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -28,14 +28,14 @@ StabilityResult closed_forms(const StabilityOptions&) {
     for (const double length : sweep(1e-6, 1e3, 1)) {
         double before = 0.0;
         for (const double t : sweep(1e-6, 10.0, 50)) {
-            const double value = ease(ramp(t, length));
+            const double value = geometry::ease(geometry::ramp(t, length));
             const long double x = std::min(1.0L, static_cast<long double>(t) / length);
             const long double exact = x * x * (3.0L - 2.0L * x);
             off = std::fmax(off, static_cast<double>(std::abs(value / exact - 1.0L)));
             falling += value >= before && value <= 1.0 ? 0.0 : 1.0;
             before = value;
         }
-        falling += ramp(0.0, length) == 0.0 && ramp(-1.0, length) == 0.0 ? 0.0 : 1.0;
+        falling += geometry::ramp(0.0, length) == 0.0 && geometry::ramp(-1.0, length) == 0.0 ? 0.0 : 1.0;
     }
     return {{{"length 1 us to 1e3 s, 1 us to 10 s in: off, relative", 8 * eps, off},
              {"falling, above 1, or not 0 before it begins", 0.0, falling}}};
@@ -45,17 +45,19 @@ StabilityResult closed_forms(const StabilityOptions&) {
 double exhibit_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
-    Selection selection(3, {"en"}, "en", now);
+    exhibit::Selection selection(3, {"en"}, "en", now);
     std::mt19937 random(8);
-    Shown before = selection.at(now);
+    exhibit::Shown before = selection.at(now);
     double jump = 0.0;
     const int presses_every = std::max(1, static_cast<int>(0.07 / step_s)); // often within a fade
     for (int k = 0; k < 20'000; ++k) {
         now += step;
         if (random() % static_cast<unsigned>(presses_every) == 0) {
-            selection.take(random() % 2 == 0 ? Command::NextArtifact : Command::PreviousArtifact, now);
+            selection.take(random() % 2 == 0 ? settings::Command::NextArtifact
+                                             : settings::Command::PreviousArtifact,
+                           now);
         }
-        const Shown shown = selection.at(now);
+        const exhibit::Shown shown = selection.at(now);
         jump =
             std::fmax(jump, shown.artifact == before.artifact ? std::abs(shown.brightness - before.brightness)
                                                               : shown.brightness + before.brightness);
@@ -69,7 +71,7 @@ constexpr std::array fade_steps{1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0,
 StabilityResult artifacts(const StabilityOptions&) {
     double over = 0.0;
     for (const double step : fade_steps) {
-        const double allowed = std::fmin(2.0, steepest * step / to_seconds(fade_time));
+        const double allowed = std::fmin(2.0, steepest * step / to_seconds(exhibit::fade_time));
         over = std::fmax(over, exhibit_jump(step) / allowed);
     }
     return {{{"largest jump, over steepest slope x step (2 at most)", 1.0 + 1e-9, over}}};
@@ -78,12 +80,13 @@ StabilityResult artifacts(const StabilityOptions&) {
 /// The brightness at a time does not depend on how often it was queried before.
 StabilityResult any_rhythm(const StabilityOptions&) {
     MonotonicTime start = from_microseconds(1'000'000);
-    std::array<Selection, 2> selections{Selection(3, {"en"}, "en", start), Selection(3, {"en"}, "en", start)};
+    std::array<exhibit::Selection, 2> selections{exhibit::Selection(3, {"en"}, "en", start),
+                                                 exhibit::Selection(3, {"en"}, "en", start)};
     double other = 0.0;
     for (int k = 0; k < 200; ++k) {
         const MonotonicTime press = start + k * std::chrono::milliseconds(137);
-        for (Selection& selection : selections) {
-            selection.take(Command::NextArtifact, press);
+        for (exhibit::Selection& selection : selections) {
+            selection.take(settings::Command::NextArtifact, press);
         }
         for (int j = 0; j < 100; ++j) {
             (void)selections[0].at(press + j * std::chrono::microseconds(1)); // frequent queries
@@ -106,10 +109,10 @@ struct CaptionJumps {
 CaptionJumps caption_jumps(double step_s) {
     const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
                           glm::dvec2(-0.4, 0.25)};
-    CaptionPlacer placer(room);
+    typography::CaptionPlacer placer(room);
     placer.set_shapes(std::array{glm::dvec2(0.16, 0.05), glm::dvec2(0.10, 0.08)});
     CaptionJumps result;
-    CaptionPlace before;
+    typography::CaptionPlace before;
     glm::dvec2 prop_before(0.0);
     constexpr double dimming_m = 0.012; // as in captions.cpp: invisible at the shadow, full at this distance
     constexpr double fade_s = 0.25;
@@ -117,9 +120,9 @@ CaptionJumps caption_jumps(double step_s) {
         const double t = k * step_s;
         const MonotonicTime now(Nanoseconds(std::llround(t * 1e9)) + std::chrono::seconds(1));
         const glm::dvec2 prop(0.28 * std::sin(0.7 * t), 0.14 * std::sin(1.1 * t + 0.4));
-        const TablePolygon shadow = polygon_of({prop, glm::dvec2(0.18)});
+        const typography::TablePolygon shadow = typography::polygon_of({prop, glm::dvec2(0.18)});
         placer.update(now, shadow, std::nullopt, prop);
-        const CaptionPlace place = placer.at(now);
+        const typography::CaptionPlace place = placer.at(now);
         const bool same = place.rectangle.centre_m == before.rectangle.centre_m &&
                           place.rectangle.size_m == before.rectangle.size_m;
         const double jump = same ? std::abs(place.opacity - before.opacity) : place.opacity + before.opacity;
@@ -128,7 +131,7 @@ CaptionJumps caption_jumps(double step_s) {
         if (k > 0 && jump > 0.0) {
             result.jump = std::fmax(result.jump, jump / std::fmin(2.0, allowed));
         }
-        const bool lies_on_it = clearance(place.rectangle.corners(), shadow.corners()) <= 0.0;
+        const bool lies_on_it = typography::clearance(place.rectangle.corners(), shadow.corners()) <= 0.0;
         result.on_shadow += place.opacity > 0.0 && lies_on_it ? 1.0 : 0.0;
         result.shown += place.opacity > 0.0 ? 1.0 : 0.0;
         before = place;
@@ -171,15 +174,15 @@ struct LostAndFound {
 double attract_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
-    const RigidTransform pose{{1.0, 0.0, 0.0, 0.0}, {0.2, 0.1, 0.0}};
-    Attract attract(glm::dvec2(0.0), true, now);
+    const geometry::RigidTransform pose{{1.0, 0.0, 0.0, 0.0}, {0.2, 0.1, 0.0}};
+    exhibit::Attract attract(glm::dvec2(0.0), true, now);
     LostAndFound prop;
-    Stand before{pose};
+    exhibit::Stand before{pose};
     double jump = 0.0;
     for (int k = 0; k < 20'000; ++k) {
         now += step;
         const Nanoseconds age = prop.age(now);
-        const Stand stand = attract.at(now, age <= std::chrono::seconds(1), age, pose);
+        const exhibit::Stand stand = attract.at(now, age <= std::chrono::seconds(1), age, pose);
         jump =
             std::fmax(jump, stand.attracts == before.attracts ? std::abs(stand.brightness - before.brightness)
                                                               : stand.brightness + before.brightness);
@@ -191,20 +194,20 @@ double attract_jump(double step_s) {
 StabilityResult lost_props(const StabilityOptions&) {
     double over = 0.0;
     for (const double step : fade_steps) {
-        const double allowed = std::fmin(2.0, steepest * step / to_seconds(Attract::each_way));
+        const double allowed = std::fmin(2.0, steepest * step / to_seconds(exhibit::Attract::each_way));
         over = std::fmax(over, attract_jump(step) / allowed);
     }
     // Fades out and in again; one object is queried once, another often.
     double other = 0.0;
     double rising = 0.0;
     const MonotonicTime start = from_microseconds(1'000'000);
-    Stand before;
-    Attract often(glm::dvec2(0.0), true, start);
+    exhibit::Stand before;
+    exhibit::Attract often(glm::dvec2(0.0), true, start);
     for (int ms = 0; ms < 6000; ++ms) {
         const Nanoseconds age = std::chrono::milliseconds(ms);
-        const Stand seen = often.at(start + age, ms <= 1000, age, {});
-        Attract once(glm::dvec2(0.0), true, start);
-        const Stand late = once.at(start + age, ms <= 1000, age, {});
+        const exhibit::Stand seen = often.at(start + age, ms <= 1000, age, {});
+        exhibit::Attract once(glm::dvec2(0.0), true, start);
+        const exhibit::Stand late = once.at(start + age, ms <= 1000, age, {});
         other += seen.brightness == late.brightness && seen.attracts == late.attracts ? 0.0 : 1.0;
         const bool same = seen.attracts == before.attracts;
         const double towards = seen.attracts ? 1.0 : -1.0; // out, then in
@@ -236,4 +239,4 @@ std::vector<StabilityCase> fade_cases() {
             {theme, "a prop that is lost and found", FloatingPoint::Strict, lost_props}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -19,22 +19,25 @@ constexpr double deadline_ms = 1000.0 / 60.0;
 
 /// A GPU whose frames take 0.5 ms, 1e-4 ms per triangle and 2e-5 ms per sample.
 struct Gpu {
-    std::vector<QualityLevel> quality_levels;
-    std::vector<QualityLevelTime> times;
+    std::vector<scene::QualityLevel> quality_levels;
+    std::vector<scene::QualityLevelTime> times;
 
     Gpu() {
         for (const auto& [level, triangles] : {std::pair{1U, 4e4}, std::pair{0U, 1e4}}) {
             for (const int samples : {4, 2, 1}) {
-                quality_levels.push_back({level, samples, level == 1 && samples == 4});
-                times.push_back({samples, {triangles, 5e4}, 0.5 + 1e-4 * triangles + 2e-5 * 5e4 * samples});
+                quality_levels.push_back(
+                    {.level = level, .samples = samples, .enough = level == 1 && samples == 4});
+                times.push_back({.samples = samples,
+                                 .work = {triangles, 5e4},
+                                 .ms = 0.5 + 1e-4 * triangles + 2e-5 * 5e4 * samples});
             }
         }
     }
-    [[nodiscard]] Governor governor(double deadline = deadline_ms) const {
+    [[nodiscard]] scene::Governor governor(double deadline = deadline_ms) const {
         return {quality_levels, times, deadline};
     }
-    void frame(Governor& governor, MonotonicTime now, double load) const {
-        const QualityLevelTime& quality_level = times[governor.index()];
+    void frame(scene::Governor& governor, MonotonicTime now, double load) const {
+        const scene::QualityLevelTime& quality_level = times[governor.index()];
         governor.observe(now, quality_level.work, quality_level.ms * load);
     }
 };
@@ -46,7 +49,7 @@ Nanoseconds step_of(double seconds) {
 /// Seconds from a load of 2.5 until the governor relieves; negative: never.
 double relieved_after(double step_s) {
     const Gpu gpu;
-    Governor governor = gpu.governor();
+    scene::Governor governor = gpu.governor();
     const Nanoseconds step = step_of(step_s);
     gpu.frame(governor, MonotonicTime{}, 1.0);
     for (Nanoseconds t = step; t <= std::max(Nanoseconds(std::chrono::seconds(3)), 10 * step); t += step) {
@@ -61,9 +64,9 @@ double relieved_after(double step_s) {
 /// Time until relief with infinitely many frames: until the expected time is 90 % of the deadline, plus the
 /// delay.
 double exact_relief() {
-    const long double share = std::log(Governor::leave_share * deadline_ms / 8.5L) / std::log(2.5L);
-    return static_cast<double>(-FrameTimeModel::time_constant_s * std::log1p(-share)) +
-           to_seconds(Governor::relief_delay);
+    const long double share = std::log(scene::Governor::leave_share * deadline_ms / 8.5L) / std::log(2.5L);
+    return static_cast<double>(-scene::FrameTimeModel::time_constant_s * std::log1p(-share)) +
+           to_seconds(scene::Governor::relief_delay);
 }
 
 constexpr std::array relief_steps{1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.05, 0.1, 1.0, 10.0};
@@ -89,7 +92,7 @@ StabilityResult constant_loads(const StabilityOptions&) {
     double late_changes = 0.0;
     for (const double load : sweep(0.1, 200.0, 24)) {
         for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0, 10.0}) {
-            Governor governor = gpu.governor();
+            scene::Governor governor = gpu.governor();
             std::uint64_t early = 0;
             for (int k = 0; k < 20'000; ++k) {
                 gpu.frame(governor, MonotonicTime(k * step_of(step)), load);
@@ -101,10 +104,11 @@ StabilityResult constant_loads(const StabilityOptions&) {
             const auto share = [&](std::size_t quality_level) {
                 return gpu.times[quality_level].ms * load / deadline_ms;
             };
-            wrong += last + 1 < gpu.quality_levels.size() && share(last) > Governor::leave_share + hair ? 1.0
-                                                                                                        : 0.0;
+            wrong += last + 1 < gpu.quality_levels.size() && share(last) > scene::Governor::leave_share + hair
+                         ? 1.0
+                         : 0.0;
             for (std::size_t finer = 0; finer < last; ++finer) {
-                wrong += share(finer) < Governor::enter_share - hair ? 1.0 : 0.0;
+                wrong += share(finer) < scene::Governor::enter_share - hair ? 1.0 : 0.0;
             }
             max_changes = std::fmax(max_changes, static_cast<double>(governor.switches()));
         }
@@ -122,7 +126,7 @@ StabilityResult jumping_loads(const StabilityOptions&) {
     double max_per_s = 0.0;
     for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0}) {
         for (const double period : sweep(1e-3, 1e3, 2)) {
-            Governor governor = gpu.governor();
+            scene::Governor governor = gpu.governor();
             double changed = -1e9;
             std::uint64_t before = 0;
             for (int k = 0; k < 20'000; ++k) {
@@ -138,8 +142,9 @@ StabilityResult jumping_loads(const StabilityOptions&) {
             max_per_s = std::fmax(max_per_s, static_cast<double>(before) / (20'000 * step));
         }
     }
-    return {{{"short of a second between two changes, s", 1e-6, to_seconds(Governor::dwell) - shortest_s},
-             {"changes a second", 1.0, max_per_s}}};
+    return {
+        {{"short of a second between two changes, s", 1e-6, to_seconds(scene::Governor::dwell) - shortest_s},
+         {"changes a second", 1.0, max_per_s}}};
 }
 
 /// Initial times that are wrong by a factor of up to 8 either way, at a load where only the fastest level
@@ -153,14 +158,14 @@ StabilityResult wrong_starts(const StabilityOptions&) {
     double max_changes = 0.0;
     for (int trial = 0; trial < 100; ++trial) {
         Gpu wrong;
-        for (QualityLevelTime& time : wrong.times) {
+        for (scene::QualityLevelTime& time : wrong.times) {
             time.ms *= std::exp2(
                 6.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 3.0);
         }
-        Governor governor = wrong.governor();
+        scene::Governor governor = wrong.governor();
         double late = 0.0;
         for (int k = 0; k < frames; ++k) {
-            const QualityLevelTime& quality_level = truth.times[governor.index()];
+            const scene::QualityLevelTime& quality_level = truth.times[governor.index()];
             late += quality_level.ms * load > deadline_ms ? 1.0 : 0.0;
             governor.observe(MonotonicTime(k * step_of(1.0 / 60.0)), quality_level.work,
                              quality_level.ms * load);
@@ -176,7 +181,7 @@ StabilityResult wrong_starts(const StabilityOptions&) {
 StabilityResult odd_steps(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
-    Governor governor = gpu.governor();
+    scene::Governor governor = gpu.governor();
     MonotonicTime now = from_microseconds(1'000'000'000);
     for (int k = 0; k < 10'000; ++k) { // time stands still: no decision
         gpu.frame(governor, now, 3.0);
@@ -205,7 +210,7 @@ StabilityResult deadlines(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
     for (const double deadline : {1e-9, 1e-3, 1.0, 1e3, 1e9}) {
-        Governor governor = gpu.governor(deadline);
+        scene::Governor governor = gpu.governor(deadline);
         for (int k = 0; k < 2000; ++k) {
             gpu.frame(governor, MonotonicTime(k * std::chrono::milliseconds(16)), 1.0);
         }
@@ -238,4 +243,4 @@ std::vector<StabilityCase> governor_cases() {
             {theme, "deadlines of 1e-9 to 1e9 ms", FloatingPoint::Strict, deadlines}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

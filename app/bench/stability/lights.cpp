@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -31,10 +31,10 @@ struct Pose {
 
 class Table {
 public:
-    explicit Table(const Settings& settings)
-        : projector_(settings.projector), prop_(make_prop(settings.prop)),
-          compensation_(light_compensation(settings)), eye_(settings.eye),
-          reach_m_(reach_on_table(settings.prop, settings.table)) {}
+    explicit Table(const settings::Settings& settings)
+        : projector_(settings.projector), prop_(settings::make_prop(settings.prop)),
+          compensation_(scene::light_compensation(settings)), eye_(settings.eye),
+          reach_m_(settings::reach_on_table(settings.prop, settings.table)) {}
 
     [[nodiscard]] Pose random_pose(std::mt19937& random) const {
         std::uniform_real_distribution<double> share(-1.0, 1.0);
@@ -54,27 +54,27 @@ public:
     /// The light that each corner and middle of each face reflects to the eye, relative to the exhibit's
     /// target; nullopt where it is not both seen and lit.
     [[nodiscard]] std::vector<std::optional<double>> sent_back(const Pose& pose) const {
-        const RigidTransform table_from_prop{glm::angleAxis(pose.yaw, glm::dvec3(0, 0, 1)),
-                                             glm::dvec3(pose.place_m, 0.0)};
-        const RigidTransform projector_from_prop =
+        const geometry::RigidTransform table_from_prop{glm::angleAxis(pose.yaw, glm::dvec3(0, 0, 1)),
+                                                       glm::dvec3(pose.place_m, 0.0)};
+        const geometry::RigidTransform projector_from_prop =
             projector_.table_from_projector.inverse() * table_from_prop;
         const glm::dvec3 lens = projector_from_prop.inverse().translation;
         const glm::dvec3 eye = table_from_prop.inverse().point(pose.eye_m);
-        std::vector<SeenFace> faces;
-        for (const PropFace& face : prop_.faces) {
+        std::vector<scene::SeenFace> faces;
+        for (const geometry::PropFace& face : prop_.faces) {
             faces.push_back({&face, eye});
         }
-        const double reference = reference_light(faces, lens, compensation_);
+        const double reference = scene::reference_light(faces, lens, compensation_);
         std::vector<std::optional<double>> sent;
-        for (const PropFace& face : prop_.faces) {
-            const FaceLight light = face_light(face, projector_from_prop.matrix(), reference);
+        for (const geometry::PropFace& face : prop_.faces) {
+            const scene::FaceLight light = scene::face_light(face, projector_from_prop.matrix(), reference);
             const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
             for (const glm::dvec3& point :
                  {face.corners[0], face.corners[1], face.corners[2], face.corners[3], middle}) {
                 const auto pixel = projector_.pinhole.pixel(projector_from_prop.point(point));
-                const double received = received_light(face.plane, point, lens);
+                const double received = settings::received_light(face.plane, point, lens);
                 sent.push_back(pixel && received > 0.0 && face.plane.distance(eye) > 0.0
-                                   ? std::optional(gain(light, projector_.pinhole, *pixel) * received /
+                                   ? std::optional(scene::gain(light, projector_.pinhole, *pixel) * received /
                                                    compensation_.reference)
                                    : std::nullopt);
             }
@@ -83,10 +83,10 @@ public:
     }
 
 private:
-    ProjectorSettings projector_;
-    PropShape prop_;
-    LightCompensation compensation_;
-    EyeSettings eye_;
+    settings::ProjectorSettings projector_;
+    geometry::PropShape prop_;
+    scene::LightCompensation compensation_;
+    settings::EyeSettings eye_;
     glm::dvec2 reach_m_;
 };
 
@@ -113,7 +113,7 @@ double max_change(const Table& table, unsigned seed, const auto& step) {
     return most;
 }
 
-StabilityResult walks_in(const std::string& name, const Settings& settings, double bound_a_mm,
+StabilityResult walks_in(const std::string& name, const settings::Settings& settings, double bound_a_mm,
                          double bound_a_turn) {
     const Table table(settings);
     const auto towards = [](auto& from, const auto& to) { from += step_m * glm::normalize(to - from); };
@@ -131,15 +131,20 @@ StabilityResult walks_in(const std::string& name, const Settings& settings, doub
 /// The shipped table: the light is constant, up to the gains' 32 bits.
 StabilityResult shipped(const StabilityOptions&) {
     constexpr double rounding = 5e-6;
-    return walks_in("shipped", Settings{}, 1e-3 / step_m * rounding, rounding);
+    return walks_in("shipped", settings::Settings{}, 1e-3 / step_m * rounding, rounding);
 }
 
 /// A steep prop close to the projector: faces dim as they lose light, and the other faces dim with them.
 StabilityResult steep(const StabilityOptions&) {
-    Settings settings;
-    settings.projector.pinhole = {1280, 800, 2850.0, 2850.0, 640.0, 400.0};
+    settings::Settings settings;
+    settings.projector.pinhole = {
+        .width = 1280, .height = 800, .fx = 2850.0, .fy = 2850.0, .cx = 640.0, .cy = 400.0};
     settings.projector.table_from_projector.translation = {0.0, 0.0, 0.9};
-    settings.prop = {PropKind::Frustum, 0.16, 0.09, 0.12, PropZone::Table};
+    settings.prop = {.kind = settings::PropKind::Frustum,
+                     .base_m = 0.16,
+                     .top_m = 0.09,
+                     .height_m = 0.12,
+                     .zone = settings::PropZone::Table};
     settings.table = {0.404, 0.252};
     return walks_in("steep prop", settings, 0.01, 0.01);
 }
@@ -152,4 +157,4 @@ std::vector<StabilityCase> light_cases() {
             {theme, "walks around a steep prop", FloatingPoint::Strict, steep}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

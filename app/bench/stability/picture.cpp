@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -23,7 +23,7 @@ public:
 
     void anywhere() { add(low_ + glm::dvec3(share(), share(), share()) * extent_, usual_size); }
     /// A place that the eye sees through `face`, from directly behind it to the far end of the box.
-    void behind(const PropFace& face) {
+    void behind(const geometry::PropFace& face) {
         const double a = share();
         const double b = share();
         const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
@@ -34,9 +34,9 @@ public:
         add(s + glm::normalize(s - eye_) * (depth * extent_.x), std::fmin(usual_size, size));
     }
     void finish() {
-        PackLevel& level = artifact_.level;
+        pack::PackLevel& level = artifact_.level;
         for (std::uint32_t first = 0; first < level.indices.size(); first += 3 * triangles_in_cluster) {
-            PackCluster cluster;
+            pack::PackCluster cluster;
             cluster.first_index = first;
             cluster.index_count =
                 std::min(3 * triangles_in_cluster, static_cast<std::uint32_t>(level.indices.size()) - first);
@@ -59,7 +59,7 @@ private:
         const double size = box_size * extent_.x;
         const std::array<glm::dvec3, 3> corners{middle + size * u, middle + size * (v - u),
                                                 middle - size * (v + u)};
-        std::array<PackVertex, 3> vertices{};
+        std::array<pack::PackVertex, 3> vertices{};
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3 unit = (corners[k] - low_) / extent_ * 65535.0;
             for (int axis = 0; axis < 3; ++axis) {
@@ -70,7 +70,7 @@ private:
                     static_cast<std::uint16_t>(std::lround(unit[axis]));
             }
         }
-        for (const PackVertex& vertex : vertices) {
+        for (const pack::PackVertex& vertex : vertices) {
             artifact_.level.indices.push_back(static_cast<std::uint32_t>(artifact_.level.vertices.size()));
             artifact_.level.vertices.push_back(vertex);
         }
@@ -84,13 +84,13 @@ private:
     std::uniform_real_distribution<double> spread_{0.0, 1.0};
 };
 
-double pixel_distance(const glm::dvec4& clip, const exact::Seen& seen, const Pinhole& pinhole) {
+double pixel_distance(const glm::dvec4& clip, const exact::Seen& seen, const geometry::Pinhole& pinhole) {
     const double u = (clip.x / clip.w + 1.0) / 2.0 * pinhole.width;
     const double v = (clip.y / clip.w + 1.0) / 2.0 * pinhole.height;
     return std::hypot(u - static_cast<double>(seen.u), v - static_cast<double>(seen.v));
 }
 
-bool lit_at(const FramePlan& plan, const exact::Seen& seen) {
+bool lit_at(const scene::FramePlan& plan, const exact::Seen& seen) {
     const auto rectangles = plan.lit.rectangles();
     const auto u = static_cast<int>(seen.u);
     const auto v = static_cast<int>(seen.v);
@@ -99,10 +99,10 @@ bool lit_at(const FramePlan& plan, const exact::Seen& seen) {
     });
 }
 
-double not_finite(const FramePlan& plan) {
+double not_finite(const scene::FramePlan& plan) {
     double count = 0.0;
     const auto add = [&count](double number) { count += std::isfinite(number) ? 0.0 : 1.0; };
-    for (const FacePlan& face : plan.faces) {
+    for (const scene::FacePlan& face : plan.faces) {
         for (int k = 0; k < 3; ++k) {
             add(static_cast<double>(face.light.inverse_depth[k]));
         }
@@ -114,7 +114,7 @@ double not_finite(const FramePlan& plan) {
         add(static_cast<double>(face.light.per_cubic_metre));
         add(face.pixels_per_m);
     }
-    for (const Draw& draw : plan.draws) {
+    for (const scene::Draw& draw : plan.draws) {
         for (int column = 0; column < 4; ++column) {
             for (int row = 0; row < 4; ++row) {
                 add(static_cast<double>(draw.clip_from_unit[column][row]));
@@ -128,19 +128,19 @@ double not_finite(const FramePlan& plan) {
 /// Checks one face of the prop, whether the plan contains it or not.
 class FaceCheck {
 public:
-    FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
+    FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const scene::FramePlan& plan,
               std::size_t face, PictureFigures& figures)
         : stage_(stage), artifact_(artifact), plan_(plan), face_(stage.prop.faces[face]), figures_(figures) {
-        const auto found = std::find_if(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
+        const auto found = std::find_if(plan.draws.begin(), plan.draws.end(), [&](const scene::Draw& draw) {
             return plan.faces[static_cast<std::size_t>(draw.face)].face == static_cast<int>(face);
         });
         if (found != plan.draws.end()) {
             planned_ = &*found;
         }
         const glm::dvec3 extent = artifact.placed.box_size * artifact.placed.metres_per_box;
-        const RigidTransform projector_from_prop =
+        const geometry::RigidTransform projector_from_prop =
             stage.table_from_projector.inverse() * stage.table_from_prop;
-        collineation_ = collineation(
+        collineation_ = geometry::collineation(
             face_.plane, stage.table_from_prop.inverse().point(stage.eye_m),
             stage.projector.clip_from_point() * projector_from_prop.matrix(),
             {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}});
@@ -157,11 +157,11 @@ public:
         const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
         constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both correct
-        if (eye_sine < min_sine - hair || lens_sine < min_sine - hair) {
+        if (eye_sine < geometry::min_sine - hair || lens_sine < geometry::min_sine - hair) {
             figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
             return;
         }
-        if (eye_sine < min_sine + hair || lens_sine < min_sine + hair) {
+        if (eye_sine < geometry::min_sine + hair || lens_sine < geometry::min_sine + hair) {
             return;
         }
         sort_shown();
@@ -217,7 +217,7 @@ private:
             *collineation_ *
             glm::dvec4(static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z), 1.0);
         figures_.error_px = std::fmax(figures_.error_px, pixel_distance(clip, *seen, stage_.projector));
-        const PackVertex& vertex = artifact_.level.vertices[corner];
+        const pack::PackVertex& vertex = artifact_.level.vertices[corner];
         const glm::vec3 unit =
             glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0F;
         const glm::vec4 drawn = planned_->clip_from_unit * glm::vec4(unit, 1.0F);
@@ -227,10 +227,10 @@ private:
 
     const exact::Stage& stage_;
     const SeenArtifact& artifact_;
-    const FramePlan& plan_;
-    const PropFace& face_;
+    const scene::FramePlan& plan_;
+    const geometry::PropFace& face_;
     PictureFigures& figures_;
-    const Draw* planned_ = nullptr; ///< the draw on this face
+    const scene::Draw* planned_ = nullptr; ///< the draw on this face
     std::optional<glm::dmat4> collineation_;
     std::vector<Corners> shown_;
 };
@@ -238,11 +238,11 @@ private:
 } // namespace
 
 exact::Stage usual_stage() {
-    return {make_frustum({}),
-            {1280, 800, 1920.0, 1920.0, 640.0, 400.0},
-            {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
-            {},
-            {0.0, -0.55, 0.50}};
+    return {.prop = geometry::make_frustum({}),
+            .projector = {1280, 800, 1920.0, 1920.0, 640.0, 400.0},
+            .table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
+            .table_from_prop = {},
+            .eye_m = {0.0, -0.55, 0.50}};
 }
 
 exact::Vector SeenArtifact::corner(std::uint32_t index) const {
@@ -257,8 +257,8 @@ SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metr
     SeenArtifact artifact;
     artifact.placed.metres_per_box = metres_per_box;
     Scatter scatter(stage, artifact);
-    std::vector<const PropFace*> seen;
-    for (const PropFace& face : stage.prop.faces) {
+    std::vector<const geometry::PropFace*> seen;
+    for (const geometry::PropFace& face : stage.prop.faces) {
         if (stage.height(face, stage.eye_in_prop()) > 0) {
             seen.push_back(&face);
         }
@@ -271,26 +271,28 @@ SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metr
         }
     }
     scatter.finish();
-    artifact.placed = {std::make_shared<LevelTriangles>(triangles_of(artifact.level, seen_box_size)),
-                       seen_box_size,
-                       metres_per_box,
-                       {},
-                       4};
+    artifact.placed = {.triangles = std::make_shared<scene::LevelTriangles>(
+                           scene::triangles_of(artifact.level, seen_box_size)),
+                       .box_size = seen_box_size,
+                       .metres_per_box = metres_per_box,
+                       .drawable = {},
+                       .samples = 4};
     return artifact;
 }
 
-SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level) {
-    return {pack.levels[level], frustumscreen::placed(pack, level, place(pack, stage.prop).metres_per_box)};
+SeenArtifact seen_level(const exact::Stage& stage, const pack::Pack& pack, std::uint32_t level) {
+    return {pack.levels[level],
+            frustumscreen::scene::placed(pack, level, pack::place(pack, stage.prop).metres_per_box)};
 }
 
-FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {
-    PlanView view;
+scene::FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {
+    scene::PlanView view;
     view.projector = stage.projector;
     view.table_from_projector = stage.table_from_projector;
     view.table_from_prop = stage.table_from_prop;
     view.eyes_m = {&stage.eye_m, 1};
-    FramePlan plan = make_plan(stage.prop, artifact.placed);
-    plan_frame(stage.prop, artifact.placed, view, plan);
+    scene::FramePlan plan = scene::make_plan(stage.prop, artifact.placed);
+    scene::plan_frame(stage.prop, artifact.placed, view, plan);
     return plan;
 }
 
@@ -304,8 +306,8 @@ void PictureFigures::include(const PictureFigures& other) {
     not_finite += other.not_finite;
 }
 
-PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
-                          std::optional<std::size_t> only_face) {
+PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
+                          const scene::FramePlan& plan, std::optional<std::size_t> only_face) {
     PictureFigures figures;
     figures.not_finite = not_finite(plan);
     for (std::size_t face = 0; face < stage.prop.faces.size(); ++face) {
@@ -336,4 +338,4 @@ std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::stri
     return rows;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

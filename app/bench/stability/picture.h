@@ -14,24 +14,24 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// A kiosk as shipped: the projector 1.2 m above the table, the default prop at its centre.
 [[nodiscard]] exact::Stage usual_stage();
 
 /// Triangles that the stage's eye sees through each face turned to it, and as many anywhere in the box.
 struct SeenArtifact {
-    PackLevel level;
-    PlacedLevel placed;
+    pack::PackLevel level;
+    scene::PlacedLevel placed;
     [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
 };
 inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the default prop's
 [[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
                                          double metres_per_box = 0.16);
 /// A level of a pack, placed in the stage's prop.
-[[nodiscard]] SeenArtifact seen_level(const exact::Stage& stage, const Pack& pack, std::uint32_t level);
+[[nodiscard]] SeenArtifact seen_level(const exact::Stage& stage, const pack::Pack& pack, std::uint32_t level);
 
-[[nodiscard]] FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
+[[nodiscard]] scene::FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
 
 struct PictureFigures {
     double error_px = 0.0;     ///< largest, of the 64-bit collineation
@@ -45,7 +45,7 @@ struct PictureFigures {
     void include(const PictureFigures& other); ///< takes the larger errors, adds the counts
 };
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
-                                        const FramePlan& plan,
+                                        const scene::FramePlan& plan,
                                         std::optional<std::size_t> only_face = std::nullopt);
 /// Like the overload above, for `seen_artifact` of the stage.
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
@@ -62,4 +62,4 @@ inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
                                                 double bound_px, double gpu_bound_px,
                                                 double min_points = 100.0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -35,8 +35,8 @@ double off_turn(const glm::dquat& q) {
     return off;
 }
 
-PoseSample sample_of(const glm::dquat& rotation, std::int64_t t_us = 0) {
-    PoseSample sample;
+tracker::PoseSample sample_of(const glm::dquat& rotation, std::int64_t t_us = 0) {
+    tracker::PoseSample sample;
     sample.time = from_microseconds(t_us);
     sample.position_m = {0.1, -0.05, 0.0};
     sample.rotation = rotation;
@@ -48,9 +48,9 @@ StabilityResult of_any_length(const StabilityOptions&) {
     double off_tracked = 0.0;
     for (int exponent = -299; exponent <= 307; exponent += 3) {
         const glm::dquat q = turned * std::pow(10.0, exponent);
-        const auto unit = normalised(q);
+        const auto unit = geometry::normalised(q);
         off = std::fmax(off, unit ? off_turn(*unit) : 1.0);
-        TrackedStateTracker tracker(glm::dvec3(0.0));
+        tracking::TrackedStateTracker tracker(glm::dvec3(0.0));
         const bool taken = tracker.take(sample_of(q));
         off_tracked = std::fmax(off_tracked, taken ? off_turn(tracker.at({}).table_from_prop.rotation) : 1.0);
     }
@@ -61,17 +61,17 @@ StabilityResult of_any_length(const StabilityOptions&) {
 StabilityResult of_none(const StabilityOptions&) {
     double taken = 0.0;
     for (const glm::dquat& q : no_rotations) {
-        taken += normalised(q) ? 1.0 : 0.0;
+        taken += geometry::normalised(q) ? 1.0 : 0.0;
     }
     return {{{"normalised: zero, NaN, infinite", 0.0, taken}}};
 }
 
 /// The tracker refuses such poses and keeps its state.
 StabilityResult into_the_tracker(const StabilityOptions&) {
-    TrackedStateTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
+    tracking::TrackedStateTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
-    const RigidTransform before = tracker.at({}).table_from_prop;
-    std::vector<PoseSample> bad;
+    const geometry::RigidTransform before = tracker.at({}).table_from_prop;
+    std::vector<tracker::PoseSample> bad;
     bad.reserve(no_rotations.size() + 9);
     for (const glm::dquat& q : no_rotations) {
         bad.push_back(sample_of(q, 1000));
@@ -82,12 +82,12 @@ StabilityResult into_the_tracker(const StabilityOptions&) {
             bad.back().position_m[axis] = number;
         }
     }
-    for (const PoseSample& sample : bad) {
-        PoseSample head = sample;
-        head.station = head_station;
+    for (const tracker::PoseSample& sample : bad) {
+        tracker::PoseSample head = sample;
+        head.station = tracker::head_station;
         wrong += tracker.take(sample) || tracker.take(head) ? 1.0 : 0.0;
     }
-    const TrackedState after = tracker.at(from_microseconds(2000));
+    const tracking::TrackedState after = tracker.at(from_microseconds(2000));
     wrong += after.table_from_prop.rotation == before.rotation ? 0.0 : 1.0;
     wrong += after.table_from_prop.translation == before.translation ? 0.0 : 1.0;
     wrong += after.head_known ? 1.0 : 0.0;
@@ -99,7 +99,7 @@ StabilityResult from_a_file(const StabilityOptions&) {
     double off = 0.0;
     for (const double length : {1e-5, 1e-3, 1.0, 1e3, 1e150}) {
         const glm::dquat q = turned * length;
-        const auto poses = parse_poses(
+        const auto poses = tracker::parse_poses(
             header + fmt::format("0,1,0.1,0.2,0,{},{},{},{},1\n", q.w, q.x, q.y, q.z), "poses.csv");
         off = std::fmax(off, poses ? off_turn(poses->front().rotation) : 1.0);
     }
@@ -107,7 +107,7 @@ StabilityResult from_a_file(const StabilityOptions&) {
     for (const std::string numbers :
          {"0,0,0,0,0,0,0", "0,0,0,nan,0,0,1", "0,0,0,inf,0,0,0", "nan,0,0,1,0,0,0", "0,inf,0,1,0,0,0",
           "0,0,0,1e-7,0,0,0", "0,1e30,0,1,0,0,0"}) {
-        taken += parse_poses(fmt::format("{}0,1,{},1\n", header, numbers), "poses.csv") ? 1.0 : 0.0;
+        taken += tracker::parse_poses(fmt::format("{}0,1,{},1\n", header, numbers), "poses.csv") ? 1.0 : 0.0;
     }
     return {{{"length 1e-5 to 1e150: a unit point off", 16 * 0x1p-53, off},
              {"rows that are no pose, taken", 0.0, taken}}};
@@ -116,7 +116,9 @@ StabilityResult from_a_file(const StabilityOptions&) {
 /// q and -q are one pose: their pictures are equal to the last bit.
 StabilityResult of_either_sign(const StabilityOptions&) {
     double other = 0.0;
-    const auto negated = [](const RigidTransform& t) { return RigidTransform{-t.rotation, t.translation}; };
+    const auto negated = [](const geometry::RigidTransform& t) {
+        return geometry::RigidTransform{-t.rotation, t.translation};
+    };
     for (int k = 0; k < 50; ++k) {
         exact::Stage stage = usual_stage();
         stage.table_from_prop = {
@@ -138,8 +140,8 @@ StabilityResult into_the_plan(const StabilityOptions&) {
     double wrong = 0.0;
     const SeenArtifact artifact = seen_artifact(usual_stage(), 2000);
     const auto check = [&](const exact::Stage& stage) {
-        const FramePlan plan = plan_of(stage, artifact);
-        for (const Draw& draw : plan.draws) {
+        const scene::FramePlan plan = plan_of(stage, artifact);
+        for (const scene::Draw& draw : plan.draws) {
             for (int column = 0; column < 4; ++column) {
                 const glm::vec4 c = draw.clip_from_unit[column];
                 wrong += std::isfinite(c.x + c.y + c.z + c.w) ? 0.0 : 1.0;
@@ -183,4 +185,4 @@ std::vector<StabilityCase> pose_cases() {
             {theme, "no pose, in the plan", FloatingPoint::Free, into_the_plan}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

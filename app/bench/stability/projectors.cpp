@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -25,7 +25,7 @@ double radians(double degrees) {
 /// looks straight at the face.
 exact::Stage grazing_stage(std::size_t face, double degrees) {
     exact::Stage stage = usual_stage();
-    const PropFace& f = stage.prop.faces[face];
+    const geometry::PropFace& f = stage.prop.faces[face];
     const glm::dvec3 middle = f.middle();
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     const glm::dvec3 n = f.plane.normal;
@@ -58,7 +58,7 @@ StabilityResult below_the_limit(const StabilityOptions&) {
     for (std::size_t face = 0; face < 5; ++face) {
         for (const double degrees : {0.05, 1e-3, 1e-9, 0.0, -1e-9, -1.0, -45.0}) {
             const exact::Stage stage = grazing_stage(face, degrees);
-            for (const FacePlan& planned : plan_of(stage, seen_artifact(stage)).faces) {
+            for (const scene::FacePlan& planned : plan_of(stage, seen_artifact(stage)).faces) {
                 lit += planned.face == static_cast<int>(face) ? 1.0 : 0.0;
             }
         }
@@ -67,15 +67,16 @@ StabilityResult below_the_limit(const StabilityOptions&) {
 }
 
 /// The gain at a point of the face, computed in the ordinary way: faded out where the light grazes the face.
-exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const exact::Vector& point,
+exact::Real exact_gain(const exact::Stage& stage, const geometry::PropFace& face, const exact::Vector& point,
                        exact::Real reference) {
     const exact::Vector lens = stage.lens_in_prop();
     const exact::Real d = exact::length(lens - point);
     const exact::Real height = stage.height(face, lens);
     const exact::Real sine = height / exact::length(lens - exact::of(face.middle()));
-    const exact::Real lit = std::clamp((sine - exact::Real(min_sine_of_light)) /
-                                           (exact::Real(full_sine_of_light) - exact::Real(min_sine_of_light)),
-                                       exact::Real(0), exact::Real(1));
+    const exact::Real lit =
+        std::clamp((sine - exact::Real(settings::min_sine_of_light)) /
+                       (exact::Real(scene::full_sine_of_light) - exact::Real(settings::min_sine_of_light)),
+                   exact::Real(0), exact::Real(1));
     return lit * lit * (3 - 2 * lit) * std::min(exact::Real(1), reference * d * d * d / height);
 }
 
@@ -87,13 +88,13 @@ StabilityResult light(const StabilityOptions&) {
         double largest = 0.0;
         for (std::size_t k = 0; k < 5; ++k) {
             const exact::Stage stage = grazing_stage(k, degrees);
-            const PropFace& face = stage.prop.faces[k];
-            const RigidTransform projector_from_prop =
+            const geometry::PropFace& face = stage.prop.faces[k];
+            const geometry::RigidTransform projector_from_prop =
                 stage.table_from_projector.inverse() * stage.table_from_prop;
             const glm::dvec3 lens = projector_from_prop.inverse().translation;
-            const std::array seen{SeenFace{&face, stage.eye_m}};
-            const double reference = reference_light(seen, lens, {});
-            const FaceLight planned = face_light(face, projector_from_prop.matrix(), reference);
+            const std::array seen{scene::SeenFace{&face, stage.eye_m}};
+            const double reference = scene::reference_light(seen, lens, {});
+            const scene::FaceLight planned = scene::face_light(face, projector_from_prop.matrix(), reference);
             for (int j = 0; j < 100; ++j) {
                 const int row = j / 10;
                 const double a = (j % 10 + 0.5) / 10.0;
@@ -105,7 +106,7 @@ StabilityResult light(const StabilityOptions&) {
                                        static_cast<double>(1920 * q.y / q.z + 400));
                 const auto exact = static_cast<double>(exact_gain(stage, face, exact::of(s), reference));
                 largest = std::fmax(largest, exact);
-                off = std::fmax(off, std::abs(gain(planned, stage.projector, pixel) - exact));
+                off = std::fmax(off, std::abs(scene::gain(planned, stage.projector, pixel) - exact));
             }
         }
         // Two factors of the gain are rounded to 32 bits. Below the smallest sine the face is exactly dark.
@@ -120,7 +121,7 @@ StabilityResult intrinsics(const StabilityOptions&) {
     StabilityResult result;
     struct Lens {
         std::string name;
-        Pinhole pinhole;
+        geometry::Pinhole pinhole;
         double height_m;
         glm::dvec3 prop_m{0.0}; ///< moved to where the picture is
     };
@@ -152,12 +153,12 @@ StabilityResult intrinsics(const StabilityOptions&) {
 StabilityResult refused_intrinsics(const StabilityOptions&) {
     double taken = 0.0;
     for (const std::string value : {"0.0", "-1920.0", "nan", "inf", "1e-300", "49.9", "200001.0"}) {
-        taken += parse_settings("[projector]\nfx = " + value + "\n", "kiosk.toml") ? 1.0 : 0.0;
+        taken += settings::parse_settings("[projector]\nfx = " + value + "\n", "kiosk.toml") ? 1.0 : 0.0;
     }
     for (const std::string shift : {"nan", "inf", "-1281.0", "2561.0"}) {
-        taken += parse_settings("[projector]\ncx = " + shift + "\n", "kiosk.toml") ? 1.0 : 0.0;
+        taken += settings::parse_settings("[projector]\ncx = " + shift + "\n", "kiosk.toml") ? 1.0 : 0.0;
     }
-    taken += parse_settings("[projector]\nfx = 1920.0\n", "kiosk.toml") ? 0.0 : 1.0;
+    taken += settings::parse_settings("[projector]\nfx = 1920.0\n", "kiosk.toml") ? 0.0 : 1.0;
     return {{{"taken, or a usual one refused", 0.0, taken}}};
 }
 
@@ -172,4 +173,4 @@ std::vector<StabilityCase> projector_cases() {
             {theme, "intrinsics that are none", FloatingPoint::Free, refused_intrinsics}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

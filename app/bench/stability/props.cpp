@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -58,7 +58,7 @@ StabilityResult outside(const StabilityOptions&) {
         exact::Stage stage = usual_stage();
         stage.table_from_prop.translation = place;
         const SeenArtifact artifact = seen_artifact(stage);
-        const FramePlan plan = plan_of(stage, artifact);
+        const scene::FramePlan plan = plan_of(stage, artifact);
         pixels += static_cast<double>(plan.lit.pixels());
         not_finite += figures_of(stage, artifact, plan).not_finite;
     }
@@ -105,7 +105,8 @@ StabilityResult tilted(const StabilityOptions&) {
 
 /// Only a rigid matrix has a rigid transform.
 StabilityResult refused(const StabilityOptions&) {
-    const glm::dmat4 good = RigidTransform{glm::angleAxis(1.0, glm::dvec3(0, 0.6, 0.8)), {1, 2, 3}}.matrix();
+    const glm::dmat4 good =
+        geometry::RigidTransform{glm::angleAxis(1.0, glm::dvec3(0, 0.6, 0.8)), {1, 2, 3}}.matrix();
     std::vector<glm::dmat4> bad(7, good);
     bad[0][0] = -bad[0][0];                                  // mirrored
     bad[1] = glm::dmat4(-glm::dmat3(good));                  // through the origin
@@ -116,16 +117,16 @@ StabilityResult refused(const StabilityOptions&) {
     bad[6][1][2] = std::numeric_limits<double>::infinity();  // infinite
     double taken = 0.0;
     for (const glm::dmat4& matrix : bad) {
-        taken += rigid_from_matrix(matrix) ? 1.0 : 0.0;
+        taken += geometry::rigid_from_matrix(matrix) ? 1.0 : 0.0;
     }
-    const auto back = rigid_from_matrix(good);
+    const auto back = geometry::rigid_from_matrix(good);
     double off = back ? 0.0 : 1.0;
     for (int column = 0; back && column < 4; ++column) {
         off = std::fmax(off, glm::length(back->matrix()[column] - good[column]));
     }
     const std::string mirrored = "[projector]\ntable_from_projector = "
                                  "[-1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]\n";
-    taken += parse_settings(mirrored, "kiosk.toml") ? 1.0 : 0.0;
+    taken += settings::parse_settings(mirrored, "kiosk.toml") ? 1.0 : 0.0;
     return {{{"taken: mirrored, sheared, stretched, projective, not finite", 0.0, taken},
              {"a rigid one and back, off", 1e-15, off}}};
 }
@@ -141,4 +142,4 @@ std::vector<StabilityCase> prop_cases() {
             {theme, "mirrored and other matrices that are no pose", FloatingPoint::Free, refused}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::string step_error_csv(std::span<const StepError> smoothers, std::span<const
     return csv;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct MeasuredCase {
     std::string theme;
@@ -24,4 +24,4 @@ struct MeasuredCase {
 [[nodiscard]] std::string step_error_csv(std::span<const StepError> smoothers,
                                          std::span<const StepError> program);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

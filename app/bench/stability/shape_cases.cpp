@@ -13,31 +13,31 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
-Result<Pack> baked(const SourceMesh& mesh) {
-    BakeOptions options;
+Result<pack::Pack> baked(const bake::SourceMesh& mesh) {
+    bake::BakeOptions options;
     options.size = 64;
     options.unlit = true;
-    return bake(mesh, options);
+    return bake::bake(mesh, options);
 }
 
 /// Checks properties of every pack: it can be written and verified, its error figures are numbers, its
 /// picture is finite.
-void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
+void add_soundness(const Result<pack::Pack>& pack, StabilityResult& result) {
     if (!pack) {
         result.rows.push_back({"refused: " + pack.error().message, 0.0, 1.0});
         return;
     }
-    const Result<Bytes> bytes = write_pack(*pack);
+    const Result<Bytes> bytes = pack::write_pack(*pack);
     result.rows.push_back(
-        {"pack not written or not verified", 0.0, bytes && verify_pack(*bytes) ? 0.0 : 1.0});
+        {"pack not written or not verified", 0.0, bytes && pack::verify_pack(*bytes) ? 0.0 : 1.0});
     double not_finite = 0.0;
     PictureFigures picture;
     for (std::uint32_t level = 0; level < pack->levels.size(); ++level) {
-        const LevelError& error = pack->levels[level].error;
+        const pack::LevelError& error = pack->levels[level].error;
         for (const float figure : {error.mean_box, error.p95_box, error.max_box, error.colour_rmse}) {
             not_finite += std::isfinite(figure) ? 0.0 : 1.0;
         }
@@ -55,9 +55,9 @@ void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
 }
 
 /// Largest distance of the finest level's corners from a box that stands on z = 0, box units.
-double off_box(const Pack& pack, const glm::dvec3& size) {
+double off_box(const pack::Pack& pack, const glm::dvec3& size) {
     double off = 0.0;
-    for (const glm::vec3& p : surface_of(pack.levels.back(), pack.box_size).positions) {
+    for (const glm::vec3& p : bake::surface_of(pack.levels.back(), pack.box_size).positions) {
         const glm::dvec3 q = glm::abs(glm::dvec3(p) - glm::dvec3(0.0, 0.0, 0.5 * size.z)) - 0.5 * size;
         const double outside = glm::length(glm::max(q, glm::dvec3(0.0)));
         const double inside = std::fmin(std::fmax(q.x, std::fmax(q.y, q.z)), 0.0);
@@ -67,9 +67,9 @@ double off_box(const Pack& pack, const glm::dvec3& size) {
 }
 
 /// Largest distance of the finest level's corners from the sphere of radius 1/2 in the box.
-double off_sphere(const Pack& pack) {
+double off_sphere(const pack::Pack& pack) {
     double off = 0.0;
-    for (const glm::vec3& p : surface_of(pack.levels.back(), pack.box_size).positions) {
+    for (const glm::vec3& p : bake::surface_of(pack.levels.back(), pack.box_size).positions) {
         off = std::fmax(off, std::abs(glm::distance(glm::dvec3(p), glm::dvec3(0.0, 0.0, 0.5)) - 0.5));
     }
     return off;
@@ -79,7 +79,7 @@ constexpr double bake_bound = 6e-5 + 1.0 / 65535.0; ///< the finest level's tole
 
 /// A sphere covered with slivers of 1e-9 of its width.
 StabilityResult slivers(const StabilityOptions&) {
-    SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
+    bake::SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
     const std::size_t count = mesh.triangles.size();
     for (std::size_t k = 0; k < count; k += 2) {
         const auto [a, b, c] = mesh.triangles[k];
@@ -89,7 +89,7 @@ StabilityResult slivers(const StabilityOptions&) {
         add_triangle(mesh, from, to, from + to_side * glm::normalize(mesh.positions[c] - from));
     }
     StabilityResult result;
-    const Result<Pack> pack = baked(mesh);
+    const Result<pack::Pack> pack = baked(mesh);
     add_soundness(pack, result);
     if (pack) {
         result.rows.push_back({"finest level off the sphere, box units", bake_bound, off_sphere(*pack)});
@@ -99,7 +99,7 @@ StabilityResult slivers(const StabilityOptions&) {
 
 /// Every triangle three times: two copies and one with reversed winding.
 StabilityResult duplicates(const StabilityOptions&) {
-    SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
+    bake::SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
     const std::size_t count = mesh.triangles.size();
     for (std::size_t k = 0; k < count; ++k) {
         const auto [a, b, c] = mesh.triangles[k];
@@ -107,12 +107,12 @@ StabilityResult duplicates(const StabilityOptions&) {
         add_triangle(mesh, mesh.positions[a], mesh.positions[c], mesh.positions[b]);
     }
     StabilityResult result;
-    const Result<Pack> pack = baked(mesh);
-    const Result<Pack> single = baked(sphere({0, 0, 0}, 0.5, 12));
+    const Result<pack::Pack> pack = baked(mesh);
+    const Result<pack::Pack> single = baked(sphere({0, 0, 0}, 0.5, 12));
     add_soundness(pack, result);
     if (pack && single) {
         result.rows.push_back({"finest level off the sphere, box units", bake_bound, off_sphere(*pack)});
-        const auto triangles = [](const Pack& p) {
+        const auto triangles = [](const pack::Pack& p) {
             return static_cast<double>(p.levels.back().indices.size());
         };
         result.rows.push_back(
@@ -123,7 +123,7 @@ StabilityResult duplicates(const StabilityOptions&) {
 
 StabilityResult long_and_thin(const glm::dvec3& size) {
     StabilityResult result;
-    const Result<Pack> pack = baked(box_mesh(size));
+    const Result<pack::Pack> pack = baked(box_mesh(size));
     add_soundness(pack, result);
     if (pack) {
         result.rows.push_back({"finest level off the box, box units", bake_bound, off_box(*pack, size)});
@@ -133,19 +133,19 @@ StabilityResult long_and_thin(const glm::dvec3& size) {
 
 StabilityResult one_triangle(const StabilityOptions&) {
     StabilityResult result;
-    SourceMesh mesh;
+    bake::SourceMesh mesh;
     mesh.materials.resize(1);
     mesh.default_up = 'z';
     const std::array corners{glm::dvec3(-0.5, 0.1, 0.0), glm::dvec3(0.5, 0.1, 0.0),
                              glm::dvec3(0.0, 0.1, 0.9)};
     add_triangle(mesh, corners[0], corners[1], corners[2]);
-    const Result<Pack> pack = baked(mesh);
+    const Result<pack::Pack> pack = baked(mesh);
     add_soundness(pack, result);
     double off = pack ? 0.0 : 1.0;
     for (const glm::dvec3& corner : corners) { // the box is 1 wide, flat, and stands on the lowest corner
         double nearest = 1.0;
         for (std::size_t k = 0; pack && k < pack->levels.back().vertices.size(); ++k) {
-            const glm::dvec3 p(surface_of(pack->levels.back(), pack->box_size).positions[k]);
+            const glm::dvec3 p(bake::surface_of(pack->levels.back(), pack->box_size).positions[k]);
             nearest = std::fmin(nearest, glm::length(glm::dvec2(p.x - corner.x, p.z - corner.z)));
         }
         off = std::fmax(off, nearest);
@@ -156,8 +156,8 @@ StabilityResult one_triangle(const StabilityOptions&) {
 
 /// A mesh without surface is refused with a sentence; it is neither baked nor a cause of division by zero.
 StabilityResult no_surface(const StabilityOptions&) {
-    std::vector<SourceMesh> none(5, box_mesh(glm::dvec3(1.0)));
-    for (SourceMesh& mesh : none) {
+    std::vector<bake::SourceMesh> none(5, box_mesh(glm::dvec3(1.0)));
+    for (bake::SourceMesh& mesh : none) {
         mesh.positions.clear();
         mesh.triangles.clear();
         mesh.triangle_materials.clear();
@@ -169,7 +169,7 @@ StabilityResult no_surface(const StabilityOptions&) {
                  glm::dvec3(0, 1e-320, 0)); // too small to divide by
     add_triangle(none[4], glm::dvec3(-1e300), glm::dvec3(1e300), glm::dvec3(1e300, 0, 0)); // too large
     double taken = 0.0;
-    for (const SourceMesh& mesh : none) {
+    for (const bake::SourceMesh& mesh : none) {
         taken += baked(mesh) ? 1.0 : 0.0;
     }
     return {{{"baked: nothing, a point, a line, 1e-320, 1e300", 0.0, taken}}};
@@ -191,4 +191,4 @@ std::vector<StabilityCase> shape_cases() {
             {theme, "no surface", FloatingPoint::Free, no_surface}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

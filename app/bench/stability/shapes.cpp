@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
-SourceMesh without_triangles() {
-    SourceMesh mesh;
+bake::SourceMesh without_triangles() {
+    bake::SourceMesh mesh;
     mesh.materials.resize(1);
     mesh.default_up = 'z';
     return mesh;
@@ -16,15 +16,15 @@ SourceMesh without_triangles() {
 
 } // namespace
 
-void add_triangle(SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+void add_triangle(bake::SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {a, b, c});
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangle_materials.push_back(0);
 }
 
-SourceMesh sphere(const glm::dvec3& centre, double radius, int rows) {
-    SourceMesh mesh = without_triangles();
+bake::SourceMesh sphere(const glm::dvec3& centre, double radius, int rows) {
+    bake::SourceMesh mesh = without_triangles();
     const int columns = 2 * rows;
     const auto at = [&](int row, int column) {
         const double polar = std::numbers::pi * row / rows;
@@ -46,8 +46,8 @@ SourceMesh sphere(const glm::dvec3& centre, double radius, int rows) {
     return mesh;
 }
 
-SourceMesh box_mesh(const glm::dvec3& size) {
-    SourceMesh mesh = without_triangles();
+bake::SourceMesh box_mesh(const glm::dvec3& size) {
+    bake::SourceMesh mesh = without_triangles();
     const auto corner = [&](int k) {
         return size * glm::dvec3((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, (k >> 2) & 1);
     };
@@ -60,4 +60,4 @@ SourceMesh box_mesh(const glm::dvec3& size) {
     return mesh;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

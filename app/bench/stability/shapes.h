@@ -6,11 +6,11 @@
 
 #include "assets_baked/bake/source_mesh.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// A sphere of rows x 2 rows quads around `centre`; facing outward, welded at the poles.
-[[nodiscard]] SourceMesh sphere(const glm::dvec3& centre, double radius, int rows);
-[[nodiscard]] SourceMesh box_mesh(const glm::dvec3& size);
-void add_triangle(SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+[[nodiscard]] bake::SourceMesh sphere(const glm::dvec3& centre, double radius, int rows);
+[[nodiscard]] bake::SourceMesh box_mesh(const glm::dvec3& size);
+void add_triangle(bake::SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

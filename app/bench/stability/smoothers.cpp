@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -31,14 +31,14 @@ StabilityResult closed_form(const StabilityOptions&) {
     for (const double tau : sweep(1e-6, 1e3, 10)) {
         double before = 0.0;
         for (const double dt : sweep(1e-6, 10.0, 10)) {
-            const double share = follow_share(dt, tau);
+            const double share = geometry::follow_share(dt, tau);
             off = std::fmax(off, std::abs(share / exact_share(dt, tau) - 1.0));
             outside += share >= 0.0 && share <= 1.0 ? 0.0 : 1.0;
             falling += share >= before ? 0.0 : 1.0;
             before = share;
         }
         for (const double dt : {0.0, -1e-9, -10.0}) {
-            outside += follow_share(dt, tau) == 0.0 ? 0.0 : 1.0;
+            outside += geometry::follow_share(dt, tau) == 0.0 ? 0.0 : 1.0;
         }
     }
     return {{{"share of the way off, relative", 4 * eps, off},
@@ -50,7 +50,7 @@ StabilityResult closed_form(const StabilityOptions&) {
 double stepped(double dt, double tau, int count) {
     double x = 0.0;
     for (int k = 0; k < count; ++k) {
-        x += follow_share(dt, tau) * (1.0 - x);
+        x += geometry::follow_share(dt, tau) * (1.0 - x);
     }
     return x;
 }
@@ -82,7 +82,7 @@ StabilityResult no_overshoot(const StabilityOptions&) {
             for (int k = 0; k < 1000; ++k) {
                 const double to = k % 2 == 0 ? std::copysign(1.0, goal(random)) : goal(random);
                 const double before = x;
-                x += follow_share(dt, tau) * (to - x);
+                x += geometry::follow_share(dt, tau) * (to - x);
                 beyond = std::fmax(beyond, std::fmax(x - std::fmax(before, to), std::fmin(before, to) - x));
             }
         }
@@ -94,9 +94,10 @@ MonotonicTime at_seconds(double seconds) {
     return MonotonicTime(Nanoseconds(std::llround(seconds * 1e9)));
 }
 
-constexpr FrameWork usual_work{1e4, 1e5};
-FrameTimeModel model_of(std::size_t quality_levels) {
-    return FrameTimeModel(std::vector<QualityLevelTime>(quality_levels, {1, usual_work, 10.0}));
+constexpr scene::FrameWork usual_work{1e4, 1e5};
+scene::FrameTimeModel model_of(std::size_t quality_levels) {
+    return scene::FrameTimeModel(
+        std::vector<scene::QualityLevelTime>(quality_levels, {.samples = 1, .work = usual_work, .ms = 10.0}));
 }
 
 /// The load doubles. log2 of the expected time over the old one is compared with 1 - exp(-t / time constant).
@@ -107,10 +108,10 @@ struct LoadResponse {
 };
 LoadResponse load_response(double dt) {
     const Nanoseconds step(std::llround(dt * 1e9));
-    FrameTimeModel model = model_of(1);
+    scene::FrameTimeModel model = model_of(1);
     (void)model.observe(0, usual_work, 10.0, at_seconds(0.0));
     LoadResponse response;
-    response.count = steps_in(FrameTimeModel::time_constant_s, dt);
+    response.count = steps_in(scene::FrameTimeModel::time_constant_s, dt);
     double before = 0.0;
     for (int k = 1; k <= response.count; ++k) {
         (void)model.observe(0, usual_work, 20.0, MonotonicTime(k * step));
@@ -119,8 +120,9 @@ LoadResponse load_response(double dt) {
         before = now;
     }
     // A step counts with its duration, limited to max_dt_s.
-    const double counted = std::fmin(to_seconds(step), FrameTimeModel::max_dt_s);
-    response.off = std::abs(before - exact_share(counted * response.count, FrameTimeModel::time_constant_s));
+    const double counted = std::fmin(to_seconds(step), scene::FrameTimeModel::max_dt_s);
+    response.off =
+        std::abs(before - exact_share(counted * response.count, scene::FrameTimeModel::time_constant_s));
     return response;
 }
 
@@ -149,7 +151,7 @@ StabilityResult quality_level_response(const StabilityOptions&) {
     double off = 0.0;
     double off_shared = 0.0;
     const auto share_at = [](double dt, double seconds) {
-        FrameTimeModel model = model_of(2);
+        scene::FrameTimeModel model = model_of(2);
         (void)model.observe(0, usual_work, 10.0, at_seconds(0.0));
         const auto step = Nanoseconds(std::llround(dt * 1e9));
         for (Nanoseconds t = step; t <= Nanoseconds(std::llround(seconds * 1e9)); t += step) {
@@ -158,14 +160,15 @@ StabilityResult quality_level_response(const StabilityOptions&) {
         return std::pair{std::log2(model.expected_ms(1) / 10.0), std::log2(model.expected_ms(0) / 10.0)};
     };
     constexpr double seconds = 2.0;
-    const double total = exact_share(seconds, FrameTimeModel::time_constant_s);
+    const double total = exact_share(seconds, scene::FrameTimeModel::time_constant_s);
     // The factor is learnt in learning_s, then it decays.
-    const double own = exact_share(FrameTimeModel::learning_s, FrameTimeModel::time_constant_s) *
-                       std::exp(-(seconds - FrameTimeModel::learning_s) / FrameTimeModel::forgetting_s);
+    const double own =
+        exact_share(scene::FrameTimeModel::learning_s, scene::FrameTimeModel::time_constant_s) *
+        std::exp(-(seconds - scene::FrameTimeModel::learning_s) / scene::FrameTimeModel::forgetting_s);
     for (const double dt : {1e-5, 1e-4, 1e-3, 0.01, 0.1}) {
         const auto [drawn, other] = share_at(dt, seconds);
         off = std::fmax(off, std::abs(drawn - total) / (seconds / dt));
-        const double one_step = exact_share(2.0 * dt, FrameTimeModel::time_constant_s);
+        const double one_step = exact_share(2.0 * dt, scene::FrameTimeModel::time_constant_s);
         off_shared = std::fmax(off_shared, std::abs(other - (total - own)) / one_step);
     }
     result.rows.push_back(
@@ -176,7 +179,7 @@ StabilityResult quality_level_response(const StabilityOptions&) {
 
 /// Arbitrary times in any rhythm: the expected time stays a number within the limits of load and level.
 StabilityResult garbage(const StabilityOptions&) {
-    FrameTimeModel model = model_of(3);
+    scene::FrameTimeModel model = model_of(3);
     std::mt19937 random(12);
     std::uniform_real_distribution<double> exponent(-12.0, 12.0);
     constexpr double inf = std::numeric_limits<double>::infinity();
@@ -207,9 +210,9 @@ StabilityResult garbage(const StabilityOptions&) {
         default:
             break;
         }
-        const FrameWork work{std::pow(10.0, exponent(random)), random() % 2 == 0 ? inf : 0.0};
+        const scene::FrameWork work{std::pow(10.0, exponent(random)), random() % 2 == 0 ? inf : 0.0};
         const bool taken = model.observe(random() % 3, work, ms, now);
-        wrong += taken == (ms > 0.0 && ms <= FrameTimeModel::longest_ms) ? 0.0 : 1.0;
+        wrong += taken == (ms > 0.0 && ms <= scene::FrameTimeModel::longest_ms) ? 0.0 : 1.0;
         for (std::size_t quality_level = 0; quality_level < 3; ++quality_level) {
             const double expected = model.expected_ms(quality_level);
             // Work within a factor of 20, load and own factor within e^7 each.
@@ -228,9 +231,10 @@ std::vector<StepError> smoother_step_errors() {
         std::string name;
         double (*share)(double);
     };
-    const std::array methods{Method{"follow_share (exact)", [](double h) { return follow_share(h, 1.0); }},
-                             Method{"implicit Euler", [](double h) { return h / (1.0 + h); }},
-                             Method{"explicit Euler", [](double h) { return h; }}};
+    const std::array methods{
+        Method{"follow_share (exact)", [](double h) { return geometry::follow_share(h, 1.0); }},
+        Method{"implicit Euler", [](double h) { return h / (1.0 + h); }},
+        Method{"explicit Euler", [](double h) { return h; }}};
     for (const Method& method : methods) {
         for (const double h : sweep(1e-5, 1e7, 2)) {
             const int count = steps_in(1.0, h);
@@ -264,4 +268,4 @@ std::vector<StabilityCase> smoother_cases() {
             {theme, "frame times: garbage", FloatingPoint::Free, garbage}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,7 +4,7 @@
 
 #include <cfenv>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 std::vector<StabilityCase> stability_cases() {
     std::vector<StabilityCase> cases;
@@ -43,4 +43,4 @@ std::vector<StepError> program_step_errors() {
     return errors;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct StabilityRow {
     std::string quantity; ///< includes its unit
@@ -65,4 +65,4 @@ struct StepError {
 /// The program's own dynamics at their own time constants.
 [[nodiscard]] std::vector<StepError> program_step_errors();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 std::vector<double> sweep(double low, double high, int per_decade) {
     const auto count = static_cast<int>(std::lround(per_decade * std::log10(high / low)));
@@ -14,4 +14,4 @@ std::vector<double> sweep(double low, double high, int per_decade) {
     return values;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// From `low` to `high`, both included, about `per_decade` values per decade.
 [[nodiscard]] std::vector<double> sweep(double low, double high, int per_decade);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,7 +5,7 @@
 
 #include "app/bench/stability/stability.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 [[nodiscard]] std::vector<StabilityCase> eye_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
@@ -28,4 +28,4 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StepError> governor_step_errors();
 [[nodiscard]] std::vector<StepError> fade_step_errors();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -19,7 +19,7 @@
 #include <random>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -45,8 +45,8 @@ std::vector<MonotonicTime> odd_times(std::size_t count, unsigned seed) {
     return times;
 }
 
-PoseSample sample_at(MonotonicTime time, double x) {
-    PoseSample sample;
+tracker::PoseSample sample_at(MonotonicTime time, double x) {
+    tracker::PoseSample sample;
     sample.time = time;
     sample.position_m = {x, 0.0, 0.0};
     return sample;
@@ -54,17 +54,17 @@ PoseSample sample_at(MonotonicTime time, double x) {
 
 /// Compares with the plain rule: the latest of all samples so far, and among equal times the last one.
 StabilityResult situations(const StabilityOptions&) {
-    TrackedStateTracker tracker(glm::dvec3(0.0));
+    tracking::TrackedStateTracker tracker(glm::dvec3(0.0));
     double wrong = 0.0;
-    std::optional<PoseSample> latest;
+    std::optional<tracker::PoseSample> latest;
     double x = 0.0;
     for (const MonotonicTime time : odd_times(20'000, 3)) {
-        const PoseSample sample = sample_at(time, x += 1.0);
+        const tracker::PoseSample sample = sample_at(time, x += 1.0);
         if (!tracker.take(sample)) {
             wrong += 1.0;
         }
         latest = !latest || sample.time >= latest->time ? sample : latest;
-        const TrackedState now = tracker.at(latest->time + nanoseconds(7));
+        const tracking::TrackedState now = tracker.at(latest->time + nanoseconds(7));
         wrong += now.table_from_prop.translation.x == latest->position_m.x && now.prop_age == nanoseconds(7)
                      ? 0
                      : 1;
@@ -74,20 +74,20 @@ StabilityResult situations(const StabilityOptions&) {
 
 /// Each sample is delivered once, in order, at its time, at any polling rate.
 StabilityResult replays(const StabilityOptions&) {
-    std::vector<PoseSample> recording;
+    std::vector<tracker::PoseSample> recording;
     for (const MonotonicTime time : odd_times(2'000, 4)) {
         recording.push_back(sample_at(time, static_cast<double>(recording.size())));
     }
-    const auto [low, high] =
-        std::minmax_element(recording.begin(), recording.end(),
-                            [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; });
+    const auto [low, high] = std::minmax_element(
+        recording.begin(), recording.end(),
+        [](const tracker::PoseSample& a, const tracker::PoseSample& b) { return a.time < b.time; });
     const Nanoseconds length = high->time - low->time;
     const MonotonicTime start = from_microseconds(5);
     double wrong = 0.0;
     for (const Nanoseconds step :
          {Nanoseconds(std::chrono::milliseconds(16)), Nanoseconds(std::chrono::seconds(10))}) {
-        ReplayTracker tracker(recording, start, false);
-        std::vector<PoseSample> samples;
+        tracker::ReplayTracker tracker(recording, start, false);
+        std::vector<tracker::PoseSample> samples;
         for (MonotonicTime now = start; now < start + length + step; now += step) {
             for (const Nanoseconds odd : {Nanoseconds(0), Nanoseconds(0), Nanoseconds(-1), Nanoseconds(1)}) {
                 wrong += tracker.poll(now + odd, samples) ? 0.0 : 1.0;
@@ -96,15 +96,18 @@ StabilityResult replays(const StabilityOptions&) {
         }
         wrong += samples.size() == recording.size() ? 0.0 : 1.0;
         wrong += std::is_sorted(samples.begin(), samples.end(),
-                                [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; })
+                                [](const tracker::PoseSample& a, const tracker::PoseSample& b) {
+                                    return a.time < b.time;
+                                })
                      ? 0.0
                      : 1.0;
     }
     // A recording of two nanoseconds, repeated, after ten seconds: whole rounds are skipped except the latest
     // one and the one that has begun.
     constexpr double two_rounds = 2.0 * 2.0;
-    ReplayTracker shortest({sample_at(start, 0.0), sample_at(start + nanoseconds(1), 1.0)}, start, true);
-    std::vector<PoseSample> samples;
+    tracker::ReplayTracker shortest({sample_at(start, 0.0), sample_at(start + nanoseconds(1), 1.0)}, start,
+                                    true);
+    std::vector<tracker::PoseSample> samples;
     wrong += shortest.poll(start + std::chrono::seconds(10), samples) ? 0.0 : 1.0;
     return {{{"samples twice, missing, early or out of order", 0.0, wrong},
              {"samples at once of a recording of 2 ns, after 10 s", two_rounds,
@@ -114,13 +117,13 @@ StabilityResult replays(const StabilityOptions&) {
 /// The simulated visitor is a function of time: polls at any rhythm return the same samples, which move no
 /// faster than a person, also between movements.
 StabilityResult simulated(const StabilityOptions&) {
-    SimulatedVisitor visitor;
+    tracker::SimulatedVisitor visitor;
     visitor.rate_hz = 1000.0;
-    std::array<std::vector<PoseSample>, 3> samples;
+    std::array<std::vector<tracker::PoseSample>, 3> samples;
     const std::array<Nanoseconds, 3> steps{std::chrono::microseconds(731), std::chrono::milliseconds(17),
                                            std::chrono::seconds(10)};
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        SimulatedTracker tracker(visitor, MonotonicTime{});
+        tracker::SimulatedTracker tracker(visitor, MonotonicTime{});
         for (Nanoseconds t(0); t <= std::chrono::seconds(40); t += steps[k]) {
             (void)tracker.poll(MonotonicTime(t), samples[k]);
         }
@@ -150,15 +153,15 @@ StabilityResult simulated(const StabilityOptions&) {
 
 /// The result of a curator's file of poses does not depend on the order of its rows.
 StabilityResult frames(const StabilityOptions&) {
-    std::vector<PoseSample> rows;
+    std::vector<tracker::PoseSample> rows;
     for (int k = 0; k < 2000; ++k) {
         const int frame = k / 2;
         rows.push_back(sample_at(from_microseconds(std::int64_t{1000} * frame), frame));
-        rows.back().station = k % 2 == 0 ? prop_station : head_station;
+        rows.back().station = k % 2 == 0 ? tracker::prop_station : tracker::head_station;
     }
-    const std::vector<TrackedState> sorted = pose_frames(rows, glm::dvec3(0.0));
+    const std::vector<tracking::TrackedState> sorted = tracking::pose_frames(rows, glm::dvec3(0.0));
     std::shuffle(rows.begin(), rows.end(), std::mt19937(6));
-    const std::vector<TrackedState> shuffled = pose_frames(rows, glm::dvec3(0.0));
+    const std::vector<tracking::TrackedState> shuffled = tracking::pose_frames(rows, glm::dvec3(0.0));
     double wrong = sorted.size() == 1000 && shuffled.size() == 1000 ? 0.0 : 1.0;
     for (std::size_t k = 0; wrong == 0.0 && k < sorted.size(); ++k) {
         wrong += sorted[k].time == shuffled[k].time && sorted[k].eye_m == shuffled[k].eye_m &&
@@ -191,12 +194,12 @@ StabilityResult recordings(const StabilityOptions& options) {
             continue;
         }
         const std::string text(as_text(*bytes));
-        const Result<ConvertedRecording> recording = convert_recording(text, name, {});
+        const Result<tracker::ConvertedRecording> recording = tracker::convert_recording(text, name, {});
         if (!recording) {
             result.rows.push_back({"refused: " + recording.error().message, 0.0, 1.0});
             continue;
         }
-        const std::vector<PoseSample>& samples = recording->samples;
+        const std::vector<tracker::PoseSample>& samples = recording->samples;
         double wrong = 0.0;
         double not_unit = 0.0;
         for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -216,7 +219,7 @@ StabilityResult recordings(const StabilityOptions& options) {
         wrong +=
             samples.size() + static_cast<std::size_t>(recording->dropped_rows) == times.size() ? 0.0 : 1.0;
         // Deliver each pair in the wrong order: the later sample of the pair counts.
-        TrackedStateTracker tracker(glm::dvec3(0.0));
+        tracking::TrackedStateTracker tracker(glm::dvec3(0.0));
         for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
             wrong += tracker.take(samples[k + 1]) && tracker.take(samples[k]) ? 0.0 : 1.0;
             wrong += tracker.at(samples[k + 1].time).table_from_prop.translation == samples[k + 1].position_m
@@ -234,14 +237,14 @@ StabilityResult recordings(const StabilityOptions& options) {
 StabilityResult scripts(const StabilityOptions&) {
     double wrong = 0.0;
     for (const std::string repeat : {"1e-9", "1e-6", "0.01", "-1.0", "nan", "inf"}) {
-        wrong +=
-            parse_settings("[panel]\nrepeat_s = " + repeat + "\n[[panel.script]]\nat_s = 0.0\nbutton = 1\n",
-                           "kiosk.toml")
-                ? 1.0
-                : 0.0;
+        wrong += settings::parse_settings("[panel]\nrepeat_s = " + repeat +
+                                              "\n[[panel.script]]\nat_s = 0.0\nbutton = 1\n",
+                                          "kiosk.toml")
+                     ? 1.0
+                     : 0.0;
     }
-    const auto usual =
-        parse_settings("[panel]\nrepeat_s = 2.0\n[[panel.script]]\nat_s = 0.5\nbutton = 1\n", "kiosk.toml");
+    const auto usual = settings::parse_settings(
+        "[panel]\nrepeat_s = 2.0\n[[panel.script]]\nat_s = 0.5\nbutton = 1\n", "kiosk.toml");
     wrong += usual ? 0.0 : 1.0;
     return {{{"repeated every 1 ns to 10 ms, taken, or a usual one refused", 0.0, wrong}}};
 }
@@ -258,4 +261,4 @@ std::vector<StabilityCase> time_cases() {
             {theme, "real recordings", FloatingPoint::Strict, recordings}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

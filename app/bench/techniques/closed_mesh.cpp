@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> welded(const std::vector<glm::dvec3>& positions, cons
 
 } // namespace
 
-bool is_closed(const SourceMesh& mesh) {
+bool is_closed(const bake::SourceMesh& mesh) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-std::numeric_limits<double>::infinity());
     for (const glm::dvec3& position : mesh.positions) {
@@ -48,7 +48,7 @@ bool is_closed(const SourceMesh& mesh) {
         high = glm::max(high, position);
     }
     const bool masked = std::any_of(mesh.materials.begin(), mesh.materials.end(),
-                                    [](const SourceMaterial& material) { return material.alpha_mask; });
+                                    [](const bake::SourceMaterial& material) { return material.alpha_mask; });
     const double size = glm::distance(low, high);
     if (masked || !(size > 0.0)) {
         return false;
@@ -74,4 +74,4 @@ bool is_closed(const SourceMesh& mesh) {
     return volume > 0.0 && there == back;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

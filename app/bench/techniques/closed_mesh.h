@@ -5,10 +5,10 @@
 
 #include "assets_baked/bake/source_mesh.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// True if every edge is used equally often in both directions (vertices closer than 1e-6 of the mesh's size
 /// count as one), the volume is positive and no material is masked.
-[[nodiscard]] bool is_closed(const SourceMesh& mesh);
+[[nodiscard]] bool is_closed(const bake::SourceMesh& mesh);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -36,10 +36,10 @@ void main() { result = vec4(texture(colour, at).rgb, 1.0); }
 )";
 
 /// Bars and squares of every size, in codes; each mip level averages the texels of the level below.
-Image8 pattern(int level) {
+image::Image8 pattern(int level) {
     const int side = texels >> level;
     const int step = std::min(1 << level, 256);
-    Image8 image(side, side);
+    image::Image8 image(side, side);
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const auto grey = static_cast<std::uint8_t>((((x ^ y) * step) & 0xFF) + (step - 1) / 2);
@@ -49,8 +49,8 @@ Image8 pattern(int level) {
     return image;
 }
 
-GlTexture make_texture(const Image8& image, GLsizei levels, GLint min_filter) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture make_texture(const image::Image8& image, GLsizei levels, GLint min_filter) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, image.width, image.height);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
@@ -64,8 +64,8 @@ GlTexture make_texture(const Image8& image, GLsizei levels, GLint min_filter) {
 }
 
 /// One texture with all mip levels, or each level as its own texture.
-std::vector<GlTexture> make_textures(FloorFilter filter) {
-    std::vector<GlTexture> textures;
+std::vector<gl::GlTexture> make_textures(FloorFilter filter) {
+    std::vector<gl::GlTexture> textures;
     if (filter == FloorFilter::Trilinear) {
         textures.push_back(make_texture(pattern(0), 1 + last_level, GL_LINEAR_MIPMAP_LINEAR));
         return textures;
@@ -95,7 +95,7 @@ std::size_t level_of(double pixels) {
 
 class Floor final : public Technique {
 public:
-    Floor(const Stage& stage, GlProgram program, FloorFilter filter)
+    Floor(const Stage& stage, gl::GlProgram program, FloorFilter filter)
         : stage_(stage), program_(std::move(program)), filter_(filter) {
         glUseProgram(program_.get());
         glUniform1i(glGetUniformLocation(program_.get(), "colour"), 0);
@@ -110,7 +110,7 @@ public:
         glUseProgram(program_.get());
         glActiveTexture(GL_TEXTURE0);
         glBindVertexArray(no_attributes_.get());
-        for (const PropFace* face : view.faces) {
+        for (const geometry::PropFace* face : view.faces) {
             std::array<glm::dvec4, 4> exact{};
             std::array<glm::vec4, 4> corners{};
             for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -127,25 +127,25 @@ public:
         glBindVertexArray(0);
         end_codes();
     }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose&) override {
-        return ImageFloat(stage_.width(), stage_.height(),
-                          glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose&) override {
+        return image::ImageFloat(stage_.width(), stage_.height(),
+                                 glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     }
 
 private:
     const Stage& stage_;
-    GlProgram program_;
+    gl::GlProgram program_;
     FloorFilter filter_;
     GLint corners_ = glGetUniformLocation(program_.get(), "corners");
-    std::vector<GlTexture> textures_ = make_textures(filter_);
-    GlVertexArray no_attributes_ = GlVertexArray::generate();
+    std::vector<gl::GlTexture> textures_ = make_textures(filter_);
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter) {
-    TRY(GlProgram program, make_program("", vertex, fragment));
+    TRY(gl::GlProgram program, gl::make_program("", vertex, fragment));
     return std::make_unique<Floor>(stage, std::move(program), filter);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

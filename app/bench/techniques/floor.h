@@ -14,7 +14,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 enum class FloorFilter {
     Trilinear,
@@ -24,4 +24,4 @@ enum class FloorFilter {
 /// Its hit points are all NaN because it shows no artifact.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

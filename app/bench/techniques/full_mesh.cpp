@@ -3,7 +3,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -18,7 +18,7 @@ void main() { result = vec4(0.0); })";
 class FullMesh final : public SampledPeer {
 public:
     FullMesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
-             std::shared_ptr<const PeerSamples> samples, GlProgram mark, OffscreenTarget points)
+             std::shared_ptr<const PeerSamples> samples, gl::GlProgram mark, OffscreenTarget points)
         : SampledPeer(stage, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
           mark_(std::move(mark)) {}
 
@@ -29,9 +29,9 @@ private:
         return {visible_.lit(), pixel_density(visible_.faces(), mesh_->box(), view_)};
     }
 
-    void paint(const Raster& raster, Output output) override {
+    void paint(const render::Raster& raster, Output output) override {
         const glm::ivec2 picture(stage_.width(), stage_.height());
-        set_viewport(picture, raster);
+        render::set_viewport(picture, raster);
         glEnable(GL_STENCIL_TEST);
         glEnable(GL_SCISSOR_TEST);
         mark_faces(raster);
@@ -40,15 +40,19 @@ private:
         for (std::size_t k = 0; k < visible_.faces().size(); ++k) {
             const PeerFace& face = visible_.faces()[k];
             glStencilFunc(GL_EQUAL, static_cast<GLint>(k + 1), 0xFF);
-            set_scissor(face.bounds, raster);
-            mesh_->draw({face.clip_from_prop, picture * raster.fragments, output, GL_CW}, visible_, k);
+            render::set_scissor(face.bounds, raster);
+            mesh_->draw({.clip_from_prop = face.clip_from_prop,
+                         .size = picture * raster.fragments,
+                         .output = output,
+                         .front = GL_CW},
+                        visible_, k);
         }
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_STENCIL_TEST);
         glDisable(GL_DEPTH_TEST);
     }
 
-    void mark_faces(const Raster& raster) {
+    void mark_faces(const render::Raster& raster) {
         quads_.set(visible_.faces());
         glDisable(GL_DEPTH_TEST);
         glDepthMask(GL_FALSE);
@@ -59,7 +63,7 @@ private:
         glUniformMatrix4fv(clip_from_prop_, 1, GL_FALSE, glm::value_ptr(clip));
         for (std::size_t k = 0; k < visible_.faces().size(); ++k) {
             glStencilFunc(GL_ALWAYS, static_cast<GLint>(k + 1), 0xFF);
-            set_scissor(visible_.faces()[k].bounds, raster);
+            render::set_scissor(visible_.faces()[k].bounds, raster);
             quads_.draw(k);
         }
         glDepthMask(GL_TRUE);
@@ -68,7 +72,7 @@ private:
     }
 
     std::shared_ptr<const PeerMesh> mesh_;
-    GlProgram mark_;
+    gl::GlProgram mark_;
     GLint clip_from_prop_ = glGetUniformLocation(mark_.get(), "clip_from_prop");
     FaceQuads quads_;
     PeerView view_;
@@ -80,10 +84,10 @@ private:
 Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
                                                   std::shared_ptr<const PeerSamples> samples,
                                                   const std::string& name) {
-    TRY(GlProgram mark, make_program("", mark_vertex, mark_fragment));
+    TRY(gl::GlProgram mark, gl::make_program("", mark_vertex, mark_fragment));
     TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
     return std::make_unique<FullMesh>(stage, std::move(mesh), name, std::move(samples), std::move(mark),
                                       std::move(points));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -24,7 +24,7 @@ struct Indexed {
     std::vector<std::uint32_t> indices;
 };
 
-Indexed joined(const SourceMesh& mesh) {
+Indexed joined(const bake::SourceMesh& mesh) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     for (const glm::dvec3& position : mesh.positions) {
         low = glm::min(low, position);
@@ -33,10 +33,10 @@ Indexed joined(const SourceMesh& mesh) {
     corners.reserve(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t k : mesh.triangles[t]) { // + 0 turns -0 into 0
-            corners.push_back({glm::vec3(mesh.positions[k] - low) + 0.0F,
-                               mesh.uvs.empty() ? glm::vec2(0.0F) : mesh.uvs[k] + 0.0F,
-                               mesh.colours.empty() ? glm::vec4(1.0F) : mesh.colours[k] + 0.0F,
-                               mesh.triangle_materials[t]});
+            corners.push_back({.position = glm::vec3(mesh.positions[k] - low) + 0.0F,
+                               .uv = mesh.uvs.empty() ? glm::vec2(0.0F) : mesh.uvs[k] + 0.0F,
+                               .colour = mesh.colours.empty() ? glm::vec4(1.0F) : mesh.colours[k] + 0.0F,
+                               .material = mesh.triangle_materials[t]});
         }
     }
     Indexed result;
@@ -52,10 +52,10 @@ Indexed joined(const SourceMesh& mesh) {
 }
 
 /// The source's mesh reduced to these triangles, vertices in the order of their use.
-SourceMesh with_triangles(const SourceMesh& mesh, const Indexed& indexed,
-                          const std::vector<std::uint32_t>& indices) {
+bake::SourceMesh with_triangles(const bake::SourceMesh& mesh, const Indexed& indexed,
+                                const std::vector<std::uint32_t>& indices) {
     constexpr std::uint32_t unused = 0xFFFFFFFFU;
-    SourceMesh result;
+    bake::SourceMesh result;
     result.materials = mesh.materials;
     result.textures = mesh.textures;
     result.default_up = mesh.default_up;
@@ -82,7 +82,7 @@ SourceMesh with_triangles(const SourceMesh& mesh, const Indexed& indexed,
     return result;
 }
 
-LevelOfDetail simplified(const SourceMesh& mesh, const Indexed& indexed, std::size_t target) {
+LevelOfDetail simplified(const bake::SourceMesh& mesh, const Indexed& indexed, std::size_t target) {
     const float* positions = &indexed.vertices[0].position.x;
     std::vector<std::uint32_t> indices(indexed.indices.size());
     float error = 0.0F;
@@ -97,7 +97,8 @@ LevelOfDetail simplified(const SourceMesh& mesh, const Indexed& indexed, std::si
 
 } // namespace
 
-std::vector<LevelOfDetail> levels_of_detail(const SourceMesh& mesh, std::span<const std::size_t> targets) {
+std::vector<LevelOfDetail> levels_of_detail(const bake::SourceMesh& mesh,
+                                            std::span<const std::size_t> targets) {
     std::vector<std::size_t> descending(targets.begin(), targets.end());
     std::sort(descending.rbegin(), descending.rend());
     std::erase_if(descending, [&mesh](std::size_t target) { return target >= mesh.triangles.size(); });
@@ -118,4 +119,4 @@ std::vector<LevelOfDetail> levels_of_detail(const SourceMesh& mesh, std::span<co
     return levels;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

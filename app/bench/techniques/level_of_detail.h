@@ -11,17 +11,17 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct LevelOfDetail {
     std::size_t target = 0; ///< requested triangles; a source with many seams keeps more
-    SourceMesh mesh;
+    bake::SourceMesh mesh;
     double error = 0.0; ///< reported by the simplifier: root mean square, in the source's units
 };
 
 /// One level per target below the source's number of triangles, in ascending order; a target that does not
 /// reduce the triangles of the next larger one is skipped.
-[[nodiscard]] std::vector<LevelOfDetail> levels_of_detail(const SourceMesh& mesh,
+[[nodiscard]] std::vector<LevelOfDetail> levels_of_detail(const bake::SourceMesh& mesh,
                                                           std::span<const std::size_t> targets);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Result<MemoryPicture> MemoryPicture::create(const Stage& stage) {
     TRY(OffscreenTarget target, make_target(stage.width(), stage.height(), GL_SRGB8_ALPHA8));
@@ -28,4 +28,4 @@ void MemoryPicture::show(const Stage& stage, const PixelRectangle& lit) {
     end_codes();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,14 +9,14 @@
 #include "app/image/image.h"
 #include "firmware_host/base/pixel_rectangle.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class MemoryPicture {
 public:
     /// Errors: the driver has no memory.
     [[nodiscard]] static Result<MemoryPicture> create(const Stage& stage);
 
-    Image8 codes; ///< black between pictures
+    image::Image8 codes; ///< black between pictures
 
     /// Clears the stage's framebuffer, copies the lit part into it, and clears that part to black here.
     void show(const Stage& stage, const PixelRectangle& lit);
@@ -27,4 +27,4 @@ private:
     OffscreenTarget target_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

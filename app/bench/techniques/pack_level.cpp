@@ -11,18 +11,18 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 struct Parts {
-    Renderer renderer;
-    HitPointRenderer hit_points;
+    render::Renderer renderer;
+    render::HitPointRenderer hit_points;
 };
 
 /// The exhibit's corrections of the colours.
 struct Light {
-    std::optional<LightCompensation> compensation;
+    std::optional<scene::LightCompensation> compensation;
     double exposure = 1.0;
     bool feathered = true;
 };
@@ -32,37 +32,38 @@ struct Lights {
 
 /// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
 /// quality level of its scene plan.)
-Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack) {
-    const PackLevel& level = pack.levels[pack.default_level];
-    const Light shown{
-        light_compensation(stage.settings),
-        exposure_of(level, pack.box_size, pack.textures[level.texture], stage.settings.render.highlight_code),
-        options.feathered};
+Lights lights_of(const Stage& stage, const PictureOptions& options, const pack::Pack& pack) {
+    const pack::PackLevel& level = pack.levels[pack.default_level];
+    const Light shown{scene::light_compensation(stage.settings),
+                      scene::exposure_of(level, pack.box_size, pack.textures[level.texture],
+                                         stage.settings.render.highlight_code),
+                      options.feathered};
     return {options.lit ? shown : Light{}, options.lit || options.timed_lit ? shown : Light{}, shown};
 }
 
-int samples_of(const PictureOptions& options, const Pack& pack) {
+int samples_of(const PictureOptions& options, const pack::Pack& pack) {
     return options.samples > 0 ? options.samples : pack.samples;
 }
 
 /// Needs with light and without: shown pictures are lit regardless of the options.
-RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
-    RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
+scene::RenderNeeds needs_of(const Stage& stage, int samples, scene::ShaderKey shader) {
+    scene::RenderNeeds needs{std::max(samples, render::default_samples),
+                             {{scene::ShaderKey::Pass::EdgeFeather}}};
     for (const bool lit : {false, true}) {
         shader.even_light = lit;
         needs.draws.insert(shader);
     }
-    needs.bent_by = if_it_bends(stage.settings.projector.pinhole);
+    needs.bent_by = scene::if_it_bends(stage.settings.projector.pinhole);
     return needs;
 }
 
 /// Keeps the alpha mask of a texture; without one, the picture is as small as its mip levels allow.
-Image8 white(const Image8& texture, bool cut_out) {
+image::Image8 white(const image::Image8& texture, bool cut_out) {
     if (!cut_out) {
-        constexpr int side = 1 << coarsest_mip_level;
+        constexpr int side = 1 << scene::coarsest_mip_level;
         return {side, side, glm::u8vec4(255)};
     }
-    Image8 all = texture;
+    image::Image8 all = texture;
     for (glm::u8vec4& texel : all.texels) {
         texel = glm::u8vec4(255, 255, 255, texel.a);
     }
@@ -71,30 +72,31 @@ Image8 white(const Image8& texture, bool cut_out) {
 
 /// The drawn surface, in its colours and in white.
 struct Placed {
-    PlacedLevel coloured, white;
+    scene::PlacedLevel coloured, white;
 };
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Stage& stage, const Placed& placed, std::optional<SeenLevel> seen,
+    PackLevelTechnique(const Stage& stage, const Placed& placed, std::optional<scene::SeenLevel> seen,
                        const Lights& lights, std::string name, Parts parts)
         : stage_(stage), placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
-          parts_(std::move(parts)), plan_(make_plan(stage.prop, placed.coloured)) {}
+          parts_(std::move(parts)), plan_(scene::make_plan(stage.prop, placed.coloured)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.measured); }
     void draw_timed(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.timed); }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
+    [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override {
         plan(placed_.coloured, pose, lights_.measured);
         return parts_.hit_points.draw(plan_, parts_.renderer.store());
     }
 
-    [[nodiscard]] std::optional<ErrorEstimate> estimate(const BenchPose& pose) override {
+    [[nodiscard]] std::optional<scene::ErrorEstimate> estimate(const BenchPose& pose) override {
         if (!seen_) {
             return std::nullopt;
         }
         plan(placed_.coloured, pose, lights_.measured);
-        return estimate_error(*seen_, stage_.prop, placed_.coloured, view_of(pose, lights_.measured), plan_);
+        return scene::estimate_error(*seen_, stage_.prop, placed_.coloured, view_of(pose, lights_.measured),
+                                     plan_);
     }
 
     [[nodiscard]] ShownPicture* as_shown() override { return this; }
@@ -104,71 +106,79 @@ public:
         return plan_.relief_draw_count > 0 ? plan_.relief_draws.front().samples : plan_.samples;
     }
     [[nodiscard]] LightAim light(const BenchPose& pose) const override {
-        const TruthView view = frustumscreen::view_of(stage_.settings, pose);
-        std::vector<SeenFace> faces;
-        for (const PropFace& face : stage_.prop.faces) {
+        const TruthView view = frustumscreen::bench::view_of(stage_.settings, pose);
+        std::vector<scene::SeenFace> faces;
+        for (const geometry::PropFace& face : stage_.prop.faces) {
             faces.push_back({&face, view.eye_m});
         }
         const glm::dvec3& projector = view.prop_from_projector.translation;
         const glm::dmat4 projector_from_prop = view.prop_from_projector.inverse().matrix();
-        LightAim light{reference_light(faces, projector, lights_.shown.compensation.value()),
-                       lights_.shown.exposure,
-                       {},
-                       lights_.shown.feathered};
-        for (const PropFace& face : stage_.prop.faces) {
+        LightAim light{.reference =
+                           scene::reference_light(faces, projector, lights_.shown.compensation.value()),
+                       .exposure = lights_.shown.exposure,
+                       .most = {},
+                       .soft_edges = lights_.shown.feathered};
+        for (const geometry::PropFace& face : stage_.prop.faces) {
             const bool lit = face.plane.distance(projector) > 0.0;
             light.most.push_back(
-                lit ? static_cast<double>(face_light(face, projector_from_prop, light.reference).most) : 0.0);
+                lit ? static_cast<double>(scene::face_light(face, projector_from_prop, light.reference).most)
+                    : 0.0);
         }
         return light;
     }
 
 private:
-    [[nodiscard]] PlanView view_of(const BenchPose& pose, const Light& light) const {
-        const ProjectorSettings& projector = stage_.settings.projector;
-        return {projector.pinhole,    projector.table_from_projector,
-                pose.table_from_prop, {&pose.eye_m, 1},
-                light.compensation,   light.exposure};
+    [[nodiscard]] scene::PlanView view_of(const BenchPose& pose, const Light& light) const {
+        const settings::ProjectorSettings& projector = stage_.settings.projector;
+        return {.projector = projector.pinhole,
+                .table_from_projector = projector.table_from_projector,
+                .table_from_prop = pose.table_from_prop,
+                .eyes_m = {&pose.eye_m, 1},
+                .light = light.compensation,
+                .brightness = light.exposure};
     }
-    void plan(const PlacedLevel& placed, const BenchPose& pose, const Light& light) {
-        plan_frame(stage_.prop, placed, view_of(pose, light), plan_);
+    void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
+        scene::plan_frame(stage_.prop, placed, view_of(pose, light), plan_);
         if (!light.feathered) {
             plan_.feathers.clear();
         }
     }
-    void draw(const PlacedLevel& placed, const BenchPose& pose, const Light& light) {
+    void draw(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         plan(placed, pose, light);
-        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, Redraw::Everything);
+        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, render::Redraw::Everything);
     }
 
     const Stage& stage_;
     Placed placed_;
-    std::optional<SeenLevel> seen_;
+    std::optional<scene::SeenLevel> seen_;
     Lights lights_;
     std::string name_;
     Parts parts_;
-    FramePlan plan_;
+    scene::FramePlan plan_;
 };
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
-                                                   const PictureOptions& options, std::string name) {
-    TRY(const SeenByEyes seen, seen_by_eyes(outline_of(pack)));
-    const SceneLevel whole = whole_level(pack, level);
-    ShaderKey shader;
+Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pack::Pack& pack,
+                                                   std::uint32_t level, const PictureOptions& options,
+                                                   std::string name) {
+    TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(pack::outline_of(pack)));
+    const scene::SceneLevel whole = scene::whole_level(pack, level);
+    scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
-    TRY(Renderer renderer,
-        Renderer::create(stage.width(), stage.height(), needs_of(stage, samples_of(options, pack), shader)));
-    const Image8& texture = pack.textures[whole.mesh.texture];
-    std::array<Result<Drawable>, 2> drawables{renderer.store().upload(whole, texture),
-                                              renderer.store().upload(whole, white(texture, whole.cut_out))};
-    for (const Result<Drawable>& drawable : drawables) {
+    TRY(render::Renderer renderer,
+        render::Renderer::create(stage.width(), stage.height(),
+                                 needs_of(stage, samples_of(options, pack), shader)));
+    const image::Image8& texture = pack.textures[whole.mesh.texture];
+    std::array<Result<scene::Drawable>, 2> drawables{
+        renderer.store().upload(whole, texture),
+        renderer.store().upload(whole, white(texture, whole.cut_out))};
+    for (const Result<scene::Drawable>& drawable : drawables) {
         TRY_VOID(drawable);
     }
-    TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));
+    TRY(render::HitPointRenderer hit_points, render::HitPointRenderer::create(renderer));
     Placed both;
-    both.coloured = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawables[0]);
+    both.coloured = scene::placed(pack, level, pack::place(pack, stage.prop).metres_per_box, *drawables[0]);
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
@@ -177,30 +187,31 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
-Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
-                                                    std::shared_ptr<const BlockRelief> relief,
-                                                    std::optional<SeenLevel> seen,
+Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const pack::Pack& pack,
+                                                    std::shared_ptr<const relief::BlockRelief> relief,
+                                                    std::optional<scene::SeenLevel> seen,
                                                     const PictureOptions& options, std::string name,
                                                     bool on_gpu) {
-    RenderNeeds needs;
+    scene::RenderNeeds needs;
     if (on_gpu) {
-        ShaderKey shader;
+        scene::ShaderKey shader;
         shader.blocks = true;
         needs = needs_of(stage, samples_of(options, pack), shader);
     } else {
-        needs.draws = {raster_shader(false)};
+        needs.draws = {scene::raster_shader(false)};
         needs.relief_draws = 1;
     }
-    TRY(Renderer renderer, Renderer::create(stage.width(), stage.height(), needs));
-    TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));
-    auto white = std::make_shared<BlockRelief>(*relief);
+    TRY(render::Renderer renderer, render::Renderer::create(stage.width(), stage.height(), needs));
+    TRY(render::HitPointRenderer hit_points, render::HitPointRenderer::create(renderer));
+    auto white = std::make_shared<relief::BlockRelief>(*relief);
     std::fill(white->colours.begin(), white->colours.end(), glm::u8vec4(255));
     Placed both;
     for (const auto& [placed_as, shows] :
          {std::pair(&both.coloured, std::move(relief)),
-          std::pair(&both.white, std::shared_ptr<const BlockRelief>(std::move(white)))}) {
-        TRY(const Drawable drawable, on_gpu ? renderer.store().upload(shows) : renderer.store().keep(shows));
-        *placed_as = placed(pack, shows, place(pack, stage.prop).metres_per_box, drawable);
+          std::pair(&both.white, std::shared_ptr<const relief::BlockRelief>(std::move(white)))}) {
+        TRY(const scene::Drawable drawable,
+            on_gpu ? renderer.store().upload(shows) : renderer.store().keep(shows));
+        *placed_as = scene::placed(pack, shows, pack::place(pack, stage.prop).metres_per_box, drawable);
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
@@ -209,4 +220,4 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,7 +10,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Options of the exhibit's renderer for the pictures that are measured.
 struct PictureOptions {
@@ -21,17 +21,16 @@ struct PictureOptions {
     bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, for comparison
 };
 
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pack::Pack& pack,
                                                                  std::uint32_t level,
                                                                  const PictureOptions& options,
                                                                  std::string name);
 
 /// A relief in the pack's box, rasterized as in the exhibit, or drawn by the GPU if `on_gpu`. `seen`: the
 /// pack's own errors of it, if it has any.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
-                                                                  std::shared_ptr<const BlockRelief> relief,
-                                                                  std::optional<SeenLevel> seen,
-                                                                  const PictureOptions& options,
-                                                                  std::string name, bool on_gpu = false);
+[[nodiscard]] Result<std::unique_ptr<Technique>>
+make_pack_relief(const Stage& stage, const pack::Pack& pack,
+                 std::shared_ptr<const relief::BlockRelief> relief, std::optional<scene::SeenLevel> seen,
+                 const PictureOptions& options, std::string name, bool on_gpu = false);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

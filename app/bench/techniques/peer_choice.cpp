@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -53,4 +53,4 @@ Result<PeerChoice> parse_peers(std::string_view words) {
     return choice;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

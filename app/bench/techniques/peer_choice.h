@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct PeerChoice {
     bool mesh = true;
@@ -42,4 +42,4 @@ struct PeerChoice {
 /// `words`: none, all, or names separated by commas.
 [[nodiscard]] Result<PeerChoice> parse_peers(std::string_view words);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

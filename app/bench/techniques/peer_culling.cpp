@@ -5,46 +5,47 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// Makes all triangles visible from both sides.
-void face_everywhere(LevelTriangles& level) {
+void face_everywhere(scene::LevelTriangles& level) {
     for (std::vector<float>* part : {&level.normal_x, &level.normal_y, &level.normal_z, &level.distance}) {
         part->assign(level.indices.size() / 3, 0.0F);
     }
-    for (PackCluster& cluster : level.clusters) {
-        cluster.cone_cutoff = PackCluster{}.cone_cutoff;
+    for (pack::PackCluster& cluster : level.clusters) {
+        cluster.cone_cutoff = pack::PackCluster{}.cone_cutoff;
     }
 }
 
 } // namespace
 
-PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& box,
+PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const geometry::Box& box,
                              std::span<const std::span<std::uint32_t>> parts, bool closed) {
     PeerTriangles mesh;
     const glm::dvec3 size = box.high - box.low;
     mesh.metres_per_box = std::max({size.x, size.y, size.z, 1e-12});
-    LevelTriangles& all = mesh.triangles;
+    scene::LevelTriangles& all = mesh.triangles;
     for (const glm::vec3& position : positions_m) {
         all.positions.emplace_back(glm::dvec3(position) / mesh.metres_per_box);
     }
     for (const std::span<std::uint32_t> part : parts) {
         mesh.first_cluster.push_back(all.clusters.size());
         const auto first_index = static_cast<std::uint32_t>(all.indices.size());
-        const std::vector<PackCluster> clusters = cut_into_clusters(part, all.positions, first_index);
+        const std::vector<pack::PackCluster> clusters =
+            bake::cut_into_clusters(part, all.positions, first_index);
         all.clusters.insert(all.clusters.end(), clusters.begin(), clusters.end());
         all.indices.insert(all.indices.end(), part.begin(), part.end());
     }
     mesh.first_cluster.push_back(all.clusters.size());
-    (closed ? find_planes : face_everywhere)(all);
-    find_extents(all);
+    (closed ? scene::find_planes : face_everywhere)(all);
+    scene::find_extents(all);
     return mesh;
 }
 
-void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerView& view) {
-    const LevelTriangles& level = mesh.triangles;
+void VisibleParts::find(const PeerTriangles& mesh, const geometry::Box& box, const PeerView& view) {
+    const scene::LevelTriangles& level = mesh.triangles;
     front_.forget();
     front_.update(level, view.eye_m / mesh.metres_per_box);
     indices_.clear();
@@ -56,18 +57,18 @@ void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerVie
         for (int axis = 0; axis < 3; ++axis) {
             clip_from_box[axis] *= mesh.metres_per_box;
         }
-        const FaceVolume volume =
-            volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box, view.projector);
+        const scene::FaceVolume volume =
+            scene::volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box, view.projector);
         const glm::mat4 clip(clip_from_box);
-        std::vector<IndexRange> ranges;
+        std::vector<scene::IndexRange> ranges;
         PixelRectangle bounds;
         for (std::size_t part = 0; part + 1 < mesh.first_cluster.size(); ++part) {
             const std::size_t first = indices_.size();
             for (std::size_t k = mesh.first_cluster[part]; k < mesh.first_cluster[part + 1]; ++k) {
                 const std::size_t begin = indices_.size();
-                if (append_visible(volume, level, front_, k, indices_) > 0) {
-                    bounds = united(bounds, light_tiles(level, k, std::span(indices_).subspan(begin), clip,
-                                                        face.bounds, view.projector, lit_));
+                if (scene::append_visible(volume, level, front_, k, indices_) > 0) {
+                    bounds = united(bounds, scene::light_tiles(level, k, std::span(indices_).subspan(begin),
+                                                               clip, face.bounds, view.projector, lit_));
                 }
             }
             ranges.push_back(
@@ -86,4 +87,4 @@ void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerVie
                  indices_.data(), GL_STREAM_DRAW);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

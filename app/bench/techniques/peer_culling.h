@@ -12,41 +12,41 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Made once per mesh.
 struct PeerTriangles {
-    LevelTriangles triangles;
+    scene::LevelTriangles triangles;
     std::vector<std::size_t> first_cluster; ///< of each part (material); plus one for the end
     double metres_per_box = 1.0;
 };
 /// Sorts the indices of each part into clusters, in place. Triangles of a mesh that is not closed are visible
 /// from both sides: only the faces' pyramids cull them.
-[[nodiscard]] PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& box,
+[[nodiscard]] PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const geometry::Box& box,
                                            std::span<const std::span<std::uint32_t>> parts, bool closed);
 
 /// The potentially visible triangles, in a buffer; found again for every picture.
 class VisibleParts {
 public:
-    VisibleParts() : buffer_(GlBuffer::generate()) {}
-    void find(const PeerTriangles& mesh, const Box& box, const PeerView& view);
+    VisibleParts() : buffer_(gl::GlBuffer::generate()) {}
+    void find(const PeerTriangles& mesh, const geometry::Box& box, const PeerView& view);
     void bind() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.get()); }
     /// The faces that show anything, with bounds around what they show.
     [[nodiscard]] const std::vector<PeerFace>& faces() const { return faces_; }
     /// The triangles of a part on face number `face` of `faces()`.
-    [[nodiscard]] const IndexRange& range(std::size_t face, std::size_t part) const {
+    [[nodiscard]] const scene::IndexRange& range(std::size_t face, std::size_t part) const {
         return ranges_[face][part];
     }
     /// Every pixel that the triangles may light.
-    [[nodiscard]] const LitTiles& lit() const { return lit_; }
+    [[nodiscard]] const scene::LitTiles& lit() const { return lit_; }
 
 private:
-    GlBuffer buffer_;
-    FrontTriangles front_;
+    gl::GlBuffer buffer_;
+    scene::FrontTriangles front_;
     std::vector<std::uint32_t> indices_;
     std::vector<PeerFace> faces_;
-    std::vector<std::vector<IndexRange>> ranges_; ///< [face][part]
-    LitTiles lit_;
+    std::vector<std::vector<scene::IndexRange>> ranges_; ///< [face][part]
+    scene::LitTiles lit_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,11 +12,14 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format) {
-    OffscreenTarget target{GlTexture::generate(), GlRenderbuffer::generate(), GlFramebuffer::generate(),
-                           width, height};
+    OffscreenTarget target{.colour = gl::GlTexture::generate(),
+                           .depth_stencil = gl::GlRenderbuffer::generate(),
+                           .framebuffer = gl::GlFramebuffer::generate(),
+                           .width = width,
+                           .height = height};
     glBindTexture(GL_TEXTURE_2D, target.colour.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, colour_format, width, height);
     for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) {
@@ -87,19 +90,19 @@ Result<OutputPrograms> make_programs(const std::string& defines, std::string_vie
                                      std::string_view fragment) {
     OutputPrograms programs;
     for (const Output output : {Output::Colour, Output::Point}) {
-        TRY(GlProgram program,
-            make_program(defines + (output == Output::Point ? "#define POINT\n" : ""), vertex, fragment));
+        TRY(gl::GlProgram program,
+            gl::make_program(defines + (output == Output::Point ? "#define POINT\n" : ""), vertex, fragment));
         programs[static_cast<std::size_t>(output)] = std::move(program);
     }
     return programs;
 }
 
-Result<ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
+Result<image::ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
     draw_into(points_.framebuffer.get(), pose, Output::Point);
-    Image<glm::vec4> raw(points_.width, points_.height);
+    image::Image<glm::vec4> raw(points_.width, points_.height);
     glBindFramebuffer(GL_FRAMEBUFFER, points_.framebuffer.get());
     glReadPixels(0, 0, raw.width, raw.height, GL_RGBA, GL_FLOAT, raw.texels.data());
-    ImageFloat points(raw.width, raw.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    image::ImageFloat points(raw.width, raw.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     for (std::size_t k = 0; k < raw.texels.size(); ++k) {
         if (raw.texels[k].a != 0.0F) {
             points.texels[k] = glm::vec3(raw.texels[k]);
@@ -110,12 +113,13 @@ Result<ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
 
 PeerView peer_view(const Stage& stage, const BenchPose& pose) {
     const TruthView view = view_of(stage.settings, pose);
-    PeerView result{view.projector,
-                    view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(),
-                    view.eye_m,
-                    view.prop_from_projector.translation,
-                    {}};
-    for (const PropFace& face : stage.prop.faces) {
+    PeerView result{.projector = view.projector,
+                    .clip_from_prop =
+                        view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(),
+                    .eye_m = view.eye_m,
+                    .projector_m = view.prop_from_projector.translation,
+                    .faces = {}};
+    for (const geometry::PropFace& face : stage.prop.faces) {
         if (face.plane.distance(view.eye_m) > 0.0 &&
             face.plane.distance(view.prop_from_projector.translation) > 0.0) {
             result.faces.push_back(&face);
@@ -124,15 +128,16 @@ PeerView peer_view(const Stage& stage, const BenchPose& pose) {
     return result;
 }
 
-std::vector<PeerFace> faces_before(const Box& box, const PeerView& view) {
+std::vector<PeerFace> faces_before(const geometry::Box& box, const PeerView& view) {
     std::vector<PeerFace> faces;
-    for (const PropFace* face : view.faces) {
+    for (const geometry::PropFace* face : view.faces) {
         const std::optional<glm::dmat4> clip =
-            collineation(face->plane, view.eye_m, view.clip_from_prop, box);
+            geometry::collineation(face->plane, view.eye_m, view.clip_from_prop, box);
         if (!clip) {
             continue;
         }
-        const PixelRectangle bounds = face_bounds(*face, box, view.clip_from_prop, *clip, view.projector);
+        const PixelRectangle bounds =
+            scene::face_bounds(*face, box, view.clip_from_prop, *clip, view.projector);
         if (!bounds.empty()) {
             faces.push_back({face, *clip, bounds});
         }
@@ -140,16 +145,16 @@ std::vector<PeerFace> faces_before(const Box& box, const PeerView& view) {
     return faces;
 }
 
-double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view) {
+double pixel_density(std::span<const PeerFace> faces, const geometry::Box& box, const PeerView& view) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
-    PixelDensity density;
+    scene::PixelDensity density;
     for (const PeerFace& face : faces) {
-        density.add(face.bounds, pixels_per_unit(face.clip_from_prop, middle, view.projector));
+        density.add(face.bounds, scene::pixels_per_unit(face.clip_from_prop, middle, view.projector));
     }
     return density.share(glm::distance(middle, view.projector_m), view.projector);
 }
 
-FaceQuads::FaceQuads() : array_(GlVertexArray::generate()), buffer_(GlBuffer::generate()) {
+FaceQuads::FaceQuads() : array_(gl::GlVertexArray::generate()), buffer_(gl::GlBuffer::generate()) {
     glBindVertexArray(array_.get());
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
     glEnableVertexAttribArray(0);
@@ -172,4 +177,4 @@ void FaceQuads::draw(std::size_t face) const {
     glDrawArrays(GL_TRIANGLE_FAN, static_cast<GLint>(4 * face), 4);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

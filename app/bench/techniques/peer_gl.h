@@ -17,13 +17,13 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// An offscreen picture with depth and stencil; the colour is a texture (nearest filter unless changed).
 struct OffscreenTarget {
-    GlTexture colour;
-    GlRenderbuffer depth_stencil;
-    GlFramebuffer framebuffer;
+    gl::GlTexture colour;
+    gl::GlRenderbuffer depth_stencil;
+    gl::GlFramebuffer framebuffer;
     int width = 0;
     int height = 0;
 };
@@ -40,7 +40,7 @@ void clear_depth_stencil(const PixelRectangle& part);
 
 enum class Output { Colour, Point }; ///< Point: the hit's position in the prop frame, alpha 1
 /// One program per output; POINT is defined for Output::Point.
-using OutputPrograms = std::array<GlProgram, 2>;
+using OutputPrograms = std::array<gl::GlProgram, 2>;
 [[nodiscard]] Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
                                                    std::string_view fragment);
 
@@ -49,7 +49,7 @@ class PeerTechnique : public Technique {
 public:
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override { draw_into(stage_.framebuffer, pose, Output::Colour); }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override;
+    [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override;
 
 protected:
     /// `points`: a float target of the stage's size.
@@ -66,24 +66,25 @@ private:
 
 /// A pose in the form needed by the peers' passes.
 struct PeerView {
-    Pinhole projector;
-    glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero
-    glm::dvec3 eye_m{0.0};              ///< prop frame
-    glm::dvec3 projector_m{0.0};        ///< prop frame
-    std::vector<const PropFace*> faces; ///< turned to the eye and lit
+    geometry::Pinhole projector;
+    glm::dmat4 clip_from_prop{1.0};               ///< the projector's; depth row zero
+    glm::dvec3 eye_m{0.0};                        ///< prop frame
+    glm::dvec3 projector_m{0.0};                  ///< prop frame
+    std::vector<const geometry::PropFace*> faces; ///< turned to the eye and lit
 };
 [[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
 
 /// A face through which the eye sees part of a mesh.
 struct PeerFace {
-    const PropFace* face = nullptr;
+    const geometry::PropFace* face = nullptr;
     glm::dmat4 clip_from_prop{1.0}; ///< the face's collineation
     PixelRectangle bounds;
 };
 /// The view's faces through which the eye sees part of the box.
-[[nodiscard]] std::vector<PeerFace> faces_before(const Box& box, const PeerView& view);
+[[nodiscard]] std::vector<PeerFace> faces_before(const geometry::Box& box, const PeerView& view);
 /// As in the exhibit's plan, at the middle of the box (PixelDensity::share).
-[[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view);
+[[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const geometry::Box& box,
+                                   const PeerView& view);
 
 /// Four corners of each face in one buffer, drawn as fans.
 class FaceQuads {
@@ -94,8 +95,8 @@ public:
     void draw(std::size_t face) const;
 
 private:
-    GlVertexArray array_;
-    GlBuffer buffer_;
+    gl::GlVertexArray array_;
+    gl::GlBuffer buffer_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

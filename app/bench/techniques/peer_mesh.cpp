@@ -14,7 +14,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -73,31 +73,33 @@ void main() {
 #endif
 })";
 
-GlBuffer make_buffer(GLenum target, std::span<const std::byte> bytes) {
-    GlBuffer buffer = GlBuffer::generate();
+gl::GlBuffer make_buffer(GLenum target, std::span<const std::byte> bytes) {
+    gl::GlBuffer buffer = gl::GlBuffer::generate();
     glBindBuffer(target, buffer.get());
     glBufferData(target, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STATIC_DRAW);
     return buffer;
 }
 
-GLint gl_wrap(Wrap wrap) {
-    return wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
+GLint gl_wrap(bake::Wrap wrap) {
+    return wrap == bake::Wrap::Clamp    ? GL_CLAMP_TO_EDGE
+           : wrap == bake::Wrap::Mirror ? GL_MIRRORED_REPEAT
+                                        : GL_REPEAT;
 }
 
 /// The texture holds codes; coarser levels are averaged in linear light. Each draw uses one level, its
 /// GL_TEXTURE_BASE_LEVEL, like the exhibit's. A source without a texture is filtered too, because on the
 /// kiosk any technique's texture holds the baked light.
-GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture upload_texture(const image::Image8& finest, bake::Wrap wrap_u, bake::Wrap wrap_v) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
-    Image8 image = finest;
+    image::Image8 image = finest;
     for (GLint level = 0;; ++level) {
         glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                      image.texels.data());
         if (image.width == 1 && image.height == 1) {
             break;
         }
-        image = half_size(image);
+        image = image::half_size(image);
     }
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -108,17 +110,17 @@ GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
 
 glm::u8vec4 code_of(const glm::vec4& linear) {
     const glm::vec4 in = glm::clamp(linear, 0.0F, 1.0F);
-    return {srgb8_from_linear(in.r), srgb8_from_linear(in.g), srgb8_from_linear(in.b),
+    return {image::srgb8_from_linear(in.r), image::srgb8_from_linear(in.g), image::srgb8_from_linear(in.b),
             static_cast<std::uint8_t>(std::lround(in.a * 255.0F))};
 }
 
 /// A texture multiplied by the material's colour.
-Image8 coloured(const Image8& image, const glm::vec4& base_colour) {
+image::Image8 coloured(const image::Image8& image, const glm::vec4& base_colour) {
     if (base_colour == glm::vec4(1.0F)) {
         return image;
     }
-    const std::array<float, 256>& linear = linear_from_srgb8();
-    Image8 made = image;
+    const std::array<float, 256>& linear = image::linear_from_srgb8();
+    image::Image8 made = image;
     for (glm::u8vec4& texel : made.texels) {
         texel = code_of(base_colour * glm::vec4(linear[texel.r], linear[texel.g], linear[texel.b],
                                                 static_cast<float>(texel.a) / 255.0F));
@@ -128,13 +130,13 @@ Image8 coloured(const Image8& image, const glm::vec4& base_colour) {
 
 } // namespace
 
-PeerMesh::Program::Program(GlProgram made)
+PeerMesh::Program::Program(gl::GlProgram made)
     : program(std::move(made)), clip_from_unit(glGetUniformLocation(program.get(), "clip_from_unit")),
       cutoff(glGetUniformLocation(program.get(), "cutoff")), low(glGetUniformLocation(program.get(), "low")),
       extent(glGetUniformLocation(program.get(), "extent")) {}
 
 Result<std::shared_ptr<const PeerMesh>>
-PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside) {
+PeerMesh::upload(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside) {
     std::shared_ptr<PeerMesh> peer(new PeerMesh());
     const std::string tinted = mesh.colours.empty() ? "" : "#define TINTED\n";
     for (std::size_t masked = 0; masked < 2; ++masked) {
@@ -144,7 +146,7 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
             peer->programs_[masked][output] = Program(std::move(programs[output]));
         }
     }
-    peer->array_ = GlVertexArray::generate();
+    peer->array_ = gl::GlVertexArray::generate();
     glBindVertexArray(peer->array_.get());
     peer->closed_ = is_closed(mesh);
     const std::vector<glm::vec3> positions_m = peer->upload_vertices(mesh, prop_from_artifact);
@@ -158,7 +160,7 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
     return peer;
 }
 
-std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
+std::vector<glm::vec3> PeerMesh::upload_vertices(const bake::SourceMesh& mesh,
                                                  const glm::dmat4& prop_from_artifact) {
     constexpr double max_code = 65535.0;
     std::vector<glm::dvec3> placed;
@@ -199,8 +201,8 @@ std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
 namespace {
 
 /// Mean number of texels per metre of the triangles' surface.
-double texels_per_m(const SourceMesh& mesh, std::span<const glm::vec3> positions_m,
-                    std::span<const std::uint32_t> indices, const Image8& image) {
+double texels_per_m(const bake::SourceMesh& mesh, std::span<const glm::vec3> positions_m,
+                    std::span<const std::uint32_t> indices, const image::Image8& image) {
     double texels = 0.0;
     double area_m2 = 0.0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
@@ -219,8 +221,8 @@ double texels_per_m(const SourceMesh& mesh, std::span<const glm::vec3> positions
 
 } // namespace
 
-void PeerMesh::upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m) {
-    const Image8 white(1, 1, glm::u8vec4(255));
+void PeerMesh::upload_parts(const bake::SourceMesh& mesh, std::span<const glm::vec3> positions_m) {
+    const image::Image8 white(1, 1, glm::u8vec4(255));
     std::vector<std::vector<std::uint32_t>> by_material(mesh.materials.size());
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         std::vector<std::uint32_t>& of = by_material[mesh.triangle_materials[k]];
@@ -231,18 +233,19 @@ void PeerMesh::upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> p
         if (by_material[k].empty()) {
             continue;
         }
-        const SourceMaterial& material = mesh.materials[k];
+        const bake::SourceMaterial& material = mesh.materials[k];
         const bool named = material.texture >= 0 && !mesh.uvs.empty();
-        const SourceTexture none{};
-        const SourceTexture& texture =
+        const bake::SourceTexture none{};
+        const bake::SourceTexture& texture =
             named ? mesh.textures[static_cast<std::size_t>(material.texture)] : none;
         const bool usable = texture.image && texture.image->width > 0 && texture.image->height > 0;
-        const Image8& image = usable ? *texture.image : white;
-        parts_.push_back({textures_.size(),
-                          usable ? texels_per_m(mesh, positions_m, by_material[k], image) : 0.0,
-                          material.alpha_mask ? material.alpha_cutoff : -1.0F,
-                          {static_cast<std::uint32_t>(indices.size()),
-                           static_cast<std::uint32_t>(by_material[k].size())}});
+        const image::Image8& image = usable ? *texture.image : white;
+        parts_.push_back(
+            {.texture = textures_.size(),
+             .texels_per_m = usable ? texels_per_m(mesh, positions_m, by_material[k], image) : 0.0,
+             .cutoff = material.alpha_mask ? material.alpha_cutoff : -1.0F,
+             .all = {static_cast<std::uint32_t>(indices.size()),
+                     static_cast<std::uint32_t>(by_material[k].size())}});
         textures_.push_back(
             upload_texture(coloured(image, material.base_colour), texture.wrap_u, texture.wrap_v));
         indices.insert(indices.end(), by_material[k].begin(), by_material[k].end());
@@ -290,17 +293,18 @@ void PeerMesh::draw(const PeerPass& pass, const VisibleParts& visible, std::size
     end_mesh();
 }
 
-void PeerMesh::draw_part(const Part& part, const IndexRange& range, const PeerPass& pass) const {
+void PeerMesh::draw_part(const Part& part, const scene::IndexRange& range, const PeerPass& pass) const {
     if (range.count == 0) {
         return;
     }
     const glm::dvec3 extent = box_.high - box_.low;
     const glm::mat4 clip(pass.clip_from_prop * glm::translate(glm::dmat4(1.0), box_.low) *
                          glm::scale(glm::dmat4(1.0), extent));
-    Pinhole picture;
+    geometry::Pinhole picture;
     picture.width = pass.size.x;
     picture.height = pass.size.y;
-    const double pixels_per_m = pixels_per_unit(pass.clip_from_prop, 0.5 * (box_.low + box_.high), picture);
+    const double pixels_per_m =
+        scene::pixels_per_unit(pass.clip_from_prop, 0.5 * (box_.low + box_.high), picture);
     const Program& program = programs_[part.cutoff >= 0.0F ? 1 : 0][static_cast<std::size_t>(pass.output)];
     glUseProgram(program.program.get());
     glUniformMatrix4fv(program.clip_from_unit, 1, GL_FALSE, glm::value_ptr(clip));
@@ -308,10 +312,10 @@ void PeerMesh::draw_part(const Part& part, const IndexRange& range, const PeerPa
     glUniform3fv(program.low, 1, glm::value_ptr(glm::vec3(box_.low)));
     glUniform3fv(program.extent, 1, glm::value_ptr(glm::vec3(extent)));
     glBindTexture(GL_TEXTURE_2D, textures_[part.texture].get());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, mip_level(part.texels_per_m, pixels_per_m));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, scene::mip_level(part.texels_per_m, pixels_per_m));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                    // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                    reinterpret_cast<const void*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -18,7 +18,7 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// One picture of a mesh, or a face's part of one.
 struct PeerPass {
@@ -33,46 +33,47 @@ class PeerMesh {
 public:
     /// `from_outside`: draws its triangles only from outside, even if it is not closed.
     [[nodiscard]] static Result<std::shared_ptr<const PeerMesh>>
-    upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside = false);
+    upload(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside = false);
     /// Draws into the bound framebuffer and changes no state except culling: it culls the back faces of a
     /// closed mesh.
     void draw(const PeerPass& pass) const;
     /// Draws only the triangles found visible on a face of the view.
     void draw(const PeerPass& pass, const VisibleParts& visible, std::size_t face) const;
     [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }
-    [[nodiscard]] const Box& box() const { return box_; }
+    [[nodiscard]] const geometry::Box& box() const { return box_; }
 
 private:
     struct Part {                  ///< the triangles of one material
         std::size_t texture = 0;   ///< index into textures_
         double texels_per_m = 0.0; ///< mean over its surface
         float cutoff = -1.0F;      ///< negative: not masked
-        IndexRange all;            ///< in the mesh's own indices
+        scene::IndexRange all;     ///< in the mesh's own indices
     };
 
     struct Program { ///< with its uniforms' locations
         Program() = default;
-        explicit Program(GlProgram made);
-        GlProgram program;
+        explicit Program(gl::GlProgram made);
+        gl::GlProgram program;
         GLint clip_from_unit = -1, cutoff = -1, low = -1, extent = -1;
     };
 
     PeerMesh() = default;
     /// Returns the positions as uploaded.
-    std::vector<glm::vec3> upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
-    void upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m);
+    std::vector<glm::vec3> upload_vertices(const bake::SourceMesh& mesh,
+                                           const glm::dmat4& prop_from_artifact);
+    void upload_parts(const bake::SourceMesh& mesh, std::span<const glm::vec3> positions_m);
     void begin(GLenum front) const;
-    void draw_part(const Part& part, const IndexRange& range, const PeerPass& pass) const;
+    void draw_part(const Part& part, const scene::IndexRange& range, const PeerPass& pass) const;
 
-    Box box_;
+    geometry::Box box_;
     bool closed_ = false;
-    GlVertexArray array_;
-    std::vector<GlBuffer> buffers_;
-    std::vector<GlTexture> textures_;
+    gl::GlVertexArray array_;
+    std::vector<gl::GlBuffer> buffers_;
+    std::vector<gl::GlTexture> textures_;
     std::vector<Part> parts_;
-    GlBuffer indices_;
+    gl::GlBuffer indices_;
     PeerTriangles triangles_;
     std::array<std::array<Program, 2>, 2> programs_; ///< [masked][output]
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

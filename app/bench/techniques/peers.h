@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
 make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
@@ -25,4 +25,4 @@ make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
 make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, int eye_pixels,
               std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& of_mesh = "");
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -15,7 +15,7 @@
 #include <limits>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -27,7 +27,7 @@ public:
     CodeTable() {
         for (std::size_t k = 0; k < codes_.size(); ++k) {
             codes_[k] =
-                srgb8_from_linear((static_cast<double>(k) + 0.5) / static_cast<double>(codes_.size()));
+                image::srgb8_from_linear((static_cast<double>(k) + 0.5) / static_cast<double>(codes_.size()));
         }
     }
     [[nodiscard]] glm::u8vec4 of(const glm::vec3& linear) const {
@@ -50,7 +50,7 @@ struct Span {
 };
 
 /// The part of row `y` of the bounds whose pixel centres lie in the face.
-Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t face, int y) {
+Span span_of(const geometry::FaceRays& rays, const PixelRectangle& bounds, std::size_t face, int y) {
     double begin = bounds.x;
     double end = bounds.x + bounds.width;
     for (const glm::dvec3& edge : rays.edges) {
@@ -64,7 +64,10 @@ Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t fac
         }
     }
     begin = std::fmin(begin, bounds.x + bounds.width); // an edge along the row may intersect it anywhere
-    return {face, y, static_cast<int>(begin), static_cast<int>(std::fmax(begin, end))};
+    return {.face = face,
+            .y = y,
+            .begin = static_cast<int>(begin),
+            .end = static_cast<int>(std::fmax(begin, end))};
 }
 
 class RayCast final : public Technique {
@@ -87,10 +90,10 @@ public:
         });
         picture_.show(stage_, lit_);
     }
-    [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
+    [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override {
         set_up(pose);
-        ImageFloat points(stage_.width(), stage_.height(),
-                          glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+        image::ImageFloat points(stage_.width(), stage_.height(),
+                                 glm::vec3(std::numeric_limits<float>::quiet_NaN()));
         parallel_for(spans_.size(), 8, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
                 cast(spans_[k], glm::dvec2(0.5),
@@ -111,16 +114,17 @@ private:
         spans_.clear();
         lit_ = {};
         const std::vector<PeerFace> faces = faces_before(mesh_->box(), view);
-        grid_ =
-            SampleGrid::of(samples_ > 1 ? samples_at(pixel_density(faces, mesh_->box(), view), samples_) : 1);
+        grid_ = render::SampleGrid::of(
+            samples_ > 1 ? scene::samples_at(pixel_density(faces, mesh_->box(), view), samples_) : 1);
         for (const PeerFace& face : faces) {
-            const FaceRays rays =
-                face_rays(*face.face, view_.projector, view_.prop_from_projector, view_.eye_m);
+            const geometry::FaceRays rays =
+                geometry::face_rays(*face.face, view_.projector, view_.prop_from_projector, view_.eye_m);
             for (int y = face.bounds.y; y < face.bounds.y + face.bounds.height; ++y) {
                 const Span span = span_of(rays, face.bounds, rays_.size(), y);
                 if (span.begin < span.end) {
                     spans_.push_back(span);
-                    lit_ = united(lit_, {span.begin, y, span.end - span.begin, 1});
+                    lit_ =
+                        united(lit_, {.x = span.begin, .y = y, .width = span.end - span.begin, .height = 1});
                 }
             }
             rays_.push_back(rays);
@@ -199,7 +203,7 @@ private:
     MemoryPicture picture_;
     CodeTable codes_;
     TruthView view_;
-    std::vector<FaceRays> rays_; ///< faces that show anything
+    std::vector<geometry::FaceRays> rays_; ///< faces that show anything
     std::vector<Span> spans_;
     PixelRectangle lit_;
 };
@@ -212,4 +216,4 @@ Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared
     return std::make_unique<RayCast>(stage, std::move(mesh), samples, std::move(picture));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -13,10 +13,10 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The stage must outlive the technique.
 [[nodiscard]] Result<std::unique_ptr<Technique>>
 make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, int samples = 1);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,23 +5,25 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-BlockRelief blocks_of_pack(const Pack& pack, int texels) {
-    const auto finest = std::find_if(pack.levels.rbegin(), pack.levels.rend(), [](const PackLevel& level) {
-        return level.technique == LevelTechnique::Mesh;
-    });
-    const PackLevel& level = finest != pack.levels.rend() ? *finest : pack.levels.back();
-    Image8 texture = pack.textures[level.texture];
+relief::BlockRelief blocks_of_pack(const pack::Pack& pack, int texels) {
+    const auto finest =
+        std::find_if(pack.levels.rbegin(), pack.levels.rend(), [](const pack::PackLevel& level) {
+            return level.technique == pack::LevelTechnique::Mesh;
+        });
+    const pack::PackLevel& level = finest != pack.levels.rend() ? *finest : pack.levels.back();
+    image::Image8 texture = pack.textures[level.texture];
     for (int each = pack.relief_size; each >= 2 * texels; each /= 2) {
-        texture = half_size(texture); // keeps every texel's contribution
+        texture = image::half_size(texture); // keeps every texel's contribution
     }
-    const SourceMesh mesh = textured_source(level, texture, pack.box_size);
-    const SourceScene surface(mesh, mesh.positions, Sides::Front);
-    const std::vector<ReliefDirection> directions = {ReliefDirection::PlusX, ReliefDirection::MinusX,
-                                                     ReliefDirection::PlusY, ReliefDirection::MinusY,
-                                                     ReliefDirection::PlusZ};
-    return bake_blocks({surface, pack.box_size, directions, texels});
+    const bake::SourceMesh mesh = bake::textured_source(level, texture, pack.box_size);
+    const bake::SourceScene surface(mesh, mesh.positions, bake::Sides::Front);
+    const std::vector<pack::ReliefDirection> directions = {
+        pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX, pack::ReliefDirection::PlusY,
+        pack::ReliefDirection::MinusY, pack::ReliefDirection::PlusZ};
+    return bake::bake_blocks(
+        {.surface = surface, .box_size = pack.box_size, .directions = directions, .texels = texels});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,9 +8,9 @@
 #include "app/pack/pack_file.h"
 #include "app/relief/block_relief.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// In the directions of a frustum's faces. `texels` along the longest edge.
-[[nodiscard]] BlockRelief blocks_of_pack(const Pack& pack, int texels);
+[[nodiscard]] relief::BlockRelief blocks_of_pack(const pack::Pack& pack, int texels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -4,11 +4,11 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
-constexpr int cells_of_block = block_cells * block_cells;
+constexpr int cells_of_block = relief::block_cells * relief::block_cells;
 constexpr int parts = 8; ///< along a side of a cut cell
 
 struct Corners {
@@ -16,15 +16,17 @@ struct Corners {
     std::array<glm::vec4, 4> colours; ///< linear
 };
 
-Corners corners_of(const BlockRelief& relief, const ReliefGrid& grid, std::size_t block, int cell) {
+Corners corners_of(const relief::BlockRelief& relief, const relief::ReliefGrid& grid, std::size_t block,
+                   int cell) {
     const auto number = static_cast<std::size_t>(cell);
     Corners corners{};
     for (unsigned k = 0; k < 4; ++k) {
-        corners.places.at(k) = corner_in_box(relief, grid, block, number, k);
+        corners.places.at(k) = relief::corner_in_box(relief, grid, block, number, k);
         const std::size_t colour =
-            (block * block_corners + number / block_cells + (k >> 1U)) * block_corners +
-            number % block_cells + (k & 1U);
-        const std::array<float, 256>& linear = linear_from_srgb8();
+            (block * relief::block_corners + number / relief::block_cells + (k >> 1U)) *
+                relief::block_corners +
+            number % relief::block_cells + (k & 1U);
+        const std::array<float, 256>& linear = image::linear_from_srgb8();
         const glm::u8vec4 code = relief.colours[colour];
         corners.colours.at(k) = {linear[code.r], linear[code.g], linear[code.b], 1.0F};
     }
@@ -47,7 +49,7 @@ public:
         add_triangle({first, first + 1, first + 2}, outward);
         add_triangle({first + 3, first + 2, first + 1}, outward);
     }
-    [[nodiscard]] SourceMesh take() { return std::move(mesh_); }
+    [[nodiscard]] bake::SourceMesh take() { return std::move(mesh_); }
 
 private:
     /// Interpolates between the corners (0, 0), (1, 0), (0, 1) or the other three, on the cell's two
@@ -68,19 +70,19 @@ private:
         mesh_.triangles.push_back(of);
         mesh_.triangle_materials.push_back(0);
     }
-    SourceMesh mesh_;
+    bake::SourceMesh mesh_;
 };
 
 } // namespace
 
-SourceMesh cut_surface_of(const BlockRelief& relief) {
+bake::SourceMesh cut_surface_of(const relief::BlockRelief& relief) {
     Surface surface;
     for (std::size_t k = 0; k < relief.grids.size(); ++k) {
-        const ReliefGrid& grid = relief.grids[k];
+        const relief::ReliefGrid& grid = relief.grids[k];
         glm::dvec3 outward(0.0);
         outward[grid.axis[2]] = grid.sign;
         for (std::size_t block = relief.first_block[k]; block < relief.first_block[k + 1]; ++block) {
-            const ReliefBlock& of = relief.blocks[block];
+            const relief::ReliefBlock& of = relief.blocks[block];
             std::size_t cover = of.first_cover;
             for (int cell = 0; cell < cells_of_block; ++cell) {
                 const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(cell);
@@ -104,4 +106,4 @@ SourceMesh cut_surface_of(const BlockRelief& relief) {
     return surface.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

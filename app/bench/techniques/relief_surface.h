@@ -10,8 +10,8 @@
 #include "app/relief/block_relief.h"
 #include "assets_baked/bake/source_mesh.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-[[nodiscard]] SourceMesh cut_surface_of(const BlockRelief& relief);
+[[nodiscard]] bake::SourceMesh cut_surface_of(const relief::BlockRelief& relief);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -5,28 +5,29 @@
 #include <GLES2/gl2ext.h>
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stage, int samples) {
     const PixelSize picture{stage.width(), stage.height()};
-    TRY(SampleGrid grid, SampleGrid::create(picture, picture, samples));
-    ShaderCache shaders;
-    TRY_VOID(shaders.prepare(
-        {{ShaderKey::Pass::TileClear}, {ShaderKey::Pass::TileAverage}, {ShaderKey::Pass::TileAverageMany}},
-        std::nullopt));
+    TRY(render::SampleGrid grid, render::SampleGrid::create(picture, picture, samples));
+    render::ShaderCache shaders;
+    TRY_VOID(shaders.prepare({{scene::ShaderKey::Pass::TileClear},
+                              {scene::ShaderKey::Pass::TileAverage},
+                              {scene::ShaderKey::Pass::TileAverageMany}},
+                             std::nullopt));
     return std::shared_ptr<const PeerSamples>(
         new PeerSamples(samples, picture, std::move(grid), std::move(shaders)));
 }
 
-Raster PeerSamples::begin(const LitTiles& tiles, double density) const {
+render::Raster PeerSamples::begin(const scene::LitTiles& tiles, double density) const {
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    const Raster raster = grid_.raster(tiles.bounds(), picture_, samples_at(density, count_));
+    const render::Raster raster = grid_.raster(tiles.bounds(), picture_, scene::samples_at(density, count_));
     grid_.begin(tiles, raster, shaders_);
     return raster;
 }
 
-void PeerSamples::average(const LitTiles& tiles, const Raster& raster) const {
+void PeerSamples::average(const scene::LitTiles& tiles, const render::Raster& raster) const {
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     grid_.average(tiles, raster, shaders_);
 }
@@ -43,18 +44,18 @@ void SampledPeer::draw(const BenchPose& pose) {
         return;
     }
     const auto [lit, density] = prepare(pose, Output::Colour);
-    const Raster raster = samples_->begin(lit, density);
+    const render::Raster raster = samples_->begin(lit, density);
     paint(raster, Output::Colour);
     begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
     samples_->average(lit, raster);
 }
 
 void SampledPeer::draw_into(GLuint framebuffer, const BenchPose& pose, Output output) {
-    const LitTiles& lit = prepare(pose, output).lit;
+    const scene::LitTiles& lit = prepare(pose, output).lit;
     begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
     clear_depth_stencil(lit.bounds());
     paint({}, output);
     end_codes();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

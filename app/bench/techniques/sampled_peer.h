@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The larger picture; peers may share it, since each draws all of its own.
 class PeerSamples {
@@ -24,18 +24,18 @@ public:
     [[nodiscard]] int count() const { return count_; }
     /// Binds the larger picture for codes, with cleared tiles. As in the exhibit, a picture of low `density`
     /// gets more samples.
-    [[nodiscard]] Raster begin(const LitTiles& tiles, double density) const;
+    [[nodiscard]] render::Raster begin(const scene::LitTiles& tiles, double density) const;
     /// Averages the tiles into the bound framebuffer.
-    void average(const LitTiles& tiles, const Raster& raster) const;
+    void average(const scene::LitTiles& tiles, const render::Raster& raster) const;
 
 private:
-    PeerSamples(int count, const PixelSize& picture, SampleGrid grid, ShaderCache shaders)
-        : count_(count), picture_{0, 0, picture.width, picture.height}, grid_(std::move(grid)),
-          shaders_(std::move(shaders)) {}
+    PeerSamples(int count, const PixelSize& picture, render::SampleGrid grid, render::ShaderCache shaders)
+        : count_(count), picture_{.x = 0, .y = 0, .width = picture.width, .height = picture.height},
+          grid_(std::move(grid)), shaders_(std::move(shaders)) {}
     int count_;
     PixelRectangle picture_;
-    SampleGrid grid_;
-    ShaderCache shaders_;
+    render::SampleGrid grid_;
+    render::ShaderCache shaders_;
 };
 
 class SampledPeer : public PeerTechnique {
@@ -47,13 +47,13 @@ protected:
     SampledPeer(const Stage& stage, const std::string& name, std::shared_ptr<const PeerSamples> samples,
                 OffscreenTarget points);
     struct Shown {
-        const LitTiles& lit;  ///< every pixel that may be lit
-        double density = 1.0; ///< pixel_density
+        const scene::LitTiles& lit; ///< every pixel that may be lit
+        double density = 1.0;       ///< pixel_density
     };
     /// Prepares the picture and returns its extent.
     [[nodiscard]] virtual Shown prepare(const BenchPose& pose, Output output) = 0;
     /// Draws the prepared picture into the bound framebuffer, whose tiles are clear: black, far, stencil 0.
-    virtual void paint(const Raster& raster, Output output) = 0;
+    virtual void paint(const render::Raster& raster, Output output) = 0;
 
 private:
     void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) final;
@@ -61,4 +61,4 @@ private:
     std::shared_ptr<const PeerSamples> samples_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,12 +12,12 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The target of every technique: one kiosk's settings, its prop and a framebuffer of the projector's size.
 struct Stage {
-    Settings settings;
-    PropShape prop;
+    settings::Settings settings;
+    geometry::PropShape prop;
     unsigned framebuffer = 0;
 
     [[nodiscard]] int width() const { return settings.projector.pinhole.width; }
@@ -45,14 +45,14 @@ public:
     /// The redraw that is timed, in the requested light. The caller that times it calls glFinish.
     virtual void draw_timed(const BenchPose& pose) { draw(pose); }
     /// Each pixel's hit point in the prop's frame, metres; NaN = no hit.
-    [[nodiscard]] virtual Result<ImageFloat> hit_points(const BenchPose& pose) = 0;
+    [[nodiscard]] virtual Result<image::ImageFloat> hit_points(const BenchPose& pose) = 0;
     /// The exhibit's estimate of its own picture's error; nullopt: the technique has no estimate, or shows
     /// nothing.
-    [[nodiscard]] virtual std::optional<ErrorEstimate> estimate(const BenchPose& /*pose*/) {
+    [[nodiscard]] virtual std::optional<scene::ErrorEstimate> estimate(const BenchPose& /*pose*/) {
         return std::nullopt;
     }
     /// Null: the kiosk shows no such picture.
     [[nodiscard]] virtual ShownPicture* as_shown() { return nullptr; }
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -72,9 +72,9 @@ void main() {
 /// Clip matrix of the eye's picture: a perspective from the eye, cropped to the part of the artifact's box
 /// that the visible faces show; w = distance along the axis. Outside it everything is black, like the
 /// picture's edge.
-glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
+glm::dmat4 eye_clip(const PeerView& view, const geometry::Box& box) {
     glm::dvec3 middle(0.0);
-    for (const PropFace* face : view.faces) {
+    for (const geometry::PropFace* face : view.faces) {
         for (const glm::dvec3& corner : face->corners) {
             middle += corner / (4.0 * static_cast<double>(view.faces.size()));
         }
@@ -85,7 +85,7 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
     const glm::dvec3 up = glm::cross(right, forward);
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    for (const PropFace* face : view.faces) {
+    for (const geometry::PropFace* face : view.faces) {
         for (const glm::dvec3& corner : face->corners) {
             const glm::dvec3 to = corner - view.eye_m;
             const glm::dvec2 slope =
@@ -170,12 +170,15 @@ private:
         begin_picture(target.framebuffer.get(), target.width, target.height, PictureOf::Codes);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
-        mesh_->draw({eye_clip_, {target.width, target.height}, output, GL_CCW});
+        mesh_->draw({.clip_from_prop = eye_clip_,
+                     .size = {target.width, target.height},
+                     .output = output,
+                     .front = GL_CCW});
         glDisable(GL_DEPTH_TEST);
         end_codes();
     }
 
-    void paint(const Raster& raster, Output output) override {
+    void paint(const render::Raster& raster, Output output) override {
         const auto k = static_cast<std::size_t>(output);
         const glm::mat4 clip(view_.clip_from_prop);
         const glm::mat4 eye_clip_from_prop(eye_clip_);
@@ -188,11 +191,11 @@ private:
         }
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, eye_[0].colour.get());
-        set_viewport({stage_.width(), stage_.height()}, raster);
+        render::set_viewport({stage_.width(), stage_.height()}, raster);
         glEnable(GL_SCISSOR_TEST);
         quads_.set(faces_);
         for (std::size_t face = 0; face < faces_.size(); ++face) {
-            set_scissor(faces_[face].bounds, raster);
+            render::set_scissor(faces_[face].bounds, raster);
             quads_.draw(face);
         }
         glDisable(GL_SCISSOR_TEST);
@@ -210,7 +213,7 @@ private:
     PeerView view_;
     glm::dmat4 eye_clip_{1.0};
     std::vector<PeerFace> faces_;
-    LitTiles lit_;
+    scene::LitTiles lit_;
     FaceQuads quads_;
 };
 
@@ -237,4 +240,4 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared
         std::move(project), std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

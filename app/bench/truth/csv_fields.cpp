@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 std::string quoted(const std::string& text) {
     std::string result = "\"";
@@ -13,10 +13,10 @@ std::string quoted(const std::string& text) {
 }
 
 std::string pose_fields(const BenchPose& pose) {
-    const RigidTransform& prop = pose.table_from_prop;
+    const geometry::RigidTransform& prop = pose.table_from_prop;
     return fmt::format("{:.6f},{:.6f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f}", prop.translation.x,
                        prop.translation.y, prop.rotation.w, prop.rotation.z, pose.eye_m.x, pose.eye_m.y,
                        pose.eye_m.z);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

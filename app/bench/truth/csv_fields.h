@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// A field that may contain commas, quoted as in RFC 4180.
 [[nodiscard]] std::string quoted(const std::string& text);
@@ -17,4 +17,4 @@ namespace frustumscreen {
 inline constexpr const char* pose_columns = "px_m,py_m,qw,qz,eye_x_m,eye_y_m,eye_z_m";
 [[nodiscard]] std::string pose_fields(const BenchPose& pose);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -8,13 +8,13 @@
 #include <tuple>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// Area-weighted sums of the triangles' normals, over all that meet at a position, whether or not they share
 /// a vertex there.
-std::vector<glm::dvec3> smooth_normals(const SourceMesh& mesh, const std::vector<glm::dvec3>& points) {
+std::vector<glm::dvec3> smooth_normals(const bake::SourceMesh& mesh, const std::vector<glm::dvec3>& points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto key = [&](std::size_t k) { return std::tuple(points[k].x, points[k].y, points[k].z); };
@@ -42,8 +42,8 @@ std::vector<glm::dvec3> smooth_normals(const SourceMesh& mesh, const std::vector
 
 } // namespace
 
-LitSource::LitSource(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& box_from_file)
-    : mesh_(std::move(mesh)), points_(in_box(*mesh_, box_from_file)),
+LitSource::LitSource(std::shared_ptr<const bake::SourceMesh> mesh, const glm::dmat4& box_from_file)
+    : mesh_(std::move(mesh)), points_(bake::in_box(*mesh_, box_from_file)),
       normals_(smooth_normals(*mesh_, points_)), scene_(*mesh_, points_), museum_(scene_) {}
 
 LitSource::Place LitSource::place(std::uint32_t triangle, double u, double v,
@@ -61,4 +61,4 @@ LitSource::Place LitSource::place(std::uint32_t triangle, double u, double v,
     return {blend(points_), glm::dot(flat, direction) > 0.0 ? -normal : normal};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

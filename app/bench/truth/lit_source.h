@@ -14,11 +14,11 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class LitSource {
 public:
-    LitSource(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& box_from_file);
+    LitSource(std::shared_ptr<const bake::SourceMesh> mesh, const glm::dmat4& box_from_file);
 
     struct Place {
         glm::vec3 at{0.0F};
@@ -30,11 +30,11 @@ public:
     [[nodiscard]] float light(const Place& place) const { return museum_.at(place.at, place.normal); }
 
 private:
-    std::shared_ptr<const SourceMesh> mesh_;
+    std::shared_ptr<const bake::SourceMesh> mesh_;
     std::vector<glm::dvec3> points_; ///< one per mesh position
     std::vector<glm::dvec3> normals_;
-    SourceScene scene_;
-    MuseumLight museum_;
+    bake::SourceScene scene_;
+    bake::MuseumLight museum_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

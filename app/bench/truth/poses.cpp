@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -23,13 +23,13 @@ private:
 };
 
 /// Upright on the table.
-RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
+geometry::RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
     const double yaw = draw.between(-std::numbers::pi, std::numbers::pi);
     return {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(over_table, 0.0)};
 }
 
 /// Any orientation (Shoemake 1992, uniform random rotations), from just above the table to a forearm higher.
-RigidTransform held(const PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
+geometry::RigidTransform held(const geometry::PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
     constexpr double highest_above_table_m = 0.25;
     const double share = draw.between(0.0, 1.0);
     const double first = draw.between(-std::numbers::pi, std::numbers::pi);
@@ -45,11 +45,11 @@ RigidTransform held(const PropShape& prop, Draw& draw, const glm::dvec2& over_ta
             glm::dvec3(over_table - glm::dvec2(middle), draw.between(0.0, highest_above_table_m) - lowest)};
 }
 
-BenchPose draw_one(const Settings& settings, const PropShape& prop, Draw& draw) {
+BenchPose draw_one(const settings::Settings& settings, const geometry::PropShape& prop, Draw& draw) {
     const double x = draw.between(-settings.table.width_m / 2.0, settings.table.width_m / 2.0);
     const double y = draw.between(-settings.table.depth_m / 2.0, settings.table.depth_m / 2.0);
-    const RigidTransform table_from_prop =
-        settings.prop.zone == PropZone::Hand ? held(prop, draw, {x, y}) : slid(draw, {x, y});
+    const geometry::RigidTransform table_from_prop =
+        settings.prop.zone == settings::PropZone::Hand ? held(prop, draw, {x, y}) : slid(draw, {x, y});
     const double lowest_sine = std::sin(settings.eye.lowest_elevation_deg * std::numbers::pi / 180.0);
     const double sine = draw.between(lowest_sine, 1.0);
     const double cosine = std::sqrt(1.0 - sine * sine);
@@ -61,17 +61,17 @@ BenchPose draw_one(const Settings& settings, const PropShape& prop, Draw& draw) 
 
 } // namespace
 
-TruthView view_of(const Settings& settings, const BenchPose& pose) {
-    const RigidTransform prop_from_table = pose.table_from_prop.inverse();
+TruthView view_of(const settings::Settings& settings, const BenchPose& pose) {
+    const geometry::RigidTransform prop_from_table = pose.table_from_prop.inverse();
     return {settings.projector.pinhole, prop_from_table * settings.projector.table_from_projector,
             prop_from_table.point(pose.eye_m)};
 }
 
-bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& pose) {
-    const RigidTransform projector_from_prop =
+bool in_zone(const settings::Settings& settings, const geometry::PropShape& prop, const BenchPose& pose) {
+    const geometry::RigidTransform projector_from_prop =
         settings.projector.table_from_projector.inverse() * pose.table_from_prop;
-    const Pinhole& pinhole = settings.projector.pinhole;
-    for (const PropFace& face : prop.faces) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    for (const geometry::PropFace& face : prop.faces) {
         for (const glm::dvec3& corner : face.corners) {
             const glm::dvec3 on_table = pose.table_from_prop.point(corner);
             const std::optional<glm::dvec2> pixel = pinhole.pixel(projector_from_prop.point(corner));
@@ -82,11 +82,11 @@ bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& p
             }
         }
     }
-    return every_seen_face_is_lit(settings, pose.table_from_prop, pose.eye_m);
+    return settings::every_seen_face_is_lit(settings, pose.table_from_prop, pose.eye_m);
 }
 
-Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropShape& prop, int count,
-                                          std::uint64_t seed) {
+Result<std::vector<BenchPose>> draw_poses(const settings::Settings& settings, const geometry::PropShape& prop,
+                                          int count, std::uint64_t seed) {
     constexpr int max_tries_each = 10000;
     Draw draw(seed);
     std::vector<BenchPose> poses;
@@ -105,4 +105,4 @@ Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropSh
     return poses;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

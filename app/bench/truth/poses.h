@@ -14,21 +14,23 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct BenchPose {
-    RigidTransform table_from_prop;
+    geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0}; ///< table frame
 };
 
 /// Whether the prop stands on the table and inside the picture, and every face turned to the eye is lit.
-[[nodiscard]] bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& pose);
+[[nodiscard]] bool in_zone(const settings::Settings& settings, const geometry::PropShape& prop,
+                           const BenchPose& pose);
 
 /// Errors: the settings leave no such pose (too small a picture, no lit faces).
-[[nodiscard]] Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropShape& prop,
-                                                        int count, std::uint64_t seed);
+[[nodiscard]] Result<std::vector<BenchPose>> draw_poses(const settings::Settings& settings,
+                                                        const geometry::PropShape& prop, int count,
+                                                        std::uint64_t seed);
 
 /// The situation in the prop's frame.
-[[nodiscard]] TruthView view_of(const Settings& settings, const BenchPose& pose);
+[[nodiscard]] TruthView view_of(const settings::Settings& settings, const BenchPose& pose);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

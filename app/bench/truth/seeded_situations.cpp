@@ -3,24 +3,25 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-Settings cube_in_hand() {
-    Settings settings;
-    settings.prop = cube_settings(0.10);
-    settings.prop.zone = PropZone::Hand;
+settings::Settings cube_in_hand() {
+    settings::Settings settings;
+    settings.prop = settings::cube_settings(0.10);
+    settings.prop.zone = settings::PropZone::Hand;
     settings.table = {0.576, 0.36};
-    settings.projector.pinhole = {1280, 800, 2000.0, 2000.0, 640.0, 400.0};
+    settings.projector.pinhole = {
+        .width = 1280, .height = 800, .fx = 2000.0, .fy = 2000.0, .cx = 640.0, .cy = 400.0};
     settings.projector.table_from_projector.translation.z = 0.9;
     return settings;
 }
 
-GuidedState seeded_situation(const GuidanceSetup& setup, Seeded& seeded) {
-    GuidedState tracked_state;
+guidance::GuidedState seeded_situation(const guidance::GuidanceSetup& setup, Seeded& seeded) {
+    guidance::GuidedState tracked_state;
     const double azimuth = seeded.between(-std::numbers::pi, std::numbers::pi);
     const double away_m = seeded.between(0.35, 1.2);
     tracked_state.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth), seeded.between(0.25, 0.9)};
-    RigidTransform& pose = tracked_state.table_from_prop;
+    geometry::RigidTransform& pose = tracked_state.table_from_prop;
     const glm::dvec2 reach = 1.1 * setup.half_table_m;
     pose.translation = {seeded.between(-reach.x, reach.x), seeded.between(-reach.y, reach.y), 0.0};
     if (setup.in_hand) {
@@ -42,11 +43,12 @@ GuidedState seeded_situation(const GuidanceSetup& setup, Seeded& seeded) {
     return tracked_state;
 }
 
-Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded) {
-    const double off_rad = sloppy_direction_deg * std::numbers::pi / 180.0;
-    const bool vertical = move.action == Action::Raise || move.action == Action::Lower;
-    Execution execution;
-    execution.amount = seeded.between(1.0 - sloppy_amount, 1.0 + sloppy_amount);
+guidance::Execution seeded_person(const guidance::Move& move, const guidance::GuidanceSetup& setup,
+                                  Seeded& seeded) {
+    const double off_rad = guidance::sloppy_direction_deg * std::numbers::pi / 180.0;
+    const bool vertical = move.action == guidance::Action::Raise || move.action == guidance::Action::Lower;
+    guidance::Execution execution;
+    execution.amount = seeded.between(1.0 - guidance::sloppy_amount, 1.0 + guidance::sloppy_amount);
     execution.aside_rad =
         vertical ? seeded.between(-std::numbers::pi, std::numbers::pi) : seeded.between(-off_rad, off_rad);
     execution.raised_rad = setup.in_hand ? seeded.between(-off_rad, off_rad) : 0.0;
@@ -54,4 +56,4 @@ Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& se
     return execution;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

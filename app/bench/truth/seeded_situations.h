@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class Seeded {
 public:
@@ -27,13 +27,14 @@ private:
 };
 
 /// A small cube under a low projector, as in config/cube.toml.
-[[nodiscard]] Settings cube_in_hand();
+[[nodiscard]] settings::Settings cube_in_hand();
 
 /// A prop as left by a visitor: on the table, half of the time lifted, a quarter of the time leaning or
 /// lying; in the hand in any orientation.
-[[nodiscard]] GuidedState seeded_situation(const GuidanceSetup& setup, Seeded& seeded);
+[[nodiscard]] guidance::GuidedState seeded_situation(const guidance::GuidanceSetup& setup, Seeded& seeded);
 
 /// A person's execution of a move: direction within 20 degrees, amount within 40 per cent.
-[[nodiscard]] Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded);
+[[nodiscard]] guidance::Execution seeded_person(const guidance::Move& move,
+                                                const guidance::GuidanceSetup& setup, Seeded& seeded);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

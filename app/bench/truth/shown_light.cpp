@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
 /// Pixels of the real lens per pixel of the ideal one at that point; from differences of its rays.
-double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
+double pixel_density(const geometry::Pinhole& pinhole, const glm::dvec2& pixel) {
     if (pinhole.lens.is_plain()) {
         return 1.0;
     }
@@ -27,7 +27,7 @@ double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
 
 } // namespace
 
-ShownLight::ShownLight(LightAim aim, const PropShape& prop, const TruthView& view)
+ShownLight::ShownLight(LightAim aim, const geometry::PropShape& prop, const TruthView& view)
     : aim_(std::move(aim)), prop_(prop), view_(view), ideal_(view.projector.ideal()) {
     edges_.resize(prop.faces.size());
     for (int face = 0; aim_.soft_edges && face < static_cast<int>(prop.faces.size()); ++face) {
@@ -41,18 +41,18 @@ ShownLight::ShownLight(LightAim aim, const PropShape& prop, const TruthView& vie
 
 double ShownLight::even(const LitPlace& place) const {
     const auto face = static_cast<std::size_t>(place.face);
-    const double received =
-        received_light(prop_.faces[face].plane, place.point_m, view_.prop_from_projector.translation);
+    const double received = settings::received_light(prop_.faces[face].plane, place.point_m,
+                                                     view_.prop_from_projector.translation);
     const double full = aim_.reference / (received * pixel_density(view_.projector, place.pixel));
     return aim_.most[face] * std::min(1.0, full);
 }
 
 std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t corner) const {
-    const PropFace& own = prop_.faces[static_cast<std::size_t>(face)];
+    const geometry::PropFace& own = prop_.faces[static_cast<std::size_t>(face)];
     const std::array<glm::dvec3, 4>& corners = own.corners;
     const std::array<glm::dvec3, 2> ends{corners.at(corner), corners.at((corner + 1) % 4)};
-    const RigidTransform projector_from_prop = view_.prop_from_projector.inverse();
-    const auto pixel = [&](const glm::dvec3& point, const Pinhole& pinhole) {
+    const geometry::RigidTransform projector_from_prop = view_.prop_from_projector.inverse();
+    const auto pixel = [&](const glm::dvec3& point, const geometry::Pinhole& pinhole) {
         return pinhole.pixel(projector_from_prop.point(point));
     };
     const std::optional<glm::dvec2> a = pixel(ends[0], ideal_);
@@ -61,12 +61,16 @@ std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t 
     if (!a || !b || !inside) {
         return std::nullopt;
     }
-    SoftEdge edge{*a, glm::normalize(*b - *a), {}, glm::distance(*a, *b), {}};
+    SoftEdge edge{.from_px = *a,
+                  .along = glm::normalize(*b - *a),
+                  .inward = {},
+                  .length_px = glm::distance(*a, *b),
+                  .shares = {}};
     edge.inward = {-edge.along.y, edge.along.x};
     if (glm::dot(edge.inward, *inside - *a) < 0.0) {
         edge.inward = -edge.inward;
     }
-    const PropFace* const neighbour = neighbour_of(prop_, own, corner);
+    const geometry::PropFace* const neighbour = geometry::neighbour_of(prop_, own, corner);
     if (neighbour == nullptr || !(neighbour->plane.distance(view_.prop_from_projector.translation) > 0.0)) {
         return edge;
     }
@@ -103,4 +107,4 @@ double ShownLight::gain(const LitPlace& place) const {
     return aim_.exposure * even(place) * softened(place);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// The exhibit's own numbers. Tests of app/scene and app/render check them; this code does not.
 struct LightAim {
@@ -37,7 +37,7 @@ struct LitPlace {
 class ShownLight {
 public:
     /// `prop` must outlive this.
-    ShownLight(LightAim aim, const PropShape& prop, const TruthView& view);
+    ShownLight(LightAim aim, const geometry::PropShape& prop, const TruthView& view);
     /// Factor of linear light, including the exposure.
     [[nodiscard]] double gain(const LitPlace& place) const;
 
@@ -54,10 +54,10 @@ private:
     [[nodiscard]] double softened(const LitPlace& place) const;
 
     LightAim aim_;
-    const PropShape& prop_;
+    const geometry::PropShape& prop_;
     TruthView view_;
-    Pinhole ideal_;
+    geometry::Pinhole ideal_;
     std::vector<std::vector<SoftEdge>> edges_; ///< per face
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

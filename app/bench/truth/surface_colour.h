@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct SurfaceColour {
     glm::vec3 linear{0.0F};
@@ -18,7 +18,7 @@ struct SurfaceColour {
 };
 
 /// The colour of triangle `triangle` at barycentric (u, v): corner weights (1 - u - v, u, v).
-[[nodiscard]] SurfaceColour surface_colour(const SourceMesh& mesh, std::uint32_t triangle, double u,
+[[nodiscard]] SurfaceColour surface_colour(const bake::SourceMesh& mesh, std::uint32_t triangle, double u,
                                            double v);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 bool TracedMesh::refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
                         glm::dvec3& t_u_v) const {
@@ -32,7 +32,7 @@ bool TracedMesh::refine(std::uint32_t triangle, const glm::dvec3& origin, const 
 }
 
 bool TracedMesh::is_cut(std::uint32_t triangle, double u, double v) const {
-    const SourceMaterial& material = mesh_->materials[mesh_->triangle_materials[triangle]];
+    const bake::SourceMaterial& material = mesh_->materials[mesh_->triangle_materials[triangle]];
     return material.alpha_mask && surface_colour(*mesh_, triangle, u, v).alpha < material.alpha_cutoff;
 }
 
@@ -50,7 +50,7 @@ void TracedMesh::cut(const RTCFilterFunctionNArguments* arguments) {
         const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, lane),
                                   RTCRayN_dir_y(arguments->ray, arguments->N, lane),
                                   RTCRayN_dir_z(arguments->ray, arguments->N, lane));
-        const bool from_behind = traced.sides_ == Sides::Front && glm::dot(normal, direction) > 0.0F;
+        const bool from_behind = traced.sides_ == bake::Sides::Front && glm::dot(normal, direction) > 0.0F;
         if (from_behind || traced.is_cut(triangle, RTCHitN_u(arguments->hit, arguments->N, lane),
                                          RTCHitN_v(arguments->hit, arguments->N, lane))) {
             arguments->valid[lane] = 0;
@@ -78,8 +78,8 @@ void TracedMesh::add_triangles() {
         indices = std::copy(triangle.begin(), triangle.end(), indices);
     }
     const bool masked = std::any_of(mesh_->materials.begin(), mesh_->materials.end(),
-                                    [](const SourceMaterial& material) { return material.alpha_mask; });
-    if (masked || sides_ == Sides::Front) {
+                                    [](const bake::SourceMaterial& material) { return material.alpha_mask; });
+    if (masked || sides_ == bake::Sides::Front) {
         rtcSetGeometryUserData(geometry.get(), this);
         rtcSetGeometryIntersectFilterFunction(geometry.get(), cut);
     }
@@ -89,8 +89,9 @@ void TracedMesh::add_triangles() {
     rtcCommitScene(scene_.get());
 }
 
-Result<std::shared_ptr<const TracedMesh>>
-TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact, Sides sides) {
+Result<std::shared_ptr<const TracedMesh>> TracedMesh::build(std::shared_ptr<const bake::SourceMesh> mesh,
+                                                            const glm::dmat4& prop_from_artifact,
+                                                            bake::Sides sides) {
     if (!mesh || mesh->triangles.empty()) {
         return bad_input(
             "bench.no_triangles",
@@ -103,8 +104,8 @@ TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop
     for (const glm::dvec3& position : traced->mesh_->positions) {
         traced->positions_.emplace_back(prop_from_artifact * glm::dvec4(position, 1.0));
     }
-    Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
-            glm::dvec3(-std::numeric_limits<double>::infinity())};
+    geometry::Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                      glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (const std::array<std::uint32_t, 3>& triangle : traced->mesh_->triangles) {
         for (const std::uint32_t corner : triangle) {
             box.low = glm::min(box.low, traced->positions_[corner]);
@@ -127,4 +128,4 @@ TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop
     return std::shared_ptr<const TracedMesh>(std::move(traced));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

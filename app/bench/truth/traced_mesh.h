@@ -13,18 +13,18 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class TracedMesh {
 public:
     /// Errors: no triangles; a placement that is not finite; Embree has no memory.
     [[nodiscard]] static Result<std::shared_ptr<const TracedMesh>>
-    build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
-          Sides sides = Sides::Both);
+    build(std::shared_ptr<const bake::SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
+          bake::Sides sides = bake::Sides::Both);
 
-    [[nodiscard]] const SourceMesh& mesh() const { return *mesh_; }
+    [[nodiscard]] const bake::SourceMesh& mesh() const { return *mesh_; }
     /// The box of the triangles' corners, with a margin for float rounding.
-    [[nodiscard]] const Box& box() const { return box_; }
+    [[nodiscard]] const geometry::Box& box() const { return box_; }
     /// Rays pass through masked material, and through sides that were not requested.
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
@@ -43,12 +43,12 @@ private:
     static void cut(const RTCFilterFunctionNArguments* arguments);
     [[nodiscard]] bool is_cut(std::uint32_t triangle, double u, double v) const;
 
-    std::shared_ptr<const SourceMesh> mesh_;
+    std::shared_ptr<const bake::SourceMesh> mesh_;
     std::vector<glm::dvec3> positions_; ///< prop frame
-    Box box_;
-    Sides sides_ = Sides::Both;
+    geometry::Box box_;
+    bake::Sides sides_ = bake::Sides::Both;
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -21,16 +21,16 @@ struct PixelArea {
 };
 
 /// The pixels spanned by the prop's corners; the whole picture if a corner is behind the projector.
-PixelArea pixels_of_prop(const PropShape& prop, const TruthView& view) {
-    const RigidTransform projector_from_prop = view.prop_from_projector.inverse();
-    const Pinhole& pinhole = view.projector;
+PixelArea pixels_of_prop(const geometry::PropShape& prop, const TruthView& view) {
+    const geometry::RigidTransform projector_from_prop = view.prop_from_projector.inverse();
+    const geometry::Pinhole& pinhole = view.projector;
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         for (const glm::dvec3& corner : face.corners) {
             const std::optional<glm::dvec2> pixel = pinhole.pixel(projector_from_prop.point(corner));
             if (!pixel) {
-                return {0, 0, pinhole.width, pinhole.height};
+                return {.left = 0, .top = 0, .right = pinhole.width, .bottom = pinhole.height};
             }
             low = glm::min(low, *pixel);
             high = glm::max(high, *pixel);
@@ -39,12 +39,14 @@ PixelArea pixels_of_prop(const PropShape& prop, const TruthView& view) {
     const auto clamped = [](double value, int size) {
         return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
     };
-    return {clamped(std::floor(low.x), pinhole.width), clamped(std::floor(low.y), pinhole.height),
-            clamped(std::ceil(high.x), pinhole.width), clamped(std::ceil(high.y), pinhole.height)};
+    return {.left = clamped(std::floor(low.x), pinhole.width),
+            .top = clamped(std::floor(low.y), pinhole.height),
+            .right = clamped(std::ceil(high.x), pinhole.width),
+            .bottom = clamped(std::ceil(high.y), pinhole.height)};
 }
 
 /// Where the ray enters `box`; false if it never does for t > 0. `direction` need not be unit.
-bool enters(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction, double& enter) {
+bool enters(const geometry::Box& box, const glm::dvec3& origin, const glm::dvec3& direction, double& enter) {
     double leave = std::numeric_limits<double>::infinity();
     enter = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +65,7 @@ bool enters(const Box& box, const glm::dvec3& origin, const glm::dvec3& directio
 }
 
 /// Whether the artifact is hit at the pixel or at one of the eight around it.
-bool hit_around(const Image<std::uint8_t>& hit, int x, int y) {
+bool hit_around(const image::Image<std::uint8_t>& hit, int x, int y) {
     for (int row = std::max(y - 1, 0); row <= std::min(y + 1, hit.height - 1); ++row) {
         for (int column = std::max(x - 1, 0); column <= std::min(x + 1, hit.width - 1); ++column) {
             if (hit.at(column, row) != 0) {
@@ -109,13 +111,14 @@ private:
 };
 
 glm::u8vec4 code_of(const glm::vec3& linear) {
-    return {srgb8_from_linear(linear.r), srgb8_from_linear(linear.g), srgb8_from_linear(linear.b), 255};
+    return {image::srgb8_from_linear(linear.r), image::srgb8_from_linear(linear.g),
+            image::srgb8_from_linear(linear.b), 255};
 }
 
 } // namespace
 
-Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
-                           Sides sides) {
+Result<Truth> Truth::build(std::shared_ptr<const bake::SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
+                           bake::Sides sides) {
     TRY(std::shared_ptr<const TracedMesh> traced,
         TracedMesh::build(std::move(mesh), prop_from_artifact, sides));
     return Truth(std::move(traced));
@@ -148,15 +151,18 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     }
     glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
     (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // if false, Embree's own values remain
-    hit = {ray.hit.primID, t_u_v.y, t_u_v.z, start + t_u_v.x * unit,
-           surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
+    hit = {.triangle = ray.hit.primID,
+           .u = t_u_v.y,
+           .v = t_u_v.z,
+           .point_m = start + t_u_v.x * unit,
+           .colour = surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
     return true;
 }
 
 /// Follows the projector's rays to the prop and continues along the eye's rays.
 class Truth::Looker {
 public:
-    Looker(const Truth& truth, const PropShape& prop, const TruthView& view)
+    Looker(const Truth& truth, const geometry::PropShape& prop, const TruthView& view)
         : truth_(truth), prop_(prop), view_(view) {}
 
     enum class Seen { Nothing, Prop, Artifact };
@@ -169,11 +175,11 @@ public:
     [[nodiscard]] Seen look(const glm::dvec2& pixel, Sight& sight) const {
         const glm::dvec3 projector = view_.prop_from_projector.translation;
         const glm::dvec3 ray = view_.prop_from_projector.direction(view_.projector.ray(pixel));
-        PropHit on_prop;
-        if (!intersect(prop_, projector, ray, on_prop)) {
+        geometry::PropHit on_prop;
+        if (!geometry::intersect(prop_, projector, ray, on_prop)) {
             return Seen::Nothing;
         }
-        const Plane& face = prop_.faces[static_cast<std::size_t>(on_prop.face)].plane;
+        const geometry::Plane& face = prop_.faces[static_cast<std::size_t>(on_prop.face)].plane;
         if (!(face.distance(view_.eye_m) > 0.0)) {
             return Seen::Prop;
         }
@@ -204,20 +210,20 @@ public:
 
 private:
     const Truth& truth_;
-    const PropShape& prop_;
+    const geometry::PropShape& prop_;
     const TruthView& view_;
 };
 
-TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
+TruthPicture Truth::cast(const geometry::PropShape& prop, const TruthView& view, bool sixteen_rays,
                          const LightAim* aim) const {
     const int width = view.projector.width;
     const int height = view.projector.height;
     const glm::u8vec4 black(0, 0, 0, 255);
-    TruthPicture picture{{width, height},
-                         {width, height},
-                         {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
-                         {width, height, black},
-                         {}};
+    TruthPicture picture{.prop = {width, height},
+                         .hit = {width, height},
+                         .point_m = {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
+                         .colour = {width, height, black},
+                         .colour16 = {}};
     const Looker looker(*this, prop, view);
     const LitSource* const lit = sixteen_rays ? lit_.get() : nullptr;
     looker.for_each_pixel([&](int x, int y) {
@@ -234,11 +240,11 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
     if (!sixteen_rays) {
         return picture;
     }
-    picture.colour16 = Image8(width, height, black);
+    picture.colour16 = image::Image8(width, height, black);
     const std::optional<ShownLight> shown =
         aim != nullptr ? std::optional<ShownLight>(std::in_place, *aim, prop, view) : std::nullopt;
-    picture.shown16 = shown ? Image8(width, height, black) : Image8();
-    picture.met_by_16 = Image<std::uint8_t>(width, height);
+    picture.shown16 = shown ? image::Image8(width, height, black) : image::Image8();
+    picture.met_by_16 = image::Image<std::uint8_t>(width, height);
     looker.for_each_pixel([&](int x, int y) {
         if (!hit_around(picture.hit, x, y)) {
             return;
@@ -263,9 +269,9 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
     return picture;
 }
 
-Image<float> Truth::cover(const PropShape& prop, const TruthView& view, const TruthPicture& picture,
-                          const glm::ivec2& rays) const {
-    Image<float> cover(view.projector.width, view.projector.height);
+image::Image<float> Truth::cover(const geometry::PropShape& prop, const TruthView& view,
+                                 const TruthPicture& picture, const glm::ivec2& rays) const {
+    image::Image<float> cover(view.projector.width, view.projector.height);
     const Looker looker(*this, prop, view);
     looker.for_each_pixel([&](int x, int y) {
         const int met = picture.met_by_16.at(x, y);
@@ -280,4 +286,4 @@ Image<float> Truth::cover(const PropShape& prop, const TruthView& view, const Tr
     return cover;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -22,29 +22,30 @@
 #include <cstdint>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 class LitSource;
 class TracedMesh;
 
 /// Shape  every image is [projector.height][projector.width].
 struct TruthPicture {
-    Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre lights the prop (any lit face)
-    Image<std::uint8_t> hit;  ///< 1: the artifact is seen there
-    ImageFloat point_m;       ///< hit point, prop frame; NaN = no hit
-    Image8 colour;            ///< one ray through the centre; sRGB codes
+    image::Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre lights the prop (any lit face)
+    image::Image<std::uint8_t> hit;  ///< 1: the artifact is seen there
+    image::ImageFloat point_m;       ///< hit point, prop frame; NaN = no hit
+    image::Image8 colour;            ///< one ray through the centre; sRGB codes
     /// 16 rays, 4 x 4 stratified, misses black, averaged in linear light; at `hit` and the eight pixels
     /// around
-    Image8 colour16;
-    Image8 shown16{};                ///< `colour16` in the exhibit's light; empty unless a light was given
-    Image<std::uint8_t> met_by_16{}; ///< number of these rays that meet the artifact
+    image::Image8 colour16;
+    image::Image8 shown16{}; ///< `colour16` in the exhibit's light; empty unless a light was given
+    image::Image<std::uint8_t> met_by_16{}; ///< number of these rays that meet the artifact
 };
 
 class Truth {
 public:
     /// Errors: no triangles; a placement that is not finite; Embree has no memory.
-    [[nodiscard]] static Result<Truth> build(std::shared_ptr<const SourceMesh> mesh,
-                                             const glm::dmat4& prop_from_artifact, Sides sides = Sides::Both);
+    [[nodiscard]] static Result<Truth> build(std::shared_ptr<const bake::SourceMesh> mesh,
+                                             const glm::dmat4& prop_from_artifact,
+                                             bake::Sides sides = bake::Sides::Both);
     struct Hit {
         std::uint32_t triangle = 0;
         double u = 0.0, v = 0.0; ///< corner weights (1 - u - v, u, v)
@@ -56,12 +57,12 @@ public:
 
     /// Casts the whole picture; with `sixteen_rays` false, the images of the 16 rays stay empty. `aim`: the
     /// light of `shown16`; null: it stays empty.
-    [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
+    [[nodiscard]] TruthPicture cast(const geometry::PropShape& prop, const TruthView& view, bool sixteen_rays,
                                     const LightAim* aim = nullptr) const;
     /// The share of each pixel covered by the artifact, from a grid of `rays` columns and rows. Only pixels
     /// crossed by an outline, according to the 16 rays of `picture`, are cast again; the others are 0 or 1.
-    [[nodiscard]] Image<float> cover(const PropShape& prop, const TruthView& view,
-                                     const TruthPicture& picture, const glm::ivec2& rays) const;
+    [[nodiscard]] image::Image<float> cover(const geometry::PropShape& prop, const TruthView& view,
+                                            const TruthPicture& picture, const glm::ivec2& rays) const;
 
     /// From now on, `relief_draw` with sixteen rays multiplies colours by the museum's light on the same source: for
     /// packs that were baked with light.
@@ -77,4 +78,4 @@ private:
     std::shared_ptr<const LitSource> lit_; ///< null: colours are the source's own
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -7,12 +7,12 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct TruthView {
-    Pinhole projector;
-    RigidTransform prop_from_projector;
+    geometry::Pinhole projector;
+    geometry::RigidTransform prop_from_projector;
     glm::dvec3 eye_m{0.0};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

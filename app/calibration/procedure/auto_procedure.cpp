@@ -5,23 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
 constexpr std::size_t more_rests = 4;
 
 /// A slow camera sends good frames; a dark frame is right while dark is shown.
-bool can_be_used(CameraState state, bool dark_is_shown) {
-    return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
-           (dark_is_shown && state == CameraState::Dark);
+bool can_be_used(camera::CameraState state, bool dark_is_shown) {
+    return camera::health_of(state) == camera::CameraHealth::Well || state == camera::CameraState::Slow ||
+           (dark_is_shown && state == camera::CameraState::Dark);
 }
 
 } // namespace
 
 StripeSetup stripes_for(int width, int height) {
     constexpr double periods = 120.0; // along the picture
-    return {width, height, std::max(16, 2 * static_cast<int>(std::lround(0.5 * width / periods))), 8};
+    return {.width = width,
+            .height = height,
+            .period_px = std::max(16, 2 * static_cast<int>(std::lround(0.5 * width / periods))),
+            .steps = 8};
 }
 
 AutoProcedure::AutoProcedure(Board board, const AutoPlan& plan, std::string problem)
@@ -157,11 +160,11 @@ bool AutoProcedure::is_at_rest(const Input& input) {
 }
 
 /// The posture, or the reason why no rest can be taken.
-tl::expected<Posture, AutoPrompt> AutoProcedure::posture_of(const RigidTransform& report) const {
-    std::vector<RigidTransform> flat = flat_ones();
+tl::expected<Posture, AutoPrompt> AutoProcedure::posture_of(const geometry::RigidTransform& report) const {
+    std::vector<geometry::RigidTransform> flat = flat_ones();
     if (flat.size() < first_flat) {
-        for (const RigidTransform& other : flat) {
-            if (rotation_angle(other.rotation, report.rotation) < turned_rad) {
+        for (const geometry::RigidTransform& other : flat) {
+            if (geometry::rotation_angle(other.rotation, report.rotation) < turned_rad) {
                 return tl::unexpected(AutoPrompt::TurnIt);
             }
         }
@@ -185,7 +188,7 @@ tl::expected<Posture, AutoPrompt> AutoProcedure::posture_of(const RigidTransform
                                                         : tl::unexpected(AutoPrompt::WrongHeight);
 }
 
-std::vector<FoundTag> AutoProcedure::tags_in(const CameraFrame& frame) {
+std::vector<tags::FoundTag> AutoProcedure::tags_in(const camera::CameraFrame& frame) {
     detector_.find(frame.luma, frame.width, frame.height, found_);
     return tags_of(board_, found_);
 }
@@ -243,7 +246,7 @@ void AutoProcedure::look_at_captures(MonotonicTime now) {
 }
 
 void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
-    const RigidTransform report = still_.mean();
+    const geometry::RigidTransform report = still_.mean();
     const auto posture = posture_of(report);
     if (!posture) { // the mean changed during the capture, close to a limit
         end_capture(now, posture.error());
@@ -270,8 +273,8 @@ Rests AutoProcedure::rests() const {
     return all;
 }
 
-std::vector<RigidTransform> AutoProcedure::flat_ones() const {
-    std::vector<RigidTransform> flat;
+std::vector<geometry::RigidTransform> AutoProcedure::flat_ones() const {
+    std::vector<geometry::RigidTransform> flat;
     for (const TakenRest& each : taken_) {
         if (each.posture == Posture::Flat) {
             flat.push_back(each.rest.tracker_from_sensor);
@@ -305,4 +308,4 @@ void AutoProcedure::go_on() {
     stage_ = Stage::Place;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

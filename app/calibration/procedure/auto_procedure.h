@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// The remark beside the instruction.
 enum class AutoPrompt {
@@ -83,7 +83,7 @@ public:
     [[nodiscard]] const std::optional<Pattern>& shown() const { return shown_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
 
-    [[nodiscard]] CameraState camera() const { return camera_; }
+    [[nodiscard]] camera::CameraState camera() const { return camera_; }
     [[nodiscard]] const AutoPlan& plan() const { return plan_; }
     [[nodiscard]] const Board& board() const { return board_; }
     [[nodiscard]] Rests rests() const;
@@ -108,8 +108,8 @@ private:
     void drop_last();
     [[nodiscard]] bool watch(const Input& input);
     [[nodiscard]] bool is_at_rest(const Input& input);
-    [[nodiscard]] tl::expected<Posture, AutoPrompt> posture_of(const RigidTransform& report) const;
-    [[nodiscard]] std::vector<FoundTag> tags_in(const CameraFrame& frame);
+    [[nodiscard]] tl::expected<Posture, AutoPrompt> posture_of(const geometry::RigidTransform& report) const;
+    [[nodiscard]] std::vector<tags::FoundTag> tags_in(const camera::CameraFrame& frame);
     void begin_capture(MonotonicTime now);
     void capture(const Input& input);
     void end_capture(MonotonicTime now, AutoPrompt word);
@@ -117,13 +117,13 @@ private:
     void take(MonotonicTime now, const BoardView& view);
     void after_judgement(const Input& input);
     void go_on();
-    [[nodiscard]] std::vector<RigidTransform> flat_ones() const;
+    [[nodiscard]] std::vector<geometry::RigidTransform> flat_ones() const;
 
     Board board_;
     AutoPlan plan_;
     std::size_t wanted_;
-    TagDetector detector_;
-    CameraState camera_ = CameraState::Running;
+    tags::TagDetector detector_;
+    camera::CameraState camera_ = camera::CameraState::Running;
     std::optional<Pattern> shown_;
     std::uint64_t number_ = 0;
     std::optional<MonotonicTime>
@@ -131,15 +131,16 @@ private:
     std::optional<CaptureDelay> light_;
     std::optional<Nanoseconds> delay_;
     StillReports still_{3};
-    std::optional<MonotonicTime> seen_;       ///< the tracker's latest report
-    std::optional<RigidTransform> done_with_; ///< the prop must leave this place before the next rest
+    std::optional<MonotonicTime> seen_; ///< the tracker's latest report
+    std::optional<geometry::RigidTransform>
+        done_with_;                           ///< the prop must leave this place before the next rest
     std::optional<MonotonicTime> not_before_; ///< after useless stripes
-    std::vector<FoundTag> found_;             ///< all tags that the detector finds
-    std::vector<FoundTag> before_;            ///< the board's tags in the first picture of the stripes
+    std::vector<tags::FoundTag> found_;       ///< all tags that the detector finds
+    std::vector<tags::FoundTag> before_;      ///< the board's tags in the first picture of the stripes
     int tags_ = 0;
     std::optional<StripeCapture> stripes_;
     std::vector<TakenRest> taken_;
     int last_name_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -106,7 +106,7 @@ TagChecks checks_of(const PixelChecks& checks, const Captures& captures, const Q
     return {found.clipped / std::fmax(1.0, lit), found.disturbed / std::fmax(1.0, lit)};
 }
 
-Quadrilateral between(const FoundTag& a, const FoundTag& b) {
+Quadrilateral between(const tags::FoundTag& a, const tags::FoundTag& b) {
     Quadrilateral corners{};
     for (std::size_t k = 0; k < 4; ++k) {
         corners[k] = 0.5 * (a.corners_px[k] + b.corners_px[k]);
@@ -122,9 +122,9 @@ bool is_in_picture(const Quadrilateral& pixels, const StripeSetup& setup) {
 
 } // namespace
 
-std::vector<FoundTag> tags_of(const Board& board, std::span<const FoundTag> found) {
-    std::vector<FoundTag> known;
-    for (const FoundTag& tag : found) {
+std::vector<tags::FoundTag> tags_of(const Board& board, std::span<const tags::FoundTag> found) {
+    std::vector<tags::FoundTag> known;
+    for (const tags::FoundTag& tag : found) {
         const auto is_same = [&](const auto& other) { return other.id == tag.id; };
         if (std::any_of(board.tags.begin(), board.tags.end(), is_same) &&
             std::count_if(found.begin(), found.end(), is_same) == 1) {
@@ -134,7 +134,7 @@ std::vector<FoundTag> tags_of(const Board& board, std::span<const FoundTag> foun
     return known;
 }
 
-bool has_moved(const FoundTag& before, const FoundTag& after, double farthest_px) {
+bool has_moved(const tags::FoundTag& before, const tags::FoundTag& after, double farthest_px) {
     for (std::size_t k = 0; k < before.corners_px.size(); ++k) {
         if (glm::distance(before.corners_px[k], after.corners_px[k]) > farthest_px) {
             return true;
@@ -144,12 +144,12 @@ bool has_moved(const FoundTag& before, const FoundTag& after, double farthest_px
 }
 
 BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& captures,
-                  std::span<const FoundTag> before, std::span<const FoundTag> after) {
+                  std::span<const tags::FoundTag> before, std::span<const tags::FoundTag> after) {
     const PixelMap map = decode(setup, captures);
     const PixelChecks checks(setup, captures);
     BoardView view;
-    for (const PropTag& tag : board.tags) {
-        const auto is_it = [&](const FoundTag& found) { return found.id == tag.id; };
+    for (const tags::PropTag& tag : board.tags) {
+        const auto is_it = [&](const tags::FoundTag& found) { return found.id == tag.id; };
         const auto first = std::find_if(before.begin(), before.end(), is_it);
         const auto last = std::find_if(after.begin(), after.end(), is_it);
         if (first == before.end() || last == after.end()) {
@@ -183,4 +183,4 @@ BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& 
     return view;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

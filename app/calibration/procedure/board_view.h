@@ -15,7 +15,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct BoardView {
     std::vector<PropPoint> points; ///< four of each accepted tag
@@ -27,13 +27,14 @@ struct BoardView {
 };
 
 /// The board's tags among those found, except tags that were found twice.
-[[nodiscard]] std::vector<FoundTag> tags_of(const Board& board, std::span<const FoundTag> found);
+[[nodiscard]] std::vector<tags::FoundTag> tags_of(const Board& board, std::span<const tags::FoundTag> found);
 
 /// True if a corner moved by more than `farthest_px` in the camera's picture.
-[[nodiscard]] bool has_moved(const FoundTag& before, const FoundTag& after, double farthest_px);
+[[nodiscard]] bool has_moved(const tags::FoundTag& before, const tags::FoundTag& after, double farthest_px);
 
 /// `before`, `after`: the board's tags in the white pictures before the stripes and after them.
 [[nodiscard]] BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& captures,
-                                std::span<const FoundTag> before, std::span<const FoundTag> after);
+                                std::span<const tags::FoundTag> before,
+                                std::span<const tags::FoundTag> after);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -13,7 +13,7 @@ constexpr double near_levels = 4.0;
 
 } // namespace
 
-CaptureDelay::Parts CaptureDelay::parts_of(const CameraFrame& frame) {
+CaptureDelay::Parts CaptureDelay::parts_of(const camera::CameraFrame& frame) {
     constexpr int every = 3; // samples enough pixels of each part
     Parts sums{};
     Parts counts{};
@@ -32,7 +32,7 @@ CaptureDelay::Parts CaptureDelay::parts_of(const CameraFrame& frame) {
     return sums;
 }
 
-void CaptureDelay::step(std::optional<MonotonicTime> lit, const CameraFrame* frame) {
+void CaptureDelay::step(std::optional<MonotonicTime> lit, const camera::CameraFrame* frame) {
     if (frame == nullptr || !lit || is_done() || frame->time < *lit) {
         return;
     }
@@ -66,4 +66,4 @@ void CaptureDelay::judge(MonotonicTime lit) {
     delay_ = std::max(delay_, last_other.base()->time - lit); // dereferences: the last look has settled
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

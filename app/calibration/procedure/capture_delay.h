@@ -14,7 +14,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 class CaptureDelay {
 public:
@@ -25,7 +25,7 @@ public:
     /// The pattern to show.
     [[nodiscard]] Pattern pattern() const { return {change_ % 2 == 0 ? Stripes::White : Stripes::Black}; }
     /// `lit`: the time since which the pattern is lit; nothing: it is not lit yet.
-    void step(std::optional<MonotonicTime> lit, const CameraFrame* frame);
+    void step(std::optional<MonotonicTime> lit, const camera::CameraFrame* frame);
 
     [[nodiscard]] bool is_done() const { return change_ > changes; }
     /// The delay, once done; nothing if the camera does not see the projector's light.
@@ -41,7 +41,7 @@ private:
         MonotonicTime time;
         Parts parts;
     };
-    [[nodiscard]] static Parts parts_of(const CameraFrame& frame);
+    [[nodiscard]] static Parts parts_of(const camera::CameraFrame& frame);
     void judge(MonotonicTime lit);
 
     int change_ = 0; ///< 0: the first white, before any change
@@ -51,4 +51,4 @@ private:
     Nanoseconds delay_{0};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

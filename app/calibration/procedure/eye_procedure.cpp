@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft,
 
 } // namespace
 
-EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, std::string problem)
+EyeProcedure::EyeProcedure(SightScene scene, const geometry::Registration& registration, std::string problem)
     : Procedure(std::move(problem)), scene_(std::move(scene)), registration_(registration) {
     const SightPlan requested = plan_sights(scene_, first_place(scene_), scene_.usual_eye_m, min_crosses);
     first_words_ = requested.words;
@@ -111,7 +111,7 @@ void EyeProcedure::take_rest(const Input& input) {
 
 /// Determines the prop's place and plans crosses behind it for the head's current place.
 void EyeProcedure::plan() {
-    const RigidTransform table_from_prop =
+    const geometry::RigidTransform table_from_prop =
         registration_.table_from_tracker * prop_still_.mean() * registration_.sensor_from_prop;
     double lowest = table_from_prop.point(scene_.prop.corners.front()).z;
     for (const glm::dvec3& corner : scene_.prop.corners) {
@@ -200,7 +200,7 @@ bool EyeProcedure::is_held_as_before(const glm::dvec3& in_sensor) const {
 }
 
 void EyeProcedure::take() {
-    const RigidTransform head = head_still_.mean();
+    const geometry::RigidTransform head = head_still_.mean();
     const glm::dquat table_from_sensor = registration_.table_from_tracker.rotation * head.rotation;
     const glm::dvec3 in_sensor =
         glm::conjugate(table_from_sensor) * glm::normalize(cross().tip_m - cross().cross_m);
@@ -262,4 +262,4 @@ ReportedSights EyeProcedure::sights() const {
     return all;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// The head's posture: an eye's lines must meet at angles in the head, both upwards and sideways.
 enum class HeadPosture { ChinUp, ChinDown, TurnedLeft, TurnedRight };
@@ -67,7 +67,7 @@ public:
     static constexpr double off_table_m = 0.015;
 
     /// Also sets a problem if the picture is too small.
-    EyeProcedure(SightScene scene, const Registration& registration, std::string problem = {});
+    EyeProcedure(SightScene scene, const geometry::Registration& registration, std::string problem = {});
 
     void step(const Input& input);
 
@@ -75,7 +75,7 @@ public:
     /// True once the prop's rest is known. Before that, the prop should stand at the scene's `first_place`.
     [[nodiscard]] bool knows_place() const { return knows_place_; }
     /// The prop's pose at its rest.
-    [[nodiscard]] const RigidTransform& table_from_prop() const { return table_from_prop_; }
+    [[nodiscard]] const geometry::RigidTransform& table_from_prop() const { return table_from_prop_; }
     /// The room for words beside the prop.
     [[nodiscard]] const WordsBox& words() const { return knows_place_ ? plan_.words : first_words_; }
     /// Index of the requested sighting, from 0; in the stages Shut, Place and HoldStill.
@@ -115,10 +115,10 @@ private:
         glm::dvec3 in_sensor{0.0}; ///< direction of its line, from the cross
     };
     SightScene scene_;
-    Registration registration_;
+    geometry::Registration registration_;
     std::vector<AskedSight> asked_;
     std::vector<std::optional<Taken>> sights_; ///< one for each
-    RigidTransform table_from_prop_;
+    geometry::RigidTransform table_from_prop_;
     bool knows_place_ = false;
     WordsBox first_words_;
     SightPlan plan_;
@@ -127,7 +127,7 @@ private:
     StillReports prop_still_{3};
     StillReports head_still_{1, head_limits};
     MonotonicTime prop_seen_{}, head_seen_{};
-    std::optional<RigidTransform> head_; ///< the latest report
+    std::optional<geometry::RigidTransform> head_; ///< the latest report
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -20,7 +20,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class CalibrationStage {
     Begin,     ///< the beginning; Back from the first point leads here too
@@ -40,12 +40,12 @@ enum class CalibrationStage {
 /// The input of one step: reports, presses and frames. Each way uses a part of it.
 struct CalibrationInput {
     MonotonicTime now{};
-    std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor, if any
-    bool next = false;                                 ///< a button was pressed
+    std::optional<geometry::RigidTransform> prop = std::nullopt; ///< a new report of its sensor, if any
+    bool next = false;                                           ///< a button was pressed
     bool back = false;
-    std::optional<RigidTransform> head = std::nullopt; ///< as of the prop
-    const CameraFrame* frame = nullptr;                ///< a new frame
-    CameraState camera = CameraState::Running;
+    std::optional<geometry::RigidTransform> head = std::nullopt; ///< as of the prop
+    const camera::CameraFrame* frame = nullptr;                  ///< a new frame
+    camera::CameraState camera = camera::CameraState::Running;
     /// The time since which the picture with that number is lit.
     struct Lit {
         std::uint64_t number = 0;
@@ -112,4 +112,4 @@ protected:
     std::optional<Judgement> judged_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -12,7 +12,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class Posture { Flat, Block, Leaning };
 
@@ -25,12 +25,12 @@ struct FlatPosture {
 };
 /// The posture common to rests that are flat. Nothing if there is one rest only, or if no two differ by 10
 /// degrees.
-[[nodiscard]] std::optional<FlatPosture> flat_posture(std::span<const RigidTransform> rests);
+[[nodiscard]] std::optional<FlatPosture> flat_posture(std::span<const geometry::RigidTransform> rests);
 
 struct RestStance {
     double tilt_rad = 0.0;
     double raised_m = 0.0; ///< above the flat height on the table, negative below; valid if it is not tilted
 };
-[[nodiscard]] RestStance stance_of(const FlatPosture& flat, const RigidTransform& rest);
+[[nodiscard]] RestStance stance_of(const FlatPosture& flat, const geometry::RigidTransform& rest);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

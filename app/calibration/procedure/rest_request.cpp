@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -66,4 +66,4 @@ RestRequest next_request(std::span<const TakenRest> taken, const glm::dvec2& siz
     return request;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

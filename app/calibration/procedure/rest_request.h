@@ -10,7 +10,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct TakenRest {
     Rest rest;
@@ -29,4 +29,4 @@ inline constexpr std::size_t first_flat = 3;
 
 [[nodiscard]] std::size_t count_of(std::span<const TakenRest> taken, Posture posture);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 namespace {
 
@@ -32,8 +32,8 @@ glm::dvec3 flat(const glm::dvec3& way) {
 
 struct Planner {
     const SightScene& scene;
-    RigidTransform table_from_prop;
-    RigidTransform prop_from_table;
+    geometry::RigidTransform table_from_prop;
+    geometry::RigidTransform prop_from_table;
     glm::dvec3 head_m;
     WordsBox words;
 
@@ -44,10 +44,11 @@ struct Planner {
         const glm::dvec3 origin = prop_from_table.point(from);
         const bool is_outside =
             std::any_of(scene.prop.bounds.begin(), scene.prop.bounds.end(),
-                        [&](const Plane& bound) { return bound.distance(origin) > 1e-6; });
-        PropHit hit;
-        return is_outside && (!enter(scene.prop, origin, prop_from_table.direction(to - from), hit) ||
-                              hit.t < 0.0 || hit.t > nearly);
+                        [&](const geometry::Plane& bound) { return bound.distance(origin) > 1e-6; });
+        geometry::PropHit hit;
+        return is_outside &&
+               (!geometry::enter(scene.prop, origin, prop_from_table.direction(to - from), hit) ||
+                hit.t < 0.0 || hit.t > nearly);
     }
 
     [[nodiscard]] bool is_shown(const glm::dvec3& point) const {
@@ -141,7 +142,7 @@ struct Planner {
     }
 };
 
-WordsBox box_of_prop(const SightScene& scene, const RigidTransform& table_from_prop) {
+WordsBox box_of_prop(const SightScene& scene, const geometry::RigidTransform& table_from_prop) {
     const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);
     WordsBox box{size, glm::dvec2(0.0)};
     for (const glm::dvec3& corner : scene.prop.corners) {
@@ -154,7 +155,7 @@ WordsBox box_of_prop(const SightScene& scene, const RigidTransform& table_from_p
 
 /// The largest room for words to the left or right of the prop, or on the head's side; not behind it, where
 /// the crosses are.
-WordsBox words_beside(const SightScene& scene, const RigidTransform& table_from_prop,
+WordsBox words_beside(const SightScene& scene, const geometry::RigidTransform& table_from_prop,
                       const glm::dvec3& head_m) {
     const double margin = 2.0 * margin_share * scene.pinhole.width;
     const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);
@@ -192,23 +193,26 @@ std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& po
 }
 
 /// Right of the middle, so that words fit beside it, and to the front, so that crosses fit behind it.
-RigidTransform first_place(const SightScene& scene) {
+geometry::RigidTransform first_place(const SightScene& scene) {
     constexpr glm::dvec2 share(0.63, 0.6);
     const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);
-    const glm::dvec2 lit =
-        lights_table(scene.pinhole, scene.table_from_projector, share * size).value_or(glm::dvec2(0.0));
+    const glm::dvec2 lit = geometry::lights_table(scene.pinhole, scene.table_from_projector, share * size)
+                               .value_or(glm::dvec2(0.0));
     return {{1.0, 0.0, 0.0, 0.0}, glm::dvec3(lit, 0.0)};
 }
 
-SightPlan plan_sights(const SightScene& scene, const RigidTransform& table_from_prop,
+SightPlan plan_sights(const SightScene& scene, const geometry::RigidTransform& table_from_prop,
                       const glm::dvec3& head_m, std::size_t count) {
     const double away_m = glm::length(flat(head_m - table_from_prop.translation));
     const bool is_near = away_m >= nearest_head_m && away_m <= farthest_head_m && head_m.z >= lowest_head_m &&
                          head_m.z <= highest_head_m;
-    Planner planner{
-        scene, table_from_prop, table_from_prop.inverse(), is_near ? head_m : scene.usual_eye_m, {}};
+    Planner planner{.scene = scene,
+                    .table_from_prop = table_from_prop,
+                    .prop_from_table = table_from_prop.inverse(),
+                    .head_m = is_near ? head_m : scene.usual_eye_m,
+                    .words = {}};
     planner.words = words_beside(scene, table_from_prop, planner.head_m);
     return {planner.words, planner.chosen(count)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

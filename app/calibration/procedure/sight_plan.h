@@ -17,22 +17,22 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// From a cross's middle to the end of its arms, on the table.
 inline constexpr double cross_arm_m = 0.025;
 
 /// The scene, constant while the sightings are made.
 struct SightScene {
-    Pinhole pinhole;
-    RigidTransform table_from_projector;
-    PropShape prop;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform table_from_projector;
+    geometry::PropShape prop;
     glm::dvec3 usual_eye_m{0.0}; ///< default place of visitors' eyes
 };
 /// The pixel of a point in the table's frame; nothing if the projector does not light it.
 [[nodiscard]] std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& point_m);
 /// The place that leaves most room for words and crosses, upright: table_from_prop. Anywhere near it will do.
-[[nodiscard]] RigidTransform first_place(const SightScene& scene);
+[[nodiscard]] geometry::RigidTransform first_place(const SightScene& scene);
 
 struct WordsBox {
     glm::dvec2 low{0.0}, high{0.0};
@@ -51,7 +51,7 @@ struct SightPlan {
 };
 /// Plans `count` crosses, or fewer if there is no room for more. `head_m`: the approximate place of the head;
 /// ignored if it is nowhere near the table.
-[[nodiscard]] SightPlan plan_sights(const SightScene& scene, const RigidTransform& table_from_prop,
+[[nodiscard]] SightPlan plan_sights(const SightScene& scene, const geometry::RigidTransform& table_from_prop,
                                     const glm::dvec3& head_m, std::size_t count);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -4,14 +4,15 @@
 
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
-bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m, double angle_rad) {
+bool is_near(const geometry::RigidTransform& a, const geometry::RigidTransform& b, double distance_m,
+             double angle_rad) {
     return glm::distance(a.translation, b.translation) <= distance_m &&
-           rotation_angle(a.rotation, b.rotation) <= angle_rad;
+           geometry::rotation_angle(a.rotation, b.rotation) <= angle_rad;
 }
 
-bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
+bool StillReports::add(MonotonicTime now, const geometry::RigidTransform& report) {
     const bool is_near_first = count_ == 0 || is_near(report, first_, limits_.move_m, limits_.turn_rad);
     if (!is_near_first && ++elsewhere_ < strays_) {
         return true;
@@ -32,9 +33,9 @@ bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
 }
 
 /// For similar poses, the sum of same-signed quaternions is their mean to second order.
-RigidTransform StillReports::mean() const {
+geometry::RigidTransform StillReports::mean() const {
     assert(count_ > 0);
     return {glm::normalize(turns_), places_ / static_cast<double>(count_)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 /// Largest distance of a report from the first one of its rest.
 struct StillLimits {
@@ -25,14 +25,14 @@ public:
     StillReports(int strays, StillLimits limits) : strays_(strays), limits_(limits) {}
 
     /// False if it moved: a new rest begins with this report.
-    bool add(MonotonicTime now, const RigidTransform& report);
+    bool add(MonotonicTime now, const geometry::RigidTransform& report);
     void clear() { *this = StillReports(strays_, limits_); }
 
     [[nodiscard]] std::size_t count() const { return count_; }
     /// Duration of the rest; zero before the first report.
     [[nodiscard]] Nanoseconds rest() const { return count_ > 0 ? last_ - began_ : Nanoseconds(0); }
     /// Mean pose of the rest's reports; at least one.
-    [[nodiscard]] RigidTransform mean() const;
+    [[nodiscard]] geometry::RigidTransform mean() const;
 
 private:
     int strays_;
@@ -41,13 +41,13 @@ private:
     int elsewhere_ = 0; ///< stray reports in a row
     MonotonicTime began_{};
     MonotonicTime last_{};
-    RigidTransform first_;
+    geometry::RigidTransform first_;
     glm::dvec3 places_{0.0}; ///< sums
     glm::dquat turns_{0.0, 0.0, 0.0, 0.0};
 };
 
 /// True if two poses differ by no more than these limits.
-[[nodiscard]] bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m,
-                           double angle_rad);
+[[nodiscard]] bool is_near(const geometry::RigidTransform& a, const geometry::RigidTransform& b,
+                           double distance_m, double angle_rad);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 StripeCapture::StripeCapture(const CaptureSetup& setup, MonotonicTime now)
     : setup_(setup), patterns_{{Stripes::White}}, heard_(now) {
@@ -10,7 +10,8 @@ StripeCapture::StripeCapture(const CaptureSetup& setup, MonotonicTime now)
     patterns_.insert(patterns_.end(), stripes.begin(), stripes.end());
 }
 
-bool StripeCapture::step(MonotonicTime now, std::optional<MonotonicTime> lit, const CameraFrame* frame) {
+bool StripeCapture::step(MonotonicTime now, std::optional<MonotonicTime> lit,
+                         const camera::CameraFrame* frame) {
     if (is_complete()) {
         return true;
     }
@@ -44,16 +45,16 @@ bool StripeCapture::step(MonotonicTime now, std::optional<MonotonicTime> lit, co
     return true;
 }
 
-CameraFrame StripeCapture::picture(std::size_t which) const {
+camera::CameraFrame StripeCapture::picture(std::size_t which) const {
     assert(which < at_);
-    return {{}, 0, width_, height_, pictures_[which]};
+    return {.time = {}, .number = 0, .width = width_, .height = height_, .luma = pictures_[which]};
 }
 
-CameraFrame StripeCapture::before() const {
+camera::CameraFrame StripeCapture::before() const {
     return picture(0);
 }
 
-CameraFrame StripeCapture::after() const {
+camera::CameraFrame StripeCapture::after() const {
     assert(is_complete());
     return picture(pictures_.size() - 2);
 }
@@ -63,4 +64,4 @@ Captures StripeCapture::captures() const {
     return {width_, height_, {pictures_.begin() + 1, pictures_.end()}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

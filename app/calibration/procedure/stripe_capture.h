@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 struct CaptureSetup {
     StripeSetup stripes;
@@ -30,18 +30,19 @@ public:
     [[nodiscard]] Pattern pattern() const { return patterns_[std::min(at_, patterns_.size() - 1)]; }
     /// `lit`: the time since which the pattern is lit; nothing: it is not lit yet. False if no frame comes,
     /// or frames of another size.
-    [[nodiscard]] bool step(MonotonicTime now, std::optional<MonotonicTime> lit, const CameraFrame* frame);
+    [[nodiscard]] bool step(MonotonicTime now, std::optional<MonotonicTime> lit,
+                            const camera::CameraFrame* frame);
     [[nodiscard]] bool is_complete() const { return at_ == patterns_.size(); }
 
     /// True once the first white picture is captured.
     [[nodiscard]] bool has_before() const { return at_ > 0; }
-    [[nodiscard]] CameraFrame before() const; ///< the first white picture, without a time
+    [[nodiscard]] camera::CameraFrame before() const; ///< the first white picture, without a time
     /// The second white picture and the captures; both need a complete capture.
-    [[nodiscard]] CameraFrame after() const;
+    [[nodiscard]] camera::CameraFrame after() const;
     [[nodiscard]] Captures captures() const;
 
 private:
-    [[nodiscard]] CameraFrame picture(std::size_t which) const;
+    [[nodiscard]] camera::CameraFrame picture(std::size_t which) const;
 
     CaptureSetup setup_;
     std::vector<Pattern> patterns_;
@@ -54,4 +55,4 @@ private:
     MonotonicTime heard_; ///< time of the last frame
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

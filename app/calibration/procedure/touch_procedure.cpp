@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 void TouchProcedure::step(const Input& input) {
     static constexpr Row<TouchProcedure> rows[]{{Stage::Begin, &TouchProcedure::begin},
@@ -55,7 +55,7 @@ void TouchProcedure::hold_still(const Input& input) {
 }
 
 /// True if Next was pressed again before the prop moved on. Two crosses of a plan may be equal.
-bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
+bool TouchProcedure::lies_where_another_lay(const geometry::RigidTransform& pose) const {
     for (std::size_t k = 0; k < touches_.size(); ++k) {
         const Cross& other = crosses_[k];
         const bool is_alike = other.pixel == cross().pixel && other.block_m == cross().block_m &&
@@ -69,7 +69,7 @@ bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
 }
 
 void TouchProcedure::take() {
-    const RigidTransform pose = still_.mean();
+    const geometry::RigidTransform pose = still_.mean();
     if (lies_where_another_lay(pose)) {
         go_to(Stage::Place, TouchPrompt::SamePlace);
         return;
@@ -137,4 +137,4 @@ Touches TouchProcedure::touches() const {
     return all;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::calibration {
 
 enum class TouchTask {
     Anew,   ///< projector, tracker and sensor
@@ -83,7 +83,7 @@ private:
     void lay(const Input& input);
     void hold_still(const Input& input);
     void take();
-    [[nodiscard]] bool lies_where_another_lay(const RigidTransform& pose) const;
+    [[nodiscard]] bool lies_where_another_lay(const geometry::RigidTransform& pose) const;
     void after_judgement(const Input& input);
     void go_to_next_open();
     void touch_worst_again();
@@ -98,4 +98,4 @@ private:
     MonotonicTime seen_{};
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::calibration

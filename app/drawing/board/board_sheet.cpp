@@ -9,12 +9,12 @@
 #include <cmath>
 #include <cstddef>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 namespace {
 
-constexpr Pen black{"none", 0.0, "#000000"};
-constexpr Pen cut{"#c02020", 0.35, "none", "3 1.5"};
+constexpr Pen black{.stroke = "none", .width_mm = 0.0, .fill = "#000000"};
+constexpr Pen cut{.stroke = "#c02020", .width_mm = 0.35, .fill = "none", .dashes = "3 1.5"};
 constexpr double ruler_mm = 100.0;
 
 std::array<glm::dvec2, 4> rectangle(const glm::dvec2& low, const glm::dvec2& high) {
@@ -23,9 +23,9 @@ std::array<glm::dvec2, 4> rectangle(const glm::dvec2& low, const glm::dvec2& hig
 
 /// Calls `use(from, to)` for each run of black columns.
 void for_each_run(const auto& is_black, const auto& use) {
-    for (std::size_t from = 0; from < tag_modules; ++from) {
+    for (std::size_t from = 0; from < tags::tag_modules; ++from) {
         std::size_t to = from;
-        while (to < tag_modules && is_black(to)) {
+        while (to < tags::tag_modules && is_black(to)) {
             ++to;
         }
         if (to > from) {
@@ -36,11 +36,11 @@ void for_each_run(const auto& is_black, const auto& use) {
 }
 
 /// Draws row by row; a bridge overlaps adjacent black modules of two rows, so no white hairline remains.
-void draw_tag(SvgSheet& sheet, const PropTag& tag, const glm::dvec2& middle_mm) {
+void draw_tag(SvgSheet& sheet, const tags::PropTag& tag, const glm::dvec2& middle_mm) {
     constexpr double bridge = 0.1;
-    const TagModules modules = tag_modules_of(tag.id);
-    const double module_mm = 1e3 * tag.size_m / static_cast<double>(black_modules);
-    const glm::dvec2 corner = middle_mm - 0.5 * static_cast<double>(tag_modules) * module_mm;
+    const tags::TagModules modules = tags::tag_modules_of(tag.id);
+    const double module_mm = 1e3 * tag.size_m / static_cast<double>(tags::black_modules);
+    const glm::dvec2 corner = middle_mm - 0.5 * static_cast<double>(tags::tag_modules) * module_mm;
     const auto draw = [&](double top, double bottom) {
         return [&sheet, corner, module_mm, top, bottom](std::size_t from, std::size_t to) {
             sheet.polygon(rectangle(corner + module_mm * glm::dvec2(from, top),
@@ -48,7 +48,7 @@ void draw_tag(SvgSheet& sheet, const PropTag& tag, const glm::dvec2& middle_mm) 
                           black);
         };
     };
-    for (std::size_t row = 0; row < tag_modules; ++row) {
+    for (std::size_t row = 0; row < tags::tag_modules; ++row) {
         const auto at = static_cast<double>(row);
         for_each_run([&](std::size_t column) { return !modules[row][column]; }, draw(at, at + 1.0));
         if (row > 0) {
@@ -83,7 +83,8 @@ void draw_front(SvgSheet& sheet, const glm::dvec2& tip, double size_mm) {
                {0.6 * size_mm});
 }
 
-void draw_top_tag(SvgSheet& sheet, const Board& board, const glm::dvec2& middle, double type_mm) {
+void draw_top_tag(SvgSheet& sheet, const calibration::Board& board, const glm::dvec2& middle,
+                  double type_mm) {
     const double half = 0.5 * 1e3 * std::fmin(board.prop.top_m, 1.25 * board.top().size_m + 0.004);
     const glm::dvec2 low = middle - half;
     const glm::dvec2 high = middle + half;
@@ -96,7 +97,7 @@ void draw_top_tag(SvgSheet& sheet, const Board& board, const glm::dvec2& middle,
 
 } // namespace
 
-std::string board_sheet(const Board& board, std::string_view name) {
+std::string board_sheet(const calibration::Board& board, std::string_view name) {
     SvgSheet sheet(a3_mm);
     const View view{0.5 * a3_mm, 1000.0};
     sheet.begin_view("board", view.origin_mm, view.mm_per_m);
@@ -114,7 +115,7 @@ std::string board_sheet(const Board& board, std::string_view name) {
     double y = middle.y - half_mm + 3.0 * type_mm;
     const glm::dvec2 left(middle.x - 0.5 * base_mm + 2.0 * type_mm, 0.0);
     sheet.text({left.x, y}, "Board of tags for frustumscreen-calibrate auto",
-               {1.2 * type_mm, TextAnchor::Start, 0.0, true});
+               {.height_mm = 1.2 * type_mm, .anchor = TextAnchor::Start, .turned_deg = 0.0, .bold = true});
     for (const std::string& line :
          {fmt::format("of the settings {}; the prop stands on the lines ({} x {}), held by tape", name,
                       mm_words(board.prop.base_m), mm_words(board.prop.base_m)),
@@ -136,4 +137,4 @@ std::string board_sheet(const Board& board, std::string_view name) {
     return sheet.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::drawing {
 
 /// `name` names the settings.
-[[nodiscard]] std::string board_sheet(const Board& board, std::string_view name);
+[[nodiscard]] std::string board_sheet(const calibration::Board& board, std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::drawing

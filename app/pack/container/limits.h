@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// The whole file; ZIP without ZIP64.
 inline constexpr std::uint64_t max_pack_bytes = std::uint64_t{2} << 30;
@@ -55,4 +55,4 @@ inline constexpr int max_side_texels = 16384;       ///< of a texture or the rel
 inline constexpr std::int64_t max_texels = 1 << 26; ///< of one picture
 inline constexpr std::int64_t max_texels_together = 1 << 28;
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct Sha256::State {
     crypto_hash_sha256_state hash;
@@ -35,4 +35,4 @@ std::string sha256_hex(std::span<const std::byte> bytes) {
     return hash.hex();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

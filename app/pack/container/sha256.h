@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// 64 hexadecimal digits, lower case.
 [[nodiscard]] std::string sha256_hex(std::span<const std::byte> bytes);
@@ -28,4 +28,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

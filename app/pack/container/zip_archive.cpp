@@ -14,7 +14,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// The bytes that the library reads and writes, and its cursor in them.
 struct ArchiveBytes {
@@ -371,8 +371,11 @@ Result<void> ZipReader::read_directory() {
                              info.size_filename, max_name_bytes);
         }
         name.resize(info.size_filename);
-        ZipEntry entry{printable(name), info.uncompressed_size, info.compressed_size,
-                       position.pos_in_zip_directory, position.num_of_file};
+        ZipEntry entry{.name = printable(name),
+                       .bytes = info.uncompressed_size,
+                       .stored_bytes = info.compressed_size,
+                       .position = position.pos_in_zip_directory,
+                       .number = position.num_of_file};
         if (!numbers_.emplace(entry.name, entries_.size()).second) {
             return bad_input("zip.entry_twice", "two entries are called {}; the pack is altered", entry.name);
         }
@@ -439,4 +442,4 @@ Result<void> ZipReader::read_whole(const ZipEntry& entry, const std::function<bo
     return unzCloseCurrentFile(zip_) == UNZ_OK && ends ? Result<void>() : damaged(entry);
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

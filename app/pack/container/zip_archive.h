@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 struct ArchiveBytes;
 class ZipReader;
@@ -97,4 +97,4 @@ private:
     std::map<std::string, std::size_t, std::less<>> numbers_; ///< index into entries_, by name
 };
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -289,4 +289,4 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t max_depth) 
     return {};
 }
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 struct Refusal {
     std::optional<Error> error;
@@ -124,4 +124,4 @@ private:
 [[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text,
                                         std::size_t max_depth = max_manifest_depth);
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

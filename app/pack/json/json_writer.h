@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen::pack_format {
+namespace frustumscreen::pack {
 
 /// The fewest digits that read back as an equal 32-bit number.
 [[nodiscard]] inline double in_few_digits(float value) {
@@ -94,4 +94,4 @@ private:
     Json object_ = Json::object();
 };
 
-} // namespace frustumscreen::pack_format
+} // namespace frustumscreen::pack

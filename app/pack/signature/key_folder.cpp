@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 namespace {
 
@@ -52,4 +52,4 @@ Result<std::vector<TrustedKey>> read_key_folder(const std::filesystem::path& fol
     return keys;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

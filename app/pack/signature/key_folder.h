@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// Reads one file. Messages begin with its name.
 [[nodiscard]] Result<PublicKey> read_public_key(const std::filesystem::path& file);
 /// In the order of their names; a key's name is its file's without `.pub`. None of them has a last day.
 [[nodiscard]] Result<std::vector<TrustedKey>> read_key_folder(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

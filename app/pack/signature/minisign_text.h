@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen::minisign {
+namespace frustumscreen::pack::minisign {
 
 inline constexpr std::string_view untrusted_prefix = "untrusted comment: ";
 inline constexpr std::string_view trusted_prefix = "trusted comment: ";
@@ -68,4 +68,4 @@ private:
     std::span<const std::uint8_t> bytes_;
 };
 
-} // namespace frustumscreen::minisign
+} // namespace frustumscreen::pack::minisign

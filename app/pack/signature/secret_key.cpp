@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 using namespace minisign;
 
@@ -251,4 +251,4 @@ Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::str
     return key;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

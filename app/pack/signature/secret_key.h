@@ -23,7 +23,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 /// Cost of each password attempt, for attackers and owners alike: scrypt's limits.
 struct PasswordCost {
@@ -61,4 +61,4 @@ private:
 [[nodiscard]] Result<SecretKey> parse_secret_key(std::string_view text,
                                                  std::optional<std::string_view> password);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 using namespace minisign;
 
@@ -81,9 +81,8 @@ Result<ReadSignature> read_signature(std::string_view text) {
     const auto damaged = [](std::string_view what) {
         return bad_input("signature.damaged", "its signature {}; sign it again", what);
     };
-    if (text.size() > pack_format::max_signature_bytes) {
-        return damaged(
-            fmt::format("has {} bytes, allowed are {}", text.size(), pack_format::max_signature_bytes));
+    if (text.size() > max_signature_bytes) {
+        return damaged(fmt::format("has {} bytes, allowed are {}", text.size(), max_signature_bytes));
     }
     const std::vector<std::string_view> lines = lines_of(text, 5);
     if (lines.size() != 4) {
@@ -269,10 +268,13 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
                                     "sign it with a newer key, or set the clock right",
                                     name, text_of_day(*trusted.until), text_of_day(*today)));
         } else {
-            return Signer{trusted.name, read->serial, std::string(read->trusted_comment), trusted.key};
+            return Signer{.key = trusted.name,
+                          .serial = read->serial,
+                          .trusted_comment = std::string(read->trusted_comment),
+                          .public_key = trusted.key};
         }
     }
     return refusal;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -25,7 +25,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::pack {
 
 struct PublicKey {
     std::array<std::uint8_t, 8> id{};
@@ -85,4 +85,4 @@ struct Signer {
 check_signature(std::span<const std::byte> signed_bytes, std::optional<std::string_view> signature,
                 std::span<const TrustedKey> keys, std::optional<std::chrono::sys_days> today);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::pack

@@ -19,7 +19,7 @@
 #include <system_error>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 int report(const Error& error) {
@@ -28,19 +28,22 @@ int report(const Error& error) {
 }
 
 /// The caption in a language; in English if there is none in it.
-const PackCaption& caption_in(const std::vector<PackCaption>& captions, const std::string& language) {
-    const auto found = std::find_if(captions.begin(), captions.end(),
-                                    [&](const PackCaption& caption) { return caption.language == language; });
+const pack::PackCaption& caption_in(const std::vector<pack::PackCaption>& captions,
+                                    const std::string& language) {
+    const auto found = std::find_if(captions.begin(), captions.end(), [&](const pack::PackCaption& caption) {
+        return caption.language == language;
+    });
     return found != captions.end() ? *found : captions.front();
 }
 
 int list_artifacts(const std::string& language) {
-    for (const std::string_view name : builtin_names()) {
-        const Result<ArtifactFile> file = parse_artifact_file(builtin_folder_text(name), artifact_file_name);
+    for (const std::string_view name : artifacts::builtin_names()) {
+        const Result<folder::ArtifactFile> file =
+            folder::parse_artifact_file(artifacts::builtin_folder_text(name), folder::artifact_file_name);
         if (!file) {
             return report(file.error());
         }
-        const PackCaption& caption = caption_in(file->texts, language);
+        const pack::PackCaption& caption = caption_in(file->texts, language);
         fmt::print("{}\t{}\t{}\n", name, caption.title, caption.text);
     }
     return 0;
@@ -49,8 +52,8 @@ int list_artifacts(const std::string& language) {
 /// Writes the mesh and, if `folder` is given, its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
-    TRY(const SourceMesh mesh, make_builtin(name, triangles));
-    TRY(const Bytes bytes, write_glb(mesh));
+    TRY(const bake::SourceMesh mesh, artifacts::make_builtin(name, triangles));
+    TRY(const Bytes bytes, artifacts::write_glb(mesh));
     if (folder.empty()) {
         return write_file(output, bytes);
     }
@@ -61,7 +64,8 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                          failed.message());
     }
     return write_file(folder / (name + ".glb"), bytes).and_then([&] {
-        return write_file(folder / artifact_file_name, as_bytes(builtin_folder_text(name)));
+        return write_file(folder / folder::artifact_file_name,
+                          as_bytes(artifacts::builtin_folder_text(name)));
     });
 }
 
@@ -97,10 +101,10 @@ int run(int argc, char** argv) {
         })) {
         return *end;
     }
-    if (!parse_language_tag(language)) {
+    if (!settings::parse_language_tag(language)) {
         fmt::print(stderr,
                    "frustumscreen-artifact: --language '{}': there is no such language; allowed are {}\n",
-                   printable(language, 40), allowed_language_tags);
+                   printable(language, 40), settings::allowed_language_tags);
         return 2;
     }
     if (list) {
@@ -111,8 +115,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-artifact", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-artifact", frustumscreen::programs::run, argc,
+                                                 argv);
 }

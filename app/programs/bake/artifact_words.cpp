@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -15,32 +15,34 @@ namespace {
 constexpr double max_caption_height_m = 0.25;
 
 /// The kiosk's widths at the usual type size and at the smallest.
-CaptionLimits caption_limits() {
-    CaptionLimits limits;
-    const double usual_em_m = ExhibitSettings{}.caption_height_m;
-    for (const double width_m : caption_widths_m) {
-        for (const double em_m : {min_caption_em_m, usual_em_m}) {
-            const double units = em_units * width_m / em_m;
+texts::CaptionLimits caption_limits() {
+    texts::CaptionLimits limits;
+    const double usual_em_m = settings::ExhibitSettings{}.caption_height_m;
+    for (const double width_m : typography::caption_widths_m) {
+        for (const double em_m : {typography::min_caption_em_m, usual_em_m}) {
+            const double units = pack::em_units * width_m / em_m;
             limits.text.push_back(static_cast<std::int32_t>(std::floor(units)));
-            limits.title.push_back(static_cast<std::int32_t>(std::floor(units / caption_title_em)));
+            limits.title.push_back(
+                static_cast<std::int32_t>(std::floor(units / typography::caption_title_em)));
         }
     }
-    limits.title_em = caption_title_em;
-    limits.max_height = static_cast<std::int32_t>(em_units * max_caption_height_m / usual_em_m);
+    limits.title_em = typography::caption_title_em;
+    limits.max_height = static_cast<std::int32_t>(pack::em_units * max_caption_height_m / usual_em_m);
     return limits;
 }
 
 void set_texts(const BakeRequest& request, ArtifactWords& words) {
-    const Result<Shaper> shaper = Shaper::open();
+    const Result<texts::Shaper> shaper = texts::Shaper::open();
     if (!shaper) {
         words.lost.push_back(shaper.error().message);
         return;
     }
-    std::vector<std::vector<PackLabel>> labels;
-    for (const GivenHotspot& hotspot : request.options.hotspots) {
+    std::vector<std::vector<pack::PackLabel>> labels;
+    for (const bake::GivenHotspot& hotspot : request.options.hotspots) {
         labels.push_back(hotspot.labels);
     }
-    SetArtifact set = set_artifact(request.captions, request.rights, labels, caption_limits(), *shaper);
+    texts::SetArtifact set =
+        texts::set_artifact(request.captions, request.rights, labels, caption_limits(), *shaper);
     words.set = std::move(set.languages);
     words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }
@@ -51,11 +53,11 @@ Result<ArtifactWords> words_of(const BakeRequest& request) {
     ArtifactWords words;
     words.lost = request.lost;
     set_texts(request, words);
-    TRY(SpokenArtifact spoken, speak_artifact(request.captions, request.speech));
+    TRY(texts::SpokenArtifact spoken, texts::speak_artifact(request.captions, request.speech));
     words.spoken = std::move(spoken.languages);
     words.silent = std::move(spoken.silent);
     words.lost.insert(words.lost.end(), spoken.notes.begin(), spoken.notes.end());
     return words;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

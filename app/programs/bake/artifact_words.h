@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ArtifactWords {
-    std::vector<SetLanguage> set;
-    std::vector<SpokenLanguage> spoken;
+    std::vector<pack::SetLanguage> set;
+    std::vector<pack::SpokenLanguage> spoken;
     std::vector<std::string> silent; ///< descriptions without speech, and why, a sentence each
     std::vector<std::string> lost;   ///< texts that cannot be shown or spoken, a sentence each
 };
 
 [[nodiscard]] Result<ArtifactWords> words_of(const BakeRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

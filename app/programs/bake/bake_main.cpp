@@ -21,20 +21,26 @@
 #include <filesystem>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 /// --new: makes a folder from a scan.
 Result<void> start(const BakeArguments& arguments) {
-    TRY(const SourceMesh mesh, load_mesh(arguments.input, {arguments.texture}));
-    ScanFacts scan{arguments.input,        mesh.side_files,    mesh.positions.front(),
-                   mesh.positions.front(), mesh.default_up,    mesh.about.title,
-                   mesh.about.author,      mesh.about.licence, mesh.about.source};
+    TRY(const bake::SourceMesh mesh, bake::load_mesh(arguments.input, {arguments.texture}));
+    folder::ScanFacts scan{.file = arguments.input,
+                           .side_files = mesh.side_files,
+                           .low = mesh.positions.front(),
+                           .high = mesh.positions.front(),
+                           .default_up = mesh.default_up,
+                           .title = mesh.about.title,
+                           .author = mesh.about.author,
+                           .licence = mesh.about.licence,
+                           .source = mesh.about.source};
     for (const glm::dvec3& position : mesh.positions) {
         scan.low = glm::min(scan.low, position);
         scan.high = glm::max(scan.high, position);
     }
-    TRY(const std::filesystem::path file, start_folder(arguments.new_folder, scan));
+    TRY(const std::filesystem::path file, folder::start_folder(arguments.new_folder, scan));
     fmt::print("{}: edit it, then: frustumscreen-bake {} -o {}.fspack\n", file.string(),
                arguments.new_folder.string(), arguments.input.stem().string());
     return {};
@@ -141,8 +147,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-bake", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-bake", frustumscreen::programs::run, argc,
+                                                 argv);
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void add_bake_options(CommandLine& app, BakeArguments& arguments) {
     app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");
@@ -88,4 +88,4 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     return words;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

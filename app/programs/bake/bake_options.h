@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void add_bake_options(CommandLine& app, BakeArguments& arguments);
 
 /// The given options as command-line words; options that were not given are left out.
 [[nodiscard]] std::vector<std::string> bake_options_of(const BakeArguments& arguments);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,7 +11,7 @@
 
 #include <fstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -26,7 +26,8 @@ bool begins_as_page(const std::filesystem::path& file) {
 
 /// A watched page has a third of the pictures, and smaller ones, because it is drawn again after each change.
 TurnOptions turn_options(bool watched) {
-    return watched ? TurnOptions{6, 2, {400, 280}, 960} : TurnOptions{};
+    return watched ? TurnOptions{.columns = 6, .rows = 2, .size = {400, 280}, .projected_width = 960}
+                   : TurnOptions{};
 }
 
 } // namespace
@@ -50,7 +51,7 @@ Result<void> check_preview(const BakeRequest& request) {
                          "add --force to replace it",
                          request.preview.string());
     }
-    if (const auto drawn = SurfacelessDisplay::create(16, 16); !drawn) {
+    if (const auto drawn = display::SurfacelessDisplay::create(16, 16); !drawn) {
         return bad_input("preview.not_drawn",
                          "{}: the preview cannot be drawn on this computer: {}; bake without --preview "
                          "here, and draw it on another",
@@ -68,7 +69,8 @@ Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult
     options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
     TRY(TurnPictures turn, turn_pictures(result.file, options));
     TRY(std::vector<ProjectedLanguage> languages,
-        projected_texts(result.file, result.pack, place(result.pack, result.prop.shape).metres_per_box));
+        projected_texts(result.file, result.pack,
+                        pack::place(result.pack, result.prop.shape).metres_per_box));
     const PreviewMedia media{std::move(turn), result.pack.table_picture, std::move(languages)};
     const std::string page = preview_page(result.pack, preview_facts(result), media,
                                           request.watched ? PageKind::Reloading : PageKind::Final);
@@ -76,4 +78,4 @@ Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult
     return page.size();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

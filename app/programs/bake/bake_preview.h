@@ -7,7 +7,7 @@
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/bake_request.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Checks, before the work, that the page can be drawn and written. Does nothing if no page is wanted.
 [[nodiscard]] Result<void> check_preview(const BakeRequest& request);
@@ -15,4 +15,4 @@ namespace frustumscreen {
 /// Draws the page from the written pack. Returns the page's size in bytes; 0 if no page is wanted.
 [[nodiscard]] Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr double mm_per_m = 1000.0;
 
 double metres_per_box(const BakeResult& result) {
-    return place(result.pack, result.prop.shape).metres_per_box;
+    return pack::place(result.pack, result.prop.shape).metres_per_box;
 }
 
 /// Size of the artifact itself, without the empty space below a raised one.
@@ -38,7 +38,8 @@ glm::dvec3 size_m(const BakeResult& result) {
 
 /// The file's axis that points at the visitor when no turn is applied.
 std::string front_of(const std::string& up) {
-    const glm::dvec3 axis = glm::transpose(up_rotation(up).value_or(glm::dmat3(1.0))) * glm::dvec3(0, -1, 0);
+    const glm::dvec3 axis =
+        glm::transpose(bake::up_rotation(up).value_or(glm::dmat3(1.0))) * glm::dvec3(0, -1, 0);
     for (int k = 0; k < 3; ++k) {
         if (std::abs(axis[k]) > 0.5) {
             return fmt::format("{}{}", axis[k] > 0.0 ? '+' : '-', "xyz"[k]);
@@ -53,9 +54,9 @@ std::string signed_axis(const std::string& up) {
 
 /// Stored bytes that a reader of this level alone reads from the file.
 std::uint64_t bytes_of(const BakeResult& result, std::size_t level) {
-    const PackLevel& of = result.pack.levels[level];
+    const pack::PackLevel& of = result.pack.levels[level];
     std::uint64_t bytes = 0;
-    for (const PackPart& part : result.parts) {
+    for (const pack::PackPart& part : result.parts) {
         if (part.name == fmt::format("levels/{}.bin", level) ||
             part.name.starts_with(fmt::format("textures/{}.", of.texture))) {
             bytes += part.stored_bytes;
@@ -88,7 +89,7 @@ std::string levels_text(const BakeResult& result) {
         fmt::format("  {:<8}{:>10}{:>10}{:>10}{:>9}\n", "level", "triangles", "size", "mean mm", "95 % mm");
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
-        const PackLevel& level = result.pack.levels[k];
+        const pack::PackLevel& level = result.pack.levels[k];
         text +=
             fmt::format("  {:<8}{:>10}{:>10}{:>10.3f}{:>9.3f}{}\n", k, level.indices.size() / 3,
                         in_units(bytes_of(result, k)), level.error.mean_box * mm, level.error.p95_box * mm,
@@ -97,9 +98,9 @@ std::string levels_text(const BakeResult& result) {
     return text;
 }
 
-std::string notes_text(const BakeResult& result, SourceNote::Kind kind, const char* name) {
+std::string notes_text(const BakeResult& result, bake::SourceNote::Kind kind, const char* name) {
     std::string text;
-    for (const SourceNote& note : result.notes) {
+    for (const bake::SourceNote& note : result.notes) {
         if (note.kind == kind) {
             text += fmt::format("  {:<8}{}\n", name, note.text);
         }
@@ -108,9 +109,9 @@ std::string notes_text(const BakeResult& result, SourceNote::Kind kind, const ch
 }
 
 /// The languages that have sounds.
-std::vector<std::string> spoken_in(const Pack& pack) {
+std::vector<std::string> spoken_in(const pack::Pack& pack) {
     std::vector<std::string> languages;
-    for (const SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
+    for (const pack::SpokenText& spoken : pack::list_sounds(pack).value_or(std::vector<pack::SpokenText>())) {
         if (std::find(languages.begin(), languages.end(), spoken.language) == languages.end()) {
             languages.push_back(spoken.language);
         }
@@ -131,9 +132,9 @@ std::string speech_text(const BakeResult& result) {
     return text;
 }
 
-std::vector<std::string> texts_of(const BakeResult& result, SourceNote::Kind kind) {
+std::vector<std::string> texts_of(const BakeResult& result, bake::SourceNote::Kind kind) {
     std::vector<std::string> texts;
-    for (const SourceNote& note : result.notes) {
+    for (const bake::SourceNote& note : result.notes) {
         if (note.kind == kind) {
             texts.push_back(note.text);
         }
@@ -167,15 +168,18 @@ PreviewFacts preview_facts(const BakeResult& result) {
     facts.program = name_and_version("frustumscreen-bake");
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
-        const PackLevel& level = result.pack.levels[k];
-        facts.levels.push_back({level.indices.size() / 3, bytes_of(result, k), level.error.mean_box * mm,
-                                level.error.p95_box * mm, level.error.max_box * mm,
-                                static_cast<double>(level.error.colour_rmse)});
+        const pack::PackLevel& level = result.pack.levels[k];
+        facts.levels.push_back({.triangles = level.indices.size() / 3,
+                                .bytes = bytes_of(result, k),
+                                .mean_mm = level.error.mean_box * mm,
+                                .p95_mm = level.error.p95_box * mm,
+                                .largest_mm = level.error.max_box * mm,
+                                .colour_rmse = static_cast<double>(level.error.colour_rmse)});
     }
-    facts.lost = texts_of(result, SourceNote::Kind::Lost);
+    facts.lost = texts_of(result, bake::SourceNote::Kind::Lost);
     facts.silent = result.silent;
-    facts.guessed = texts_of(result, SourceNote::Kind::Guessed);
-    facts.taken = texts_of(result, SourceNote::Kind::Taken);
+    facts.guessed = texts_of(result, bake::SourceNote::Kind::Guessed);
+    facts.taken = texts_of(result, bake::SourceNote::Kind::Taken);
     facts.rights = result.rights;
     facts.missing = result.missing;
     return facts;
@@ -183,7 +187,7 @@ PreviewFacts preview_facts(const BakeResult& result) {
 
 std::string report_text(const BakeResult& result) {
     const glm::dvec3 size = size_m(result) * mm_per_m;
-    const std::string lost = notes_text(result, SourceNote::Kind::Lost, "lost");
+    const std::string lost = notes_text(result, bake::SourceNote::Kind::Lost, "lost");
     return fmt::format("{}: \"{}\" ({}), {}, from {} triangles in {}\n", result.file.string(),
                        result.pack.title, fmt::join(result.pack.languages, ", "), in_units(result.file_bytes),
                        result.pack.provenance.source_triangles, words_of_time(result.seconds)) +
@@ -192,8 +196,9 @@ std::string report_text(const BakeResult& result) {
                        result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
            speech_text(result) + (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
-           notes_text(result, SourceNote::Kind::Guessed, "guessed") +
-           notes_text(result, SourceNote::Kind::Taken, "taken") + missing_text(result) + page_text(result);
+           notes_text(result, bake::SourceNote::Kind::Guessed, "guessed") +
+           notes_text(result, bake::SourceNote::Kind::Taken, "taken") + missing_text(result) +
+           page_text(result);
 }
 
 Json report_json(const BakeResult& result) {
@@ -201,7 +206,7 @@ Json report_json(const BakeResult& result) {
     const double mm = metres_per_box(result) * mm_per_m;
     Json levels = Json::array();
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
-        const PackLevel& level = result.pack.levels[k];
+        const pack::PackLevel& level = result.pack.levels[k];
         levels.push_back({{"technique", "mesh"},
                           {"triangles", level.indices.size() / 3},
                           {"bytes", bytes_of(result, k)},
@@ -224,9 +229,9 @@ Json report_json(const BakeResult& result) {
                    {"default_level", result.pack.default_level},
                    {"spoken", spoken_in(result.pack)},
                    {"silent", result.silent},
-                   {"lost", texts_of(result, SourceNote::Kind::Lost)},
-                   {"guessed", texts_of(result, SourceNote::Kind::Guessed)},
-                   {"taken", texts_of(result, SourceNote::Kind::Taken)},
+                   {"lost", texts_of(result, bake::SourceNote::Kind::Lost)},
+                   {"guessed", texts_of(result, bake::SourceNote::Kind::Guessed)},
+                   {"taken", texts_of(result, bake::SourceNote::Kind::Taken)},
                    {"missing", result.missing},
                    {"scan", json_of(result.scan)},
                    {"id", result.pack.id},
@@ -239,4 +244,4 @@ Json report_json(const BakeResult& result) {
     return report;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

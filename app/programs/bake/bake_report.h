@@ -18,23 +18,23 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Everything that a bake decided and made.
 struct BakeResult {
     std::filesystem::path file;
     std::uint64_t file_bytes = 0;
-    Pack pack;
-    std::vector<PackPart> parts;
-    BakedProp prop;
+    pack::Pack pack;
+    std::vector<pack::PackPart> parts;
+    bake::BakedProp prop;
     std::string up;        ///< as "y" or "-z"
     bool up_given = false; ///< false: the format's
     double turn_deg = 0.0;
     bool turn_given = false; ///< false: chosen by the bake
     ScanSummary scan;
-    std::vector<SourceNote> notes;
+    std::vector<bake::SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions without speech, and why
-    ScanRights rights;
+    pack::ScanRights rights;
     std::vector<std::string> missing; ///< facts that the curator should add, a sentence each
     double seconds = 0.0;
     std::filesystem::path page; ///< the preview page; empty: none
@@ -50,4 +50,4 @@ struct BakeResult {
 /// guessed: [], taken: [], missing: [], scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

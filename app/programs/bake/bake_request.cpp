@@ -12,33 +12,33 @@
 #include <algorithm>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 /// The path of an artifact.toml stands for its folder.
 BakeArguments with_folder(BakeArguments arguments) {
     std::error_code none;
-    if (arguments.input.filename() == artifact_file_name &&
+    if (arguments.input.filename() == folder::artifact_file_name &&
         std::filesystem::is_regular_file(arguments.input, none)) {
         arguments.input = arguments.input.has_parent_path() ? arguments.input.parent_path() : ".";
     }
     return arguments;
 }
 
-Result<ArtifactFile> file_of(const BakeArguments& arguments) {
+Result<folder::ArtifactFile> file_of(const BakeArguments& arguments) {
     std::error_code none;
     if (std::filesystem::is_directory(arguments.input, none)) {
-        return read_artifact_file(arguments.input);
+        return folder::read_artifact_file(arguments.input);
     }
-    ArtifactFile file;
+    folder::ArtifactFile file;
     file.scan = arguments.input;
     return file;
 }
 
 /// Checks a text of the command line before the work; writing the pack would refuse it only afterwards.
-Result<void> check_text(const std::string& option, std::string_view text, TextShape shape) {
-    if (const auto fault = fault_of_text(text, shape)) {
+Result<void> check_text(const std::string& option, std::string_view text, pack::TextShape shape) {
+    if (const auto fault = pack::fault_of_text(text, shape)) {
         return fail(ErrorKind::BadConfiguration, "bake.text", "{} '{}': it {}", option, printable(text, 40),
                     *fault);
     }
@@ -49,36 +49,37 @@ Result<void> check_texts(const BakeArguments& arguments) {
     for (const auto& [option, text] : {std::pair("--title", arguments.title),
                                        {"--licence", arguments.licence},
                                        {"--author", arguments.author}}) {
-        TRY_VOID(check_text(option, text, TextShape::Line));
+        TRY_VOID(check_text(option, text, pack::TextShape::Line));
     }
     for (const std::string& caption : arguments.captions) {
-        TRY_VOID(check_text("--caption", caption, TextShape::Lines));
+        TRY_VOID(check_text("--caption", caption, pack::TextShape::Lines));
     }
     return {};
 }
 
-BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file) {
-    BakeOptions options;
+bake::BakeOptions options_of(const BakeArguments& arguments, const folder::ArtifactFile& file) {
+    bake::BakeOptions options;
     options.size = arguments.size.value_or(file.size);
     options.unlit = arguments.unlit || file.unlit;
     options.relief = !arguments.no_relief;
-    options.prop = arguments.prop.value_or(file.prop) == "cube" ? baked_cube() : baked_frustum();
+    options.prop = arguments.prop.value_or(file.prop) == "cube" ? bake::baked_cube() : bake::baked_frustum();
     options.up = arguments.up.value_or(file.up);
     options.scale = arguments.scale.value_or(file.scale);
     options.lift = arguments.lift.value_or(file.lift);
-    for (const ArtifactHotspot& hotspot : file.hotspots) {
+    for (const folder::ArtifactHotspot& hotspot : file.hotspots) {
         options.hotspots.push_back({hotspot.place, hotspot.point_file, hotspot.labels});
     }
     return options;
 }
 
 /// Languages of the folder's file that are not baked, because the command line names others.
-std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector<PackCaption>& captions) {
+std::vector<std::string> left_out_of(const folder::ArtifactFile& file,
+                                     const std::vector<pack::PackCaption>& captions) {
     std::vector<std::string> languages;
-    for (const PackCaption& written : file.texts) {
-        const bool is_baked = std::any_of(captions.begin(), captions.end(), [&](const PackCaption& each) {
-            return each.language == written.language;
-        });
+    for (const pack::PackCaption& written : file.texts) {
+        const bool is_baked =
+            std::any_of(captions.begin(), captions.end(),
+                        [&](const pack::PackCaption& each) { return each.language == written.language; });
         if (!is_baked) {
             languages.push_back(written.language);
         }
@@ -86,14 +87,15 @@ std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector
     return languages;
 }
 
-SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file,
-                        const std::vector<std::string>& left_out, bool is_folder) {
-    SpeechSources sources{file.recordings, {}, left_out, std::nullopt};
+texts::SpeechSources speech_of(const BakeArguments& arguments, const folder::ArtifactFile& file,
+                               const std::vector<std::string>& left_out, bool is_folder) {
+    texts::SpeechSources sources{
+        .recordings = file.recordings, .folder = {}, .left_out = left_out, .voice = std::nullopt};
     if (is_folder) {
-        sources.folder = find_entry(arguments.input, recordings_folder_name).value_or("");
+        sources.folder = names::find_entry(arguments.input, folder::recordings_folder_name).value_or("");
     }
     if (arguments.speech != "none") {
-        sources.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);
+        sources.voice = arguments.speech.empty() ? texts::Voice() : texts::Voice(arguments.speech);
     }
     return sources;
 }
@@ -103,9 +105,12 @@ SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file
 Result<BakeRequest> request_of(const BakeArguments& written) {
     const BakeArguments arguments = with_folder(written);
     TRY_VOID(check_texts(arguments));
-    TRY(ArtifactFile file, file_of(arguments));
-    const Result<std::vector<PackCaption>> captions =
-        captions_of({arguments.title, arguments.languages, arguments.captions, file.texts, {}});
+    TRY(folder::ArtifactFile file, file_of(arguments));
+    const Result<std::vector<pack::PackCaption>> captions = captions_of({.title = arguments.title,
+                                                                         .languages = arguments.languages,
+                                                                         .texts = arguments.captions,
+                                                                         .from_file = file.texts,
+                                                                         .usual_title = {}});
     if (!captions) {
         return as_kind(ErrorKind::BadConfiguration, captions.error());
     }
@@ -117,7 +122,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.inputs = {file.scan};
     const bool is_folder = file.scan != arguments.input;
     if (is_folder) {
-        request.inputs.push_back(arguments.input / artifact_file_name);
+        request.inputs.push_back(arguments.input / folder::artifact_file_name);
     }
     for (const auto& [language, recording] : file.recordings) {
         request.inputs.push_back(recording);
@@ -139,4 +144,4 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     return request;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

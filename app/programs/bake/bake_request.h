@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The command line as written; options that were not given are empty.
 struct BakeArguments {
@@ -56,15 +56,15 @@ struct BakeRequest {
     bool strict = false;
     std::filesystem::path texture;
     std::optional<double> turn_deg; ///< nothing: the best
-    BakeOptions options;
-    std::string id;                    ///< empty: from the pack's name (scan_about.h)
-    std::string usual_title;           ///< title of a caption that has none of its own
-    ScanRights rights;                 ///< empty: as the scan's file has them
-    std::vector<PackCaption> captions; ///< at least one; a title may be empty
-    SpeechSources speech;
+    bake::BakeOptions options;
+    std::string id;                          ///< empty: from the pack's name (scan_about.h)
+    std::string usual_title;                 ///< title of a caption that has none of its own
+    pack::ScanRights rights;                 ///< empty: as the scan's file has them
+    std::vector<pack::PackCaption> captions; ///< at least one; a title may be empty
+    texts::SpeechSources speech;
     std::vector<std::string> lost; ///< contents of the folder's file that are not shown, a sentence each
 };
 
 [[nodiscard]] Result<BakeRequest> request_of(const BakeArguments& arguments);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

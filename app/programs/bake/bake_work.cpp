@@ -23,26 +23,26 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-Result<void> describe(Pack& pack, const BakeRequest& request) {
+Result<void> describe(pack::Pack& pack, const BakeRequest& request) {
     pack.id = request.id;
     pack.title = request.captions.front().title;
     pack.captions = request.captions;
-    for (const PackCaption& caption : pack.captions) {
+    for (const pack::PackCaption& caption : pack.captions) {
         pack.languages.push_back(caption.language);
     }
     TRY(const Bytes source, read_file(request.scan));
     pack.provenance.source_name = request.scan.filename().string();
-    pack.provenance.source_sha256 = sha256_hex(source);
-    put_scan_rights(pack, request.rights);
+    pack.provenance.source_sha256 = pack::sha256_hex(source);
+    pack::put_scan_rights(pack, request.rights);
     return {};
 }
 
 /// Reports losses on standard error; with --strict they are an error.
-Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& request) {
+Result<void> tell(const std::vector<bake::SourceNote>& notes, const BakeRequest& request) {
     TRY_VOID(check_losses(notes, request));
     for (const std::string& text : losses_in(notes)) {
         say_line("frustumscreen-bake", fmt::format("{}: lost: {}", request.scan.string(), text));
@@ -51,20 +51,20 @@ Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& reque
 }
 
 /// Sets and speaks the texts. Runs before the bake: it takes seconds, the bake minutes, so errors are reported early.
-Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOptions& options,
-                                    std::vector<SourceNote>& notes) {
+Result<ArtifactWords> set_and_speak(const BakeRequest& request, const bake::BakeOptions& options,
+                                    std::vector<bake::SourceNote>& notes) {
     options.progress("texts and speech", 0.0);
     TRY(ArtifactWords words, words_of(request));
     for (const std::string& lost : words.lost) {
-        notes.push_back({SourceNote::Kind::Lost, lost});
+        notes.push_back({bake::SourceNote::Kind::Lost, lost});
     }
     TRY_VOID(tell(notes, request));
     return words;
 }
 
-Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
+Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    TRY(const SourceMesh mesh, load_scan(written));
+    TRY(const bake::SourceMesh mesh, load_scan(written));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
@@ -79,23 +79,23 @@ Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     result.turn_given = request.turn_deg.has_value();
     options.turn_deg = result.turn_deg =
         request.turn_deg ? *request.turn_deg
-                         : best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
+                         : bake::best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
     TRY_VOID(check_hotspots(mesh, options));
     TRY(ArtifactWords words, set_and_speak(request, options, result.notes));
     result.silent = std::move(words.silent);
-    TRY(const ScanMeasures measures, at(request.scan.string(), measure_scan(mesh, options)));
+    TRY(const bake::ScanMeasures measures, at(request.scan.string(), bake::measure_scan(mesh, options)));
     result.scan = summary_of(mesh, measures);
-    TRY(Pack pack, at(request.scan.string(), bake(mesh, options)));
+    TRY(pack::Pack pack, at(request.scan.string(), bake::bake(mesh, options)));
     TRY_VOID(describe(pack, request));
     result.rights = request.rights;
-    result.missing = missing_in(pack, request.rights);
+    result.missing = pack::missing_in(pack, request.rights);
     if (request.output.extension() != ".fspack" && !request.watched) {
         result.missing.push_back(
             fmt::format("the name's end: a kiosk takes only *.fspack and ignores {}; call it {}.fspack",
                         request.output.filename().string(), request.output.stem().string()));
     }
-    put_sounds(pack, words.spoken);
-    put_set_texts(pack, words.set);
+    pack::put_sounds(pack, words.spoken);
+    pack::put_set_texts(pack, words.set);
     result.pack = std::move(pack);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
@@ -104,10 +104,10 @@ Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
 /// Checks, before the work, that the output replaces no scan and no unknown file, and that it can be written.
 Result<void> check_output(const BakeRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, request.inputs));
-    TRY_VOID(check_output_place(request.output, room_for_pack(request.options.size)));
+    TRY_VOID(check_output_place(request.output, bake::room_for_pack(request.options.size)));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.output, ignored) &&
-        !begins_as_pack(request.output)) {
+        !pack::begins_as_pack(request.output)) {
         return bad_input("bake.not_a_pack",
                          "{}: this file exists and is not a pack; choose another name for the output, or add "
                          "--force to replace it",
@@ -121,14 +121,14 @@ Result<void> check_output(const BakeRequest& request) {
 Result<BakeResult> bake_pack(const BakeRequest& request) {
     TRY_VOID(check_output(request));
     ProgressLine progress("baking: ");
-    BakeOptions options = request.options;
+    bake::BakeOptions options = request.options;
     options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
     TRY(BakeResult result, bake_file(request, std::move(options)));
-    TRY(const Bytes bytes, at(request.output.string(), write_pack(result.pack)));
-    TRY(result.parts, at(request.output.string(), list_pack_parts(bytes)));
+    TRY(const Bytes bytes, at(request.output.string(), pack::write_pack(result.pack)));
+    TRY(result.parts, at(request.output.string(), pack::list_pack_parts(bytes)));
     result.file_bytes = bytes.size();
     TRY_VOID(write_file(request.output, bytes));
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,8 +7,8 @@
 #include "app/programs/bake/bake_report.h"
 #include "app/programs/bake/bake_request.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 [[nodiscard]] Result<BakeResult> bake_pack(const BakeRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

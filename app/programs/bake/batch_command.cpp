@@ -24,7 +24,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -217,4 +217,4 @@ int batch_command(int argc, char** argv) {
     return *done ? 0 : 1;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -3,9 +3,9 @@
 /// Threads  the main one, and one for each bake in progress.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Returns the exit status: 1 if any object failed.
 [[nodiscard]] int batch_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

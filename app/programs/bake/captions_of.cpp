@@ -9,47 +9,50 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-PackCaption* caption_in(std::vector<PackCaption>& captions, std::string_view language) {
-    const auto found = std::find_if(captions.begin(), captions.end(),
-                                    [&](const PackCaption& caption) { return caption.language == language; });
+pack::PackCaption* caption_in(std::vector<pack::PackCaption>& captions, std::string_view language) {
+    const auto found = std::find_if(captions.begin(), captions.end(), [&](const pack::PackCaption& caption) {
+        return caption.language == language;
+    });
     return found != captions.end() ? &*found : nullptr;
 }
 
-Result<void> add_language(const std::string& written, const std::vector<PackCaption>& from_file,
-                          std::vector<PackCaption>& captions) {
+Result<void> add_language(const std::string& written, const std::vector<pack::PackCaption>& from_file,
+                          std::vector<pack::PackCaption>& captions) {
     const std::string found = fmt::format("--language '{}'", printable(written, 40));
-    const std::string language = parse_language_tag(written).value_or("");
+    const std::string language = settings::parse_language_tag(written).value_or("");
     if (language.empty()) {
         return bad_input("captions.no_language", "{}: there is no such language; allowed are {}", found,
-                         allowed_language_tags);
+                         settings::allowed_language_tags);
     }
     if (caption_in(captions, language) != nullptr) {
         return bad_input("captions.language_twice", found + ": it is named twice; write each language once");
     }
-    const auto in_file = std::find_if(from_file.begin(), from_file.end(), [&](const PackCaption& caption) {
-        return caption.language == language;
-    });
-    captions.push_back(in_file != from_file.end() ? *in_file : PackCaption{language, "", ""});
+    const auto in_file =
+        std::find_if(from_file.begin(), from_file.end(),
+                     [&](const pack::PackCaption& caption) { return caption.language == language; });
+    captions.push_back(in_file != from_file.end()
+                           ? *in_file
+                           : pack::PackCaption{.language = language, .title = "", .text = ""});
     return {};
 }
 
 Result<void> add_text(const std::string& written, std::vector<std::string>& seen,
-                      std::vector<PackCaption>& captions) {
+                      std::vector<pack::PackCaption>& captions) {
     const std::string found = fmt::format("--caption '{}'", printable(written, 40));
     const std::size_t equals = written.find('=');
     if (equals == std::string::npos) {
         return bad_input("captions.form", found + ": write LANGUAGE=TEXT, such as \"en=A cat.\"");
     }
     const std::string tag = written.substr(0, equals);
-    const std::string language = parse_language_tag(tag).value_or(tag);
-    PackCaption* const caption = caption_in(captions, language);
+    const std::string language = settings::parse_language_tag(tag).value_or(tag);
+    pack::PackCaption* const caption = caption_in(captions, language);
     if (caption == nullptr) {
         std::vector<std::string> languages;
-        for (const PackCaption& each : captions) {
+        for (const pack::PackCaption& each : captions) {
             languages.push_back(each.language);
         }
         return bad_input("captions.other_language", "{}: the languages are {}; add --language {}", found,
@@ -67,16 +70,16 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
 
 } // namespace
 
-Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
-    std::vector<PackCaption> made;
+Result<std::vector<pack::PackCaption>> captions_of(const WrittenCaptions& written) {
+    std::vector<pack::PackCaption> made;
     for (const std::string& language : written.languages) {
         TRY_VOID(add_language(language, written.from_file, made));
     }
     if (written.languages.empty()) {
-        made = written.from_file.empty() ? std::vector<PackCaption>{{"en", "", ""}} : written.from_file;
+        made = written.from_file.empty() ? std::vector<pack::PackCaption>{{"en", "", ""}} : written.from_file;
     }
     const std::string_view title = trimmed(written.title);
-    for (PackCaption& caption : made) {
+    for (pack::PackCaption& caption : made) {
         if (!title.empty()) {
             caption.title = std::string(title);
         } else if (caption.title.empty()) {
@@ -90,4 +93,4 @@ Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     return made;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

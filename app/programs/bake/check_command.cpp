@@ -19,7 +19,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -72,7 +72,7 @@ Listed list_scans(const std::vector<fs::path>& inputs) {
     Listed listed;
     for (const fs::path& input : inputs) {
         std::error_code none;
-        if (fs::is_directory(input, none) && !fs::exists(input / artifact_file_name, none)) {
+        if (fs::is_directory(input, none) && !fs::exists(input / folder::artifact_file_name, none)) {
             listed.is_table = true;
             list_folder(input, listed);
         } else {
@@ -156,4 +156,4 @@ int check_command(int argc, char** argv) {
     return status_of(listed.scans);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

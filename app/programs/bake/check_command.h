@@ -3,9 +3,9 @@
 /// Threads  the main one.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Returns the exit status: 0 if all scans can be baked, 1 if one cannot, 2 for wrong use.
 [[nodiscard]] int check_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

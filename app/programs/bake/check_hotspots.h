@@ -6,9 +6,9 @@
 
 #include "assets_baked/bake/bake.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Checks with the bake's options, so that hotspots which pass here pass the bake.
-[[nodiscard]] Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options);
+[[nodiscard]] Result<void> check_hotspots(const bake::SourceMesh& mesh, const bake::BakeOptions& options);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -39,9 +39,9 @@ std::string fault_of(const CheckedScan& scan) {
     return sentence.starts_with(prefix) ? sentence.substr(prefix.size()) : sentence;
 }
 
-std::vector<std::string> texts_of(const CheckedScan& scan, SourceNote::Kind kind) {
+std::vector<std::string> texts_of(const CheckedScan& scan, bake::SourceNote::Kind kind) {
     std::vector<std::string> texts;
-    for (const SourceNote& note : scan.notes) {
+    for (const bake::SourceNote& note : scan.notes) {
         if (note.kind == kind) {
             texts.push_back(note.text);
         }
@@ -87,12 +87,12 @@ std::string check_lines(const CheckedScan& scan) {
     for (const ScanColumn& column : scan_columns()) {
         text += column.key == "lost" ? std::string() : line(column.heading, column.shown(scan.summary));
     }
-    const std::vector<std::string> lost = texts_of(scan, SourceNote::Kind::Lost);
+    const std::vector<std::string> lost = texts_of(scan, bake::SourceNote::Kind::Lost);
     text += lost.empty() ? line("lost", "nothing") : std::string();
     for (const std::string& each : lost) {
         text += line("lost", each);
     }
-    for (const std::string& each : texts_of(scan, SourceNote::Kind::Guessed)) {
+    for (const std::string& each : texts_of(scan, bake::SourceNote::Kind::Guessed)) {
         text += line("guessed", each);
     }
     return text;
@@ -131,12 +131,12 @@ nlohmann::ordered_json check_json(std::span<const CheckedScan> scans) {
         }
         if (was_read(scan)) {
             one.update(json_of(scan.summary));
-            one["lost"] = texts_of(scan, SourceNote::Kind::Lost);
-            one["guessed"] = texts_of(scan, SourceNote::Kind::Guessed);
+            one["lost"] = texts_of(scan, bake::SourceNote::Kind::Lost);
+            one["guessed"] = texts_of(scan, bake::SourceNote::Kind::Guessed);
         }
         all.push_back(std::move(one));
     }
     return {{"scans", std::move(all)}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

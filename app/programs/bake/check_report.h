@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A line for each column, loss and guess; ends with a line break. Empty if the scan could not be read.
 [[nodiscard]] std::string check_lines(const CheckedScan& scan);
@@ -21,4 +21,4 @@ namespace frustumscreen {
 /// be baked, the columns only if it was read
 [[nodiscard]] nlohmann::ordered_json check_json(std::span<const CheckedScan> scans);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

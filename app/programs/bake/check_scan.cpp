@@ -7,22 +7,23 @@
 #include <algorithm>
 #include <new>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
     TRY(BakeRequest request, request_of(arguments));
-    TRY(const SourceMesh mesh, load_scan(request));
+    TRY(const bake::SourceMesh mesh, load_scan(request));
     checked.notes = mesh.notes;
-    TRY(const ScanMeasures measures, at(request.scan.string(), measure_scan(mesh, request.options)));
+    TRY(const bake::ScanMeasures measures,
+        at(request.scan.string(), bake::measure_scan(mesh, request.options)));
     checked.summary = summary_of(mesh, measures);
     CompletedRequest all = completed(std::move(request), mesh.about);
     checked.notes.insert(checked.notes.end(), all.notes.begin(), all.notes.end());
     all.request.speech.voice = std::nullopt; // what it cannot speak is silent, not lost
     TRY(const ArtifactWords words, words_of(all.request));
     for (const std::string& lost : words.lost) {
-        checked.notes.push_back({SourceNote::Kind::Lost, lost});
+        checked.notes.push_back({bake::SourceNote::Kind::Lost, lost});
     }
     checked.summary.lost = losses_in(checked.notes).size();
     return check_losses(checked.notes, all.request);
@@ -45,7 +46,7 @@ CheckedScan check_scan(BakeArguments arguments) {
     return checked;
 }
 
-ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures) {
+ScanSummary summary_of(const bake::SourceMesh& mesh, const bake::ScanMeasures& measures) {
     ScanSummary summary;
     const glm::dvec3& extents = measures.extents;
     summary.format = mesh.contents.format;
@@ -58,10 +59,10 @@ ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures) {
     summary.has_colours = !mesh.colours.empty();
     summary.has_normals = !mesh.normals.empty();
     summary.extents = {extents.x, extents.y, extents.z};
-    summary.unit = guessed_unit(summary.format, std::max({extents.x, extents.y, extents.z}));
+    summary.unit = bake::guessed_unit(summary.format, std::max({extents.x, extents.y, extents.z}));
     summary.estimated_bytes = measures.estimated_bytes;
     summary.estimated_triangles = measures.estimated_triangles;
     return summary;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

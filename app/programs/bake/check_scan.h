@@ -11,19 +11,19 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct CheckedScan {
     std::filesystem::path input; ///< a scan, or a folder with an artifact.toml
     std::optional<Error> fault;  ///< why it cannot be baked
     ScanSummary summary;         ///< without a format if the scan could not be read
-    std::vector<SourceNote> notes;
+    std::vector<bake::SourceNote> notes;
 };
 
 /// `arguments.input` is the scan.
 [[nodiscard]] CheckedScan check_scan(BakeArguments arguments);
 
 /// Without the number of losses.
-[[nodiscard]] ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures);
+[[nodiscard]] ScanSummary summary_of(const bake::SourceMesh& mesh, const bake::ScanMeasures& measures);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

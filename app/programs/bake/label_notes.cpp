@@ -6,18 +6,18 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
-                                     std::span<const PackCaption> captions,
+std::vector<std::string> label_notes(std::span<const folder::ArtifactHotspot> hotspots,
+                                     std::span<const pack::PackCaption> captions,
                                      std::span<const std::string> left_out) {
     const auto is_in = [](const std::string& language) {
         return [&](const auto& each) { return each.language == language; };
     };
     std::vector<std::string> notes;
     for (std::size_t k = 0; k < hotspots.size(); ++k) {
-        const std::vector<PackLabel>& labels = hotspots[k].labels;
-        for (const PackCaption& caption : captions) {
+        const std::vector<pack::PackLabel>& labels = hotspots[k].labels;
+        for (const pack::PackCaption& caption : captions) {
             if (std::none_of(labels.begin(), labels.end(), is_in(caption.language))) {
                 notes.push_back(fmt::format("hotspots[{}] has no label in '{}', so its visitors read another "
                                             "language there; write {} = "
@@ -25,7 +25,7 @@ std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
                                             k, caption.language, caption.language));
             }
         }
-        for (const PackLabel& label : labels) {
+        for (const pack::PackLabel& label : labels) {
             const bool has_texts =
                 std::any_of(captions.begin(), captions.end(), is_in(label.language)) ||
                 std::find(left_out.begin(), left_out.end(), label.language) != left_out.end();
@@ -40,4 +40,4 @@ std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
     return notes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Returns a sentence for each label that is missing in a language of `captions`, and for each label in a language
 /// without texts. `left_out`: languages that were left out on purpose; their labels give no sentence.
-[[nodiscard]] std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
-                                                   std::span<const PackCaption> captions,
+[[nodiscard]] std::vector<std::string> label_notes(std::span<const folder::ArtifactHotspot> hotspots,
+                                                   std::span<const pack::PackCaption> captions,
                                                    std::span<const std::string> left_out);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,12 +8,12 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 /// True if the mesh has colours; without them an unlit mesh would be one flat area.
-bool has_colours(const SourceMesh& mesh) {
+bool has_colours(const bake::SourceMesh& mesh) {
     const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
         return each.base_colour == mesh.materials.front().base_colour;
     });
@@ -22,47 +22,49 @@ bool has_colours(const SourceMesh& mesh) {
 
 } // namespace
 
-Result<SourceMesh> load_scan(const BakeRequest& request) {
-    TRY(SourceMesh mesh,
-        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size)}));
+Result<bake::SourceMesh> load_scan(const BakeRequest& request) {
+    TRY(bake::SourceMesh mesh,
+        bake::load_mesh(request.scan, {request.texture, bake::useful_picture_texels(request.options.size)}));
     if (request.options.unlit && !has_colours(mesh)) {
         mesh.notes.push_back(
-            {SourceNote::Kind::Lost,
+            {bake::SourceNote::Kind::Lost,
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
-    Scraps scraps = find_scraps(mesh);
+    bake::Scraps scraps = bake::find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(
-            {SourceNote::Kind::Guessed,
+            {bake::SourceNote::Kind::Guessed,
              fmt::format("{} of {} triangles, which lie apart from the rest: --clean leaves them out",
                          scraps.triangles, mesh.triangles.size())});
-        remove_scraps(mesh, scraps);
+        bake::remove_scraps(mesh, scraps);
         scraps = {};
     }
     mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
-    const Lighting light = mesh.is_unlit || request.options.unlit ? Lighting::None : Lighting::Museum;
-    const std::vector<SourceNote> looks = last_look(mesh, scraps, light);
+    const bake::Lighting light =
+        mesh.is_unlit || request.options.unlit ? bake::Lighting::None : bake::Lighting::Museum;
+    const std::vector<bake::SourceNote> looks = bake::last_look(mesh, scraps, light);
     mesh.notes.insert(mesh.notes.end(), looks.begin(), looks.end());
     if (mesh.is_unlit && !request.options.unlit) {
-        mesh.notes.push_back({SourceNote::Kind::Guessed, "the file says that its colours already contain "
-                                                         "light (KHR_materials_unlit): it is baked as with "
-                                                         "--unlit"});
+        mesh.notes.push_back({bake::SourceNote::Kind::Guessed,
+                              "the file says that its colours already contain "
+                              "light (KHR_materials_unlit): it is baked as with "
+                              "--unlit"});
     }
     return mesh;
 }
 
-std::vector<std::string> losses_in(const std::vector<SourceNote>& notes) {
+std::vector<std::string> losses_in(const std::vector<bake::SourceNote>& notes) {
     std::vector<std::string> lost;
-    for (const SourceNote& note : notes) {
-        if (note.kind == SourceNote::Kind::Lost) {
+    for (const bake::SourceNote& note : notes) {
+        if (note.kind == bake::SourceNote::Kind::Lost) {
             lost.push_back(note.text);
         }
     }
     return lost;
 }
 
-Result<void> check_losses(const std::vector<SourceNote>& notes, const BakeRequest& request) {
+Result<void> check_losses(const std::vector<bake::SourceNote>& notes, const BakeRequest& request) {
     const std::vector<std::string> lost = losses_in(notes);
     if (request.strict && !lost.empty()) {
         return bad_input("bake.would_be_lost", "{}: this would be lost, and --strict forbids it: {}",
@@ -71,4 +73,4 @@ Result<void> check_losses(const std::vector<SourceNote>& notes, const BakeReques
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The mesh's notes list what is lost of the scan, and what is guessed about it.
-[[nodiscard]] Result<SourceMesh> load_scan(const BakeRequest& request);
+[[nodiscard]] Result<bake::SourceMesh> load_scan(const BakeRequest& request);
 
-[[nodiscard]] std::vector<std::string> losses_in(const std::vector<SourceNote>& notes);
+[[nodiscard]] std::vector<std::string> losses_in(const std::vector<bake::SourceNote>& notes);
 /// With --strict, losses are an error.
-[[nodiscard]] Result<void> check_losses(const std::vector<SourceNote>& notes, const BakeRequest& request);
+[[nodiscard]] Result<void> check_losses(const std::vector<bake::SourceNote>& notes,
+                                        const BakeRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

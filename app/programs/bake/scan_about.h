@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The id of an artifact without one: the pack's name in lower case, so that a pack replaces an older one with its
 /// name.
 [[nodiscard]] std::string default_id(const std::filesystem::path& pack_file);
 
 struct CompletedRequest {
-    BakeRequest request;           ///< every caption has a title, and the id is set
-    std::vector<SourceNote> notes; ///< facts taken from the file, and losses
+    BakeRequest request;                 ///< every caption has a title, and the id is set
+    std::vector<bake::SourceNote> notes; ///< facts taken from the file, and losses
 };
-[[nodiscard]] CompletedRequest completed(BakeRequest request, const SourceAbout& about);
+[[nodiscard]] CompletedRequest completed(BakeRequest request, const bake::SourceAbout& about);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -23,7 +23,7 @@
 #include <string>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -151,7 +151,7 @@ private:
 
     const Arguments& arguments_;
     std::vector<std::string> command_;
-    StopSignals stop_;
+    service::StopSignals stop_;
     SettleTime settle_{quiet};
     bool stopped_ = false;
     bool has_page_ = false;
@@ -182,8 +182,8 @@ Result<void> work(Arguments arguments) {
                          "frustumscreen-bake --new FOLDER SCAN makes one",
                          arguments.folder.string());
     }
-    if (!std::filesystem::exists(arguments.folder / artifact_file_name, none)) {
-        return without_value(read_artifact_file(arguments.folder));
+    if (!std::filesystem::exists(arguments.folder / folder::artifact_file_name, none)) {
+        return without_value(folder::read_artifact_file(arguments.folder));
     }
     arguments.page = arguments.page.empty() ? page_beside(arguments.folder) : arguments.page;
     arguments.bake.size = arguments.bake.size.value_or(coarse_size);
@@ -221,4 +221,4 @@ int watch_command(int argc, char** argv) {
     return exit_status(program, work(std::move(arguments)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -3,9 +3,9 @@
 /// Threads  the main one. Each bake is a process of its own, so that a crash of one does not end the watching.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Runs until SIGINT or SIGTERM; returns the exit status.
 [[nodiscard]] int watch_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -24,7 +24,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -67,10 +67,10 @@ Result<std::vector<std::string>> named_languages(const std::vector<std::string>&
     std::vector<std::string> languages;
     for (const std::string& each : written) {
         const std::string found = fmt::format("--languages: '{}'", printable(each, 40));
-        const std::optional<std::string> language = parse_language_tag(each);
+        const std::optional<std::string> language = settings::parse_language_tag(each);
         if (!language) {
             return bad_input("words.language", "{} is not a language; allowed are {}", found,
-                             allowed_language_tags);
+                             settings::allowed_language_tags);
         }
         if (std::find(languages.begin(), languages.end(), *language) != languages.end()) {
             return bad_input("words.language_twice", "{} is named twice; write each language once", found);
@@ -80,29 +80,29 @@ Result<std::vector<std::string>> named_languages(const std::vector<std::string>&
     return languages;
 }
 
-Result<void> write_outputs(const BakedWords& baked, const Arguments& arguments) {
-    TRY(const Bytes bytes, write_words(baked.languages));
+Result<void> write_outputs(const texts::BakedWords& baked, const Arguments& arguments) {
+    TRY(const Bytes bytes, pack::write_words(baked.languages));
     TRY_VOID(write_file(arguments.output, bytes));
     fmt::print("{}: {} words in {} languages, {} kB\n", arguments.output.string(),
                baked.languages.front().words.size(), baked.languages.size(), (bytes.size() + 999) / 1000);
-    for (const LanguageWords& words : baked.languages) {
+    for (const pack::LanguageWords& words : baked.languages) {
         fmt::print("  {:<8}{:<14}{:>5} letters, {:>3} spoken\n", words.language, words.name,
                    words.runs.boxes.size(), words.sounds.size());
     }
     if (!arguments.preview.empty()) {
-        return write_file(arguments.preview, encode_png(words_preview(baked.languages)));
+        return write_file(arguments.preview, image::encode_png(words_preview(baked.languages)));
     }
     return {};
 }
 
-Result<void> speak(BakedWords& baked, const Arguments& arguments) {
+Result<void> speak(texts::BakedWords& baked, const Arguments& arguments) {
     ProgressLine progress("speaking: ");
-    SpeakOptions options{arguments.folder, std::nullopt, {}};
+    texts::SpeakOptions options{arguments.folder, std::nullopt, {}};
     if (arguments.speech != "none") {
-        options.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);
+        options.voice = arguments.speech.empty() ? texts::Voice() : texts::Voice(arguments.speech);
     }
     options.progress = [&](std::string_view what, double done) { progress.show_share(what, done); };
-    TRY(const std::vector<std::string> silent, speak_words(baked.languages, options));
+    TRY(const std::vector<std::string> silent, texts::speak_words(baked.languages, options));
     progress.clear();
     for (const std::string& sentence : silent) {
         say_line(program, sentence);
@@ -126,7 +126,7 @@ Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, 
 
 bool is_words_file(const std::filesystem::path& file) {
     const Result<Bytes> bytes = read_file(file);
-    return bytes && list_words(*bytes);
+    return bytes && pack::list_words(*bytes);
 }
 
 bool is_png_file(const std::filesystem::path& file) {
@@ -169,11 +169,12 @@ std::vector<std::string> left_out_of(const std::vector<std::string>& all,
 }
 
 /// Reads the words, with notes on what may be lost of the folder; checks that no output is an input.
-Result<std::vector<CollectedWords>> collect(const Arguments& arguments, std::vector<std::string>& notes) {
+Result<std::vector<texts::CollectedWords>> collect(const Arguments& arguments,
+                                                   std::vector<std::string>& notes) {
     const WordsFolder folder = list_words_folder(arguments.folder);
     TRY(const std::vector<std::string> named, named_languages(arguments.languages));
     const std::vector<std::string>& languages = named.empty() ? folder.languages : named;
-    TRY(std::vector<CollectedWords> collected, collect_words(arguments.folder, languages));
+    TRY(std::vector<texts::CollectedWords> collected, texts::collect_words(arguments.folder, languages));
     const WordRecordings recordings =
         list_word_recordings(arguments.folder, collected, left_out_of(folder.languages, languages));
     TRY_VOID(check_outputs_are_no_inputs(arguments, folder, recordings));
@@ -186,9 +187,9 @@ Result<void> work(const Arguments& arguments) {
     TRY_VOID(check_folder(arguments.folder));
     TRY_VOID(check_outputs(arguments));
     std::vector<std::string> notes;
-    TRY(const std::vector<CollectedWords> collected, collect(arguments, notes));
-    TRY(const Shaper shaper, Shaper::open());
-    TRY(BakedWords baked, bake_words(collected, shaper));
+    TRY(const std::vector<texts::CollectedWords> collected, collect(arguments, notes));
+    TRY(const texts::Shaper shaper, texts::Shaper::open());
+    TRY(texts::BakedWords baked, texts::bake_words(collected, shaper));
     notes.insert(notes.end(), baked.notes.begin(), baked.notes.end());
     TRY_VOID(tell(notes, arguments.strict));
     TRY_VOID(speak(baked, arguments));
@@ -223,4 +224,4 @@ int words_command(int argc, char** argv) {
     return exit_status(program, work(arguments));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

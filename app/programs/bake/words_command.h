@@ -3,9 +3,9 @@
 /// Threads  the main one.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Returns the exit status.
 [[nodiscard]] int words_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace fs = std::filesystem;
 
 WordsFolder list_words_folder(const fs::path& folder) {
     WordsFolder listed;
-    listed.languages = builtin_word_languages();
+    listed.languages = texts::builtin_word_languages();
     std::error_code failed;
     for (fs::directory_iterator each(folder, failed); !failed && each != fs::directory_iterator();
          each.increment(failed)) {
@@ -26,7 +26,7 @@ WordsFolder list_words_folder(const fs::path& folder) {
     std::sort(listed.word_files.begin(), listed.word_files.end());
     for (const fs::path& file : listed.word_files) {
         const std::string name = file.stem().string();
-        const std::optional<std::string> language = parse_language_tag(name);
+        const std::optional<std::string> language = settings::parse_language_tag(name);
         if (language != name) {
             listed.notes.push_back(
                 fmt::format("{}: this file is not used; name it after its language, such as {}.toml",
@@ -39,21 +39,21 @@ WordsFolder list_words_folder(const fs::path& folder) {
     return listed;
 }
 
-WordRecordings list_word_recordings(const fs::path& folder, std::span<const CollectedWords> collected,
+WordRecordings list_word_recordings(const fs::path& folder, std::span<const texts::CollectedWords> collected,
                                     const std::vector<std::string>& left_out) {
     WordRecordings listed;
-    RecordingNames names;
-    for (const CollectedWords& words : collected) {
-        for (const Word& word : words.words) {
-            const std::optional<fs::path> file = find_recording(folder, words.language, word.key);
+    texts::RecordingNames names;
+    for (const texts::CollectedWords& words : collected) {
+        for (const texts::Word& word : words.words) {
+            const std::optional<fs::path> file = texts::find_recording(folder, words.language, word.key);
             names[words.language + "/" + word.key] = file;
             if (file) {
                 listed.taken.push_back(*file);
             }
         }
     }
-    listed.notes = unused_recordings(folder, names, left_out);
+    listed.notes = texts::unused_recordings(folder, names, left_out);
     return listed;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct WordsFolder {
     std::vector<std::string> languages;            ///< built-in languages, then those that the folder adds
@@ -27,7 +27,7 @@ struct WordRecordings {
 };
 /// `left_out`: languages that were left out on purpose; their recordings give no note.
 [[nodiscard]] WordRecordings list_word_recordings(const std::filesystem::path& folder,
-                                                  std::span<const CollectedWords> collected,
+                                                  std::span<const texts::CollectedWords> collected,
                                                   const std::vector<std::string>& left_out);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -14,16 +14,16 @@ constexpr int gap_px = 14;
 constexpr int column_px = 680;
 
 struct PlacedImage {
-    GlyphImage image;
+    typography::GlyphImage image;
     int x = 0, y = 0;
 };
 
 /// Draws white on black, as the projector shows it.
-void draw(const PlacedImage& placed, Image8& sheet) {
-    const Image<std::uint8_t>& from = placed.image.coverage;
+void draw(const PlacedImage& placed, image::Image8& sheet) {
+    const image::Image<std::uint8_t>& from = placed.image.coverage;
     for (int y = 0; y < from.height; ++y) {
         for (int x = 0; x < from.width; ++x) {
-            const std::uint8_t code = srgb8_from_linear(from.at(x, y) / 255.0);
+            const std::uint8_t code = image::srgb8_from_linear(from.at(x, y) / 255.0);
             if (code > 0) {
                 sheet.at(placed.x + x, placed.y + y) = {code, code, code, 255};
             }
@@ -32,19 +32,19 @@ void draw(const PlacedImage& placed, Image8& sheet) {
 }
 
 /// Lays out a language's words in a column, at settings that fit its width, and returns the column's height.
-int lay_out(const LanguageWords& words, int left, std::vector<PlacedImage>& placed) {
+int lay_out(const pack::LanguageWords& words, int left, std::vector<PlacedImage>& placed) {
     int y = gap_px;
-    for (const GlyphText& text : words.runs.texts) {
+    for (const pack::GlyphText& text : words.runs.texts) {
         const double size = text.key == "name" ? name_em_px : em_px;
-        const auto fits = [&](const GlyphSetting& setting) {
-            return setting.width * size / em_units <= column_px;
+        const auto fits = [&](const pack::GlyphSetting& setting) {
+            return setting.width * size / pack::em_units <= column_px;
         };
         const auto setting = std::find_if(text.settings.begin(), text.settings.end(), fits);
         if (setting == text.settings.end()) {
             continue;
         }
-        GlyphImage image = glyph_image(words.runs, words.atlas, *setting, size);
-        const bool flush_right = text.direction == TextDirection::RightToLeft;
+        typography::GlyphImage image = typography::glyph_image(words.runs, words.atlas, *setting, size);
+        const bool flush_right = text.direction == pack::TextDirection::RightToLeft;
         const int x = flush_right ? left + column_px - image.coverage.width : left;
         const int height = image.coverage.height;
         placed.push_back({std::move(image), x, y});
@@ -55,19 +55,19 @@ int lay_out(const LanguageWords& words, int left, std::vector<PlacedImage>& plac
 
 } // namespace
 
-Image8 words_preview(std::span<const LanguageWords> languages) {
+image::Image8 words_preview(std::span<const pack::LanguageWords> languages) {
     std::vector<PlacedImage> placed;
     int height = 1;
     int left = gap_px;
-    for (const LanguageWords& words : languages) {
+    for (const pack::LanguageWords& words : languages) {
         height = std::max(height, lay_out(words, left, placed));
         left += column_px + 3 * gap_px;
     }
-    Image8 sheet(left, height, {0, 0, 0, 255});
+    image::Image8 sheet(left, height, {0, 0, 0, 255});
     for (const PlacedImage& image : placed) {
         draw(image, sheet);
     }
     return sheet;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,8 +8,8 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] Image8 words_preview(std::span<const LanguageWords> languages);
+[[nodiscard]] image::Image8 words_preview(std::span<const pack::LanguageWords> languages);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
         over, headings, lines);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 [[nodiscard]] std::string report_csv(std::span<const BatchRow> rows);
 /// `seconds`: duration of the run; `passed_over`: folders without anything to bake.
@@ -23,4 +23,4 @@ namespace frustumscreen {
 /// "12 objects: 10 baked, 1 unchanged, 1 failed"; zero counts are omitted.
 [[nodiscard]] std::string summary(std::span<const BatchRow> rows);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

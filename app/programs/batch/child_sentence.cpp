@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::string sentence_of(const ProgramEnd& end, const ProgramLimits& limits) {
     return end.status != 0 && said.empty() ? fmt::format("the bake ended with status {}", end.status) : said;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

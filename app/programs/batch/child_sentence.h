@@ -7,9 +7,9 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Why it failed, one sentence; empty if it succeeded.
 [[nodiscard]] std::string sentence_of(const ProgramEnd& end, const ProgramLimits& limits);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

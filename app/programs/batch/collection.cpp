@@ -14,7 +14,7 @@
 #include <optional>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -34,7 +34,7 @@ void add(const fs::directory_entry& entry, Collection& collection) {
     std::error_code none;
     const fs::path name = entry.path().filename();
     if (entry.is_directory(none)) {
-        if (fs::exists(entry.path() / artifact_file_name, none)) {
+        if (fs::exists(entry.path() / folder::artifact_file_name, none)) {
             collection.objects.push_back({name.string(), entry.path(), {}});
         } else {
             collection.passed_over.push_back(name.string());
@@ -118,7 +118,7 @@ std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Sh
     constexpr std::size_t digits = 8;
     std::vector<BatchObject> share;
     for (const BatchObject& object : objects) {
-        const std::string hash = sha256_hex(as_bytes(object.name)).substr(0, digits);
+        const std::string hash = pack::sha256_hex(as_bytes(object.name)).substr(0, digits);
         if (std::stoul(hash, nullptr, 16) % shard.of == shard.number - 1) {
             share.push_back(object);
         }
@@ -126,4 +126,4 @@ std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Sh
     return share;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

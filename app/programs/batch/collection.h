@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct BatchObject {
     std::string name; ///< its pack is NAME.fspack
@@ -40,4 +40,4 @@ struct Shard {
 /// added or removed between the runs of two shards.
 [[nodiscard]] std::vector<BatchObject> share_of(std::span<const BatchObject> objects, const Shard& shard);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

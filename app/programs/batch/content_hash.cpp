@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -49,7 +49,7 @@ Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
 } // namespace
 
 Result<std::string> hash_of_file(const fs::path& file) {
-    Sha256 hash;
+    pack::Sha256 hash;
     std::ifstream stream(file, std::ios::binary);
     std::vector<char> block(1U << 20U);
     while (stream) {
@@ -68,7 +68,7 @@ std::string hash_of_texts(std::span<const std::string> texts) {
     for (const std::string& text : texts) {
         all += fmt::format("{}:{},", text.size(), text);
     }
-    return sha256_hex(as_bytes(all));
+    return pack::sha256_hex(as_bytes(all));
 }
 
 Result<std::string> hash_of_object(const fs::path& input) {
@@ -86,4 +86,4 @@ Result<std::string> hash_of_object(const fs::path& input) {
     return hash_of_texts(texts);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// SHA-256 of the file's bytes: 64 hexadecimal digits, lower case.
 [[nodiscard]] Result<std::string> hash_of_file(const std::filesystem::path& file);
@@ -23,4 +23,4 @@ namespace frustumscreen {
 /// Hash of several texts, unambiguous for their boundaries.
 [[nodiscard]] std::string hash_of_texts(std::span<const std::string> texts);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

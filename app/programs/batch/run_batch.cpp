@@ -12,7 +12,7 @@
 #include <system_error>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::vector<BatchRow> run_batch(const BatchPlan& plan, const std::function<void(
     return rows;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

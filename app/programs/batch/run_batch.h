@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct BatchPlan {
     std::vector<BatchObject> objects;
@@ -35,4 +35,4 @@ struct BatchPlan {
 [[nodiscard]] std::vector<BatchRow> run_batch(const BatchPlan& plan,
                                               const std::function<void(const BatchRow&)>& tell);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

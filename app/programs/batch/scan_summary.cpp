@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -50,29 +50,66 @@ std::string extents(const ScanSummary& scan, std::string_view between) {
 using Scan = const ScanSummary&;
 
 constexpr std::array columns{
-    ScanColumn{"format", "format", true, [](Scan s) { return s.format; }, [](Scan s) { return s.format; }},
-    ScanColumn{"triangles", "triangles", false, [](Scan s) { return number(s.triangles); },
-               [](Scan s) { return number(s.triangles); }},
-    ScanColumn{"vertices", "vertices", false, [](Scan s) { return number(s.vertices); },
-               [](Scan s) { return number(s.vertices); }},
-    ScanColumn{"pictures", "pictures", true, picture_words, pictures_for_people},
-    ScanColumn{"materials", "materials", false, [](Scan s) { return number(s.materials); },
-               [](Scan s) { return number(s.materials); }},
-    ScanColumn{"colours", "vertex colours", true, [](Scan s) { return yes_or_no(s.has_colours); },
-               [](Scan s) { return yes_or_no(s.has_colours); }},
-    ScanColumn{"normals", "normals", true, [](Scan s) { return yes_or_no(s.has_normals); },
-               [](Scan s) { return yes_or_no(s.has_normals); }},
-    ScanColumn{"extents", "extents", true, [](Scan s) { return extents(s, " "); },
-               [](Scan s) { return extents(s, " x "); }},
-    ScanColumn{"unit", "unit, guessed", true, [](Scan s) { return s.unit; },
-               [](Scan s) { return s.unit.empty() ? std::string("?") : s.unit; }},
-    ScanColumn{"estimated_bytes", "pack, about", false, [](Scan s) { return number(s.estimated_bytes); },
-               [](Scan s) { return bytes_in_words(s.estimated_bytes); }},
-    ScanColumn{"estimated_triangles", "shown, about", false,
-               [](Scan s) { return number(s.estimated_triangles); },
-               [](Scan s) { return number(s.estimated_triangles); }},
-    ScanColumn{"lost", "lost", false, [](Scan s) { return number(s.lost); },
-               [](Scan s) { return number(s.lost); }},
+    ScanColumn{.key = "format",
+               .heading = "format",
+               .is_text = true,
+               .plain = [](Scan s) { return s.format; },
+               .shown = [](Scan s) { return s.format; }},
+    ScanColumn{.key = "triangles",
+               .heading = "triangles",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.triangles); },
+               .shown = [](Scan s) { return number(s.triangles); }},
+    ScanColumn{.key = "vertices",
+               .heading = "vertices",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.vertices); },
+               .shown = [](Scan s) { return number(s.vertices); }},
+    ScanColumn{.key = "pictures",
+               .heading = "pictures",
+               .is_text = true,
+               .plain = picture_words,
+               .shown = pictures_for_people},
+    ScanColumn{.key = "materials",
+               .heading = "materials",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.materials); },
+               .shown = [](Scan s) { return number(s.materials); }},
+    ScanColumn{.key = "colours",
+               .heading = "vertex colours",
+               .is_text = true,
+               .plain = [](Scan s) { return yes_or_no(s.has_colours); },
+               .shown = [](Scan s) { return yes_or_no(s.has_colours); }},
+    ScanColumn{.key = "normals",
+               .heading = "normals",
+               .is_text = true,
+               .plain = [](Scan s) { return yes_or_no(s.has_normals); },
+               .shown = [](Scan s) { return yes_or_no(s.has_normals); }},
+    ScanColumn{.key = "extents",
+               .heading = "extents",
+               .is_text = true,
+               .plain = [](Scan s) { return extents(s, " "); },
+               .shown = [](Scan s) { return extents(s, " x "); }},
+    ScanColumn{.key = "unit",
+               .heading = "unit, guessed",
+               .is_text = true,
+               .plain = [](Scan s) { return s.unit; },
+               .shown = [](Scan s) { return s.unit.empty() ? std::string("?") : s.unit; }},
+    ScanColumn{.key = "estimated_bytes",
+               .heading = "pack, about",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.estimated_bytes); },
+               .shown = [](Scan s) { return bytes_in_words(s.estimated_bytes); }},
+    ScanColumn{.key = "estimated_triangles",
+               .heading = "shown, about",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.estimated_triangles); },
+               .shown = [](Scan s) { return number(s.estimated_triangles); }},
+    ScanColumn{.key = "lost",
+               .heading = "lost",
+               .is_text = false,
+               .plain = [](Scan s) { return number(s.lost); },
+               .shown = [](Scan s) { return number(s.lost); }},
 };
 
 } // namespace
@@ -111,4 +148,4 @@ ScanSummary summary_from(const nlohmann::ordered_json& json) {
     return scan;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

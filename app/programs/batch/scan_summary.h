@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ScanSummary {
     std::string format; ///< empty: the scan was not read
@@ -44,4 +44,4 @@ struct ScanColumn {
 /// Throws an exception of the JSON library if a column is missing or of another type.
 [[nodiscard]] ScanSummary summary_from(const nlohmann::ordered_json& json);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -6,7 +6,7 @@
 #include <exception>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -42,19 +42,19 @@ std::optional<Stamp> read_stamp(const std::filesystem::path& file) {
             return std::nullopt;
         }
         Stamp stamp{json.at("key"), json.at("pack_sha256"), {}};
-        stamp.row = {json.at("object"),
-                     stamp.pack_sha256.empty() ? BatchStatus::Failed : BatchStatus::Unchanged,
-                     json.at("seconds"),
-                     json.at("sentence"),
-                     json.at("title"),
-                     json.at("levels"),
-                     json.at("bytes"),
-                     json.at("mean_mm"),
-                     json.at("p95_mm"),
-                     json.at("colour_rmse"),
-                     json.at("silent"),
-                     json.at("page"),
-                     summary_from(json.at("scan"))};
+        stamp.row = {.object = json.at("object"),
+                     .status = stamp.pack_sha256.empty() ? BatchStatus::Failed : BatchStatus::Unchanged,
+                     .seconds = json.at("seconds"),
+                     .sentence = json.at("sentence"),
+                     .title = json.at("title"),
+                     .levels = json.at("levels"),
+                     .bytes = json.at("bytes"),
+                     .mean_mm = json.at("mean_mm"),
+                     .p95_mm = json.at("p95_mm"),
+                     .colour_rmse = json.at("colour_rmse"),
+                     .silent = json.at("silent"),
+                     .has_page = json.at("page"),
+                     .scan = summary_from(json.at("scan"))};
         stamp.row.scan.lost = json.at("lost");
         return stamp;
     } catch (const std::exception&) {
@@ -95,4 +95,4 @@ bool take_bake_report(std::string_view text, BatchRow& row) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Status of an object at the end of a run.
 enum class BatchStatus : std::uint8_t { Baked, Unchanged, Failed, Missing };
@@ -48,4 +48,4 @@ struct Stamp {
 /// Fills in the output of `frustumscreen-bake --json`; returns false for anything else.
 [[nodiscard]] bool take_bake_report(std::string_view json, BatchRow& row);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

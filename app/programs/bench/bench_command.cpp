@@ -13,7 +13,7 @@
 
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void BenchProgress::show(const std::string& step, double done) {
     const double passed_s = to_seconds(monotonic_now() - started_);
@@ -29,7 +29,7 @@ void add_place_options(CommandLine& command, BenchPlace& place) {
         "settings of a set-up; may be repeated (default: config/near.toml, config/kiosk.toml)");
 }
 
-void add_picture_options(CommandLine& command, PictureOptions& picture) {
+void add_picture_options(CommandLine& command, bench::PictureOptions& picture) {
     command.add_option("--samples", picture.samples, "samples a pixel; 0: as many as the pack asks for")
         .one_of_numbers({0, 1, 2, 4, 8, 16})
         .capture_default_str();
@@ -56,27 +56,27 @@ void warn(const std::filesystem::path& file, const std::string& of_what) {
 } // namespace
 
 Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
-    TRY(VerifiedPack pack, load_pack(artifact.pack));
+    TRY(pack::VerifiedPack pack, pack::load_pack(artifact.pack));
     TRY(const Bytes bytes, read_file(artifact.mesh));
-    if (sha256_hex(bytes) != pack->provenance.source_sha256) {
+    if (pack::sha256_hex(bytes) != pack->provenance.source_sha256) {
         warn(artifact.mesh,
              fmt::format(
                  "not the file that {} was baked from (that was {}); the errors are valid only if both have "
                  "the same surface",
                  artifact.pack.string(), pack->provenance.source_name));
     }
-    TRY(SourceMesh mesh, load_mesh(artifact.mesh));
-    return LoadedArtifact{std::move(pack), std::make_shared<const SourceMesh>(std::move(mesh))};
+    TRY(bake::SourceMesh mesh, bake::load_mesh(artifact.mesh));
+    return LoadedArtifact{std::move(pack), std::make_shared<const bake::SourceMesh>(std::move(mesh))};
 }
 
-Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place) {
+Result<std::vector<bench::SetUp>> load_set_ups(const BenchPlace& place) {
     std::vector<std::filesystem::path> configs = place.configs;
     if (configs.empty()) {
         configs = {"config/near.toml", "config/kiosk.toml"};
     }
-    std::vector<SetUp> set_ups;
+    std::vector<bench::SetUp> set_ups;
     for (const std::filesystem::path& config : configs) {
-        TRY(const CheckedSettings settings, load_settings(config));
+        TRY(const settings::CheckedSettings settings, settings::load_settings(config));
         set_ups.push_back({config.stem().string(), *settings});
     }
     return set_ups;
@@ -100,7 +100,7 @@ Result<void> draw_all(const std::filesystem::path& folder, const std::vector<std
     for (const std::string& table : tables) {
         paths.push_back((folder / table).string());
     }
-    return draw_tables(plot_script(), paths);
+    return bench::draw_tables(bench::plot_script(), paths);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -22,21 +22,21 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The current step of a long run, and its remaining time.
 class BenchProgress {
 public:
     /// Sets the planned steps; the remaining time then covers the whole run. Without a plan it covers each
     /// step alone.
-    void plan(std::vector<WorkStep> steps) { time_left_ = TimeLeft(std::move(steps)); }
+    void plan(std::vector<bench::WorkStep> steps) { time_left_ = bench::TimeLeft(std::move(steps)); }
     void show(const std::string& step, double done);
     void clear() { line_.clear(); }
 
 private:
     ProgressLine line_;
     MonotonicTime started_ = monotonic_now();
-    TimeLeft time_left_;
+    bench::TimeLeft time_left_;
 };
 
 struct BenchCommand {
@@ -52,7 +52,7 @@ struct BenchPlace {
 /// --out and --config.
 void add_place_options(CommandLine& command, BenchPlace& place);
 /// --samples.
-void add_picture_options(CommandLine& command, PictureOptions& picture);
+void add_picture_options(CommandLine& command, bench::PictureOptions& picture);
 /// --poses and --seed.
 void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed);
 
@@ -65,12 +65,12 @@ struct BenchArtifact {
 void add_artifact_options(CommandLine& command, BenchArtifact& artifact);
 
 struct LoadedArtifact {
-    VerifiedPack pack;
-    std::shared_ptr<const SourceMesh> mesh;
+    pack::VerifiedPack pack;
+    std::shared_ptr<const bake::SourceMesh> mesh;
 };
 /// Warns on standard error if the mesh is not the pack's source.
 [[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
-[[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
+[[nodiscard]] Result<std::vector<bench::SetUp>> load_set_ups(const BenchPlace& place);
 
 /// Names and contents.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;
@@ -87,19 +87,19 @@ template <typename Measure, typename Table, typename Files>
 [[nodiscard]] Result<void>
 measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArtifact& measured,
                 BenchProgress& progress, const Measure& measure, const Table& table, const Files& files_of) {
-    TRY(const std::vector<SetUp> set_ups, load_set_ups(place));
+    TRY(const std::vector<bench::SetUp> set_ups, load_set_ups(place));
     TRY(const LoadedArtifact artifact, load_artifact(measured));
     const auto steps = [&progress](const std::string& step, double done) { progress.show(step, done); };
     using Measured =
         typename decltype(measure(set_ups.front(), *artifact.pack, artifact.mesh, steps))::value_type;
     std::vector<Measured> results;
     OutputFiles files;
-    for (const SetUp& set_up : set_ups) {
+    for (const bench::SetUp& set_up : set_ups) {
         TRY(Measured result, measure(set_up, *artifact.pack, artifact.mesh, steps));
         progress.clear();
         fmt::print("{}\n", table(result));
         std::fflush(stdout);
-        files.emplace_back(name + "_" + set_up.name + ".png", as_text(encode_png(result.worst)));
+        files.emplace_back(name + "_" + set_up.name + ".png", as_text(image::encode_png(result.worst)));
         results.push_back(std::move(result));
     }
     for (auto& file : files_of(results)) {
@@ -139,4 +139,4 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 /// The benefit of the recovery ladder over years of faults.
 [[nodiscard]] BenchCommand ladder_command(CommandLine& app);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

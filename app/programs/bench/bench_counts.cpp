@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -21,16 +21,16 @@ struct Arguments {
     std::uint64_t seed = 1;
 };
 
-Result<std::vector<CountedPack>> count_all(const Arguments& arguments, BenchProgress& progress) {
-    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
-    std::vector<CountedPack> counted;
+Result<std::vector<bench::CountedPack>> count_all(const Arguments& arguments, BenchProgress& progress) {
+    TRY(const std::vector<bench::SetUp> set_ups, load_set_ups(arguments.place));
+    std::vector<bench::CountedPack> counted;
     for (const std::filesystem::path& file : arguments.packs) {
         progress.show(file.filename().string(),
                       static_cast<double>(counted.size()) /
                           static_cast<double>(arguments.packs.size() * set_ups.size()));
-        TRY(const VerifiedPack pack, load_pack(file));
-        for (const SetUp& set_up : set_ups) {
-            TRY(CountedPack one, count_frames(set_up, *pack, arguments.poses, arguments.seed));
+        TRY(const pack::VerifiedPack pack, pack::load_pack(file));
+        for (const bench::SetUp& set_up : set_ups) {
+            TRY(bench::CountedPack one, bench::count_frames(set_up, *pack, arguments.poses, arguments.seed));
             counted.push_back(std::move(one));
         }
     }
@@ -38,22 +38,26 @@ Result<std::vector<CountedPack>> count_all(const Arguments& arguments, BenchProg
     return counted;
 }
 
-Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& file) {
+Result<std::vector<bench::CountedPack>> load_reference(const std::filesystem::path& file) {
     if (file.empty()) {
-        return std::vector<CountedPack>{};
+        return std::vector<bench::CountedPack>{};
     }
     TRY(const Bytes bytes, read_file(file));
-    return at(file.string(), read_counts(as_text(bytes)));
+    return at(file.string(), bench::read_counts(as_text(bytes)));
 }
 
 /// An artifact that the reference lacks is an error too, because its counts would not be checked.
-Result<void> require_reference(std::span<const CountedPack> counted, std::span<const CountedPack> reference,
-                               std::span<const CountChange> against, const std::filesystem::path& file) {
-    if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
+Result<void> require_reference(std::span<const bench::CountedPack> counted,
+                               std::span<const bench::CountedPack> reference,
+                               std::span<const bench::CountChange> against,
+                               const std::filesystem::path& file) {
+    if (std::any_of(against.begin(), against.end(),
+                    [](const bench::CountChange& one) { return one.grown; })) {
         return fail(ErrorKind::Internal, "bench.counts_grew", "a frame takes over {:.0f} % more than {} says",
-                    100.0 * (max_count_growth - 1.0), file.string());
+                    100.0 * (bench::max_count_growth - 1.0), file.string());
     }
-    if (const std::vector<std::string> lacking = without_reference(counted, reference); !lacking.empty()) {
+    if (const std::vector<std::string> lacking = bench::without_reference(counted, reference);
+        !lacking.empty()) {
         return bad_input("bench.counts_lacking",
                          "{} lacks {}; compare with a file that has them, or add them from counts.json",
                          file.string(), fmt::join(lacking, "; "));
@@ -62,12 +66,12 @@ Result<void> require_reference(std::span<const CountedPack> counted, std::span<c
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    TRY(const std::vector<CountedPack> reference, load_reference(arguments.reference));
-    TRY(const std::vector<CountedPack> counted, count_all(arguments, progress));
-    const std::vector<CountChange> against = changes(counted, reference);
-    fmt::print("{}", counts_table(counted, against));
+    TRY(const std::vector<bench::CountedPack> reference, load_reference(arguments.reference));
+    TRY(const std::vector<bench::CountedPack> counted, count_all(arguments, progress));
+    const std::vector<bench::CountChange> against = bench::changes(counted, reference);
+    fmt::print("{}", bench::counts_table(counted, against));
     std::fflush(stdout);
-    TRY_VOID(write_all(arguments.place.out, {{"counts.json", counts_json(counted)}}));
+    TRY_VOID(write_all(arguments.place.out, {{"counts.json", bench::counts_json(counted)}}));
     if (!arguments.reference.empty()) {
         return require_reference(counted, reference, against, arguments.reference);
     }
@@ -88,4 +92,4 @@ BenchCommand counts_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,61 +9,66 @@
 #include <cstdio>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     BenchPlace place;
     BenchArtifact artifact;
-    ErrorTimeOptions options;
+    bench::ErrorTimeOptions options;
     std::string peers = "all";
     std::string limits = "all";
 };
 
 /// Every step of the run, for the remaining time of the whole run.
-std::vector<WorkStep> all_steps(const std::vector<SetUp>& set_ups, const LoadedArtifact& artifact,
-                                const ErrorTimeOptions& options) {
-    std::vector<WorkStep> steps = {{"the pack's own figures", "figures",
-                                    2.0 + 1e-5 * static_cast<double>(artifact.mesh->triangles.size())}};
-    for (const SetUp& set_up : set_ups) {
-        const std::vector<WorkStep> more = work_steps(set_up, *artifact.pack, *artifact.mesh, options);
+std::vector<bench::WorkStep> all_steps(const std::vector<bench::SetUp>& set_ups,
+                                       const LoadedArtifact& artifact,
+                                       const bench::ErrorTimeOptions& options) {
+    std::vector<bench::WorkStep> steps = {
+        {"the pack's own figures", "figures",
+         2.0 + 1e-5 * static_cast<double>(artifact.mesh->triangles.size())}};
+    for (const bench::SetUp& set_up : set_ups) {
+        const std::vector<bench::WorkStep> more =
+            bench::work_steps(set_up, *artifact.pack, *artifact.mesh, options);
         steps.insert(steps.end(), more.begin(), more.end());
     }
     return steps;
 }
 
 /// Measures the pack's own figures again, in mm on the first set-up's prop.
-std::vector<LimitVerdict> judge_figures(const LoadedArtifact& artifact, const SetUp& set_up,
-                                        BenchProgress& progress) {
+std::vector<bench::LimitVerdict> judge_figures(const LoadedArtifact& artifact, const bench::SetUp& set_up,
+                                               BenchProgress& progress) {
     progress.show("the pack's own figures", 0.0);
-    const std::vector<LevelFigures> figures = measure_figures(*artifact.pack, *artifact.mesh);
+    const std::vector<bench::LevelFigures> figures = bench::measure_figures(*artifact.pack, *artifact.mesh);
     progress.show("the pack's own figures", 1.0);
     progress.clear();
-    const double mm_per_box = 1e3 * place(*artifact.pack, make_prop(set_up.settings.prop)).metres_per_box;
-    std::vector<LimitVerdict> verdicts = judge(figures, mm_per_box);
-    fmt::print("Error figures in the pack, against those measured now\n{}\n", lines_of(verdicts));
+    const double mm_per_box =
+        1e3 * pack::place(*artifact.pack, settings::make_prop(set_up.settings.prop)).metres_per_box;
+    std::vector<bench::LimitVerdict> verdicts = bench::judge(figures, mm_per_box);
+    fmt::print("Error figures in the pack, against those measured now\n{}\n", bench::lines_of(verdicts));
     return verdicts;
 }
 
 /// Measures one set-up, prints its table and adds its pictures to `files`.
-Result<SetUpResult> measure(const SetUp& set_up, const LoadedArtifact& artifact,
-                            const ErrorTimeOptions& options, BenchProgress& progress,
-                            std::vector<std::pair<std::string, std::string>>& files) {
-    TRY(SetUpResult result,
-        error_time(set_up, *artifact.pack, artifact.mesh, options,
-                   [&](const std::string& step, double done) { progress.show(step, done); }));
+Result<bench::SetUpResult> measure(const bench::SetUp& set_up, const LoadedArtifact& artifact,
+                                   const bench::ErrorTimeOptions& options, BenchProgress& progress,
+                                   std::vector<std::pair<std::string, std::string>>& files) {
+    TRY(bench::SetUpResult result,
+        bench::error_time(set_up, *artifact.pack, artifact.mesh, options,
+                          [&](const std::string& step, double done) { progress.show(step, done); }));
     progress.clear();
-    fmt::print("{}\n", console_table(result));
+    fmt::print("{}\n", bench::console_table(result));
     std::fflush(stdout);
     for (const auto& [level, picture] : result.worst) {
-        files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level), as_text(encode_png(picture)));
+        files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level),
+                           as_text(image::encode_png(picture)));
     }
     return result;
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
+    TRY(const std::vector<bench::SetUp> set_ups, load_set_ups(arguments.place));
     TRY(const LoadedArtifact artifact, load_artifact(arguments.artifact));
     if (!artifact.pack->unlit) {
         fmt::print(stderr,
@@ -73,25 +78,25 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                    arguments.artifact.pack.string());
     }
     progress.plan(all_steps(set_ups, artifact, arguments.options));
-    const std::vector<LimitVerdict> figures = judge_figures(artifact, set_ups.front(), progress);
-    std::vector<SetUpResult> results;
+    const std::vector<bench::LimitVerdict> figures = judge_figures(artifact, set_ups.front(), progress);
+    std::vector<bench::SetUpResult> results;
     std::vector<std::pair<std::string, std::string>> files;
-    for (const SetUp& set_up : set_ups) {
-        TRY(SetUpResult result, measure(set_up, artifact, arguments.options, progress, files));
+    for (const bench::SetUp& set_up : set_ups) {
+        TRY(bench::SetUpResult result, measure(set_up, artifact, arguments.options, progress, files));
         results.push_back(std::move(result));
     }
-    files.emplace_back("error_time.csv", summary_csv(results));
-    files.emplace_back("error_time_poses.csv", poses_csv(results));
-    files.emplace_back("error_time.json", report_json(results, artifact.pack->title, figures));
-    files.emplace_back("verdicts.csv", verdicts_csv(results, figures));
-    files.emplace_back("limits.csv", limits_csv());
+    files.emplace_back("error_time.csv", bench::summary_csv(results));
+    files.emplace_back("error_time_poses.csv", bench::poses_csv(results));
+    files.emplace_back("error_time.json", bench::report_json(results, artifact.pack->title, figures));
+    files.emplace_back("verdicts.csv", bench::verdicts_csv(results, figures));
+    files.emplace_back("limits.csv", bench::limits_csv());
     TRY_VOID(write_all(arguments.place.out, files));
     const Result<void> drawn = draw_all(arguments.place.out, {"error_time.csv"});
-    const Result<void> figures_hold = require_true(figures, arguments.artifact.pack.string());
+    const Result<void> figures_hold = bench::require_true(figures, arguments.artifact.pack.string());
     if (!figures_hold || !drawn) {
         return figures_hold ? drawn : figures_hold;
     }
-    return arguments.limits == "all" ? require_limits(results) : Result<void>{};
+    return arguments.limits == "all" ? bench::require_limits(results) : Result<void>{};
 }
 
 } // namespace
@@ -111,7 +116,7 @@ BenchCommand error_time_command(CommandLine& app) {
                     "none, all, or a list of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
                     "relief-cast, relief-gpu, separated by commas")
         .check({[](const std::string& words) {
-                    const Result<PeerChoice> choice = parse_peers(words);
+                    const Result<bench::PeerChoice> choice = bench::parse_peers(words);
                     return choice ? std::string() : choice.error().message;
                 },
                 ""})
@@ -129,10 +134,11 @@ BenchCommand error_time_command(CommandLine& app) {
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
                 std::vector<int> samples = std::move(arguments->options.peers.samples);
-                arguments->options.peers = *parse_peers(arguments->peers); // validated by the option's check
+                arguments->options.peers =
+                    *bench::parse_peers(arguments->peers); // validated by the option's check
                 arguments->options.peers.samples = std::move(samples);
                 return run(*arguments, progress);
             }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

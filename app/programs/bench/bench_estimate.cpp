@@ -5,34 +5,36 @@
 #include <algorithm>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     BenchPlace place;
     std::vector<std::filesystem::path> packs, meshes;
-    EstimateOptions options;
+    bench::EstimateOptions options;
     std::string limits = "all";
 };
 
 /// Measures one pack in every set-up, prints its table and appends each pose's values to `poses`.
-Result<std::vector<NamedCoverage>> measure(const BenchArtifact& named, const std::vector<SetUp>& set_ups,
-                                           const EstimateOptions& options, BenchProgress& progress,
-                                           std::string& poses) {
+Result<std::vector<bench::NamedCoverage>> measure(const BenchArtifact& named,
+                                                  const std::vector<bench::SetUp>& set_ups,
+                                                  const bench::EstimateOptions& options,
+                                                  BenchProgress& progress, std::string& poses) {
     TRY(const LoadedArtifact artifact, load_artifact(named));
     const std::string name = named.pack.stem().string();
-    std::vector<NamedCoverage> rows;
-    for (const SetUp& set_up : set_ups) {
-        TRY(const SetUpResult result,
-            measure_estimates(set_up, *artifact.pack, artifact.mesh, options,
-                              [&](const std::string& step, double done) { progress.show(step, done); }));
-        const std::vector<NamedCoverage> more = coverages_of(name, result);
+    std::vector<bench::NamedCoverage> rows;
+    for (const bench::SetUp& set_up : set_ups) {
+        TRY(const bench::SetUpResult result,
+            bench::measure_estimates(
+                set_up, *artifact.pack, artifact.mesh, options,
+                [&](const std::string& step, double done) { progress.show(step, done); }));
+        const std::vector<bench::NamedCoverage> more = bench::coverages_of(name, result);
         rows.insert(rows.end(), more.begin(), more.end());
-        poses += estimates_csv(name, result);
+        poses += bench::estimates_csv(name, result);
     }
     progress.clear();
-    fmt::print("{}\n", coverage_table(rows));
+    fmt::print("{}\n", bench::coverage_table(rows));
     std::fflush(stdout);
     return rows;
 }
@@ -43,18 +45,18 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                          "there are {} packs and {} meshes; give each --pack its --mesh, in the same order",
                          arguments.packs.size(), arguments.meshes.size());
     }
-    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
-    std::vector<NamedCoverage> rows;
-    std::string poses(estimates_csv_header);
+    TRY(const std::vector<bench::SetUp> set_ups, load_set_ups(arguments.place));
+    std::vector<bench::NamedCoverage> rows;
+    std::string poses(bench::estimates_csv_header);
     for (std::size_t k = 0; k < arguments.packs.size(); ++k) {
-        TRY(const std::vector<NamedCoverage> more,
+        TRY(const std::vector<bench::NamedCoverage> more,
             measure({arguments.packs[k], arguments.meshes[k]}, set_ups, arguments.options, progress, poses));
         rows.insert(rows.end(), more.begin(), more.end());
     }
-    const LimitVerdict verdict = judge(rows);
-    fmt::print("{}", lines_of(std::span(&verdict, 1)));
-    Result<void> written =
-        write_all(arguments.place.out, {{"estimate.csv", coverage_csv(rows)}, {"estimate_poses.csv", poses}});
+    const bench::LimitVerdict verdict = bench::judge(rows);
+    fmt::print("{}", bench::lines_of(std::span(&verdict, 1)));
+    Result<void> written = write_all(
+        arguments.place.out, {{"estimate.csv", bench::coverage_csv(rows)}, {"estimate_poses.csv", poses}});
     if (written && !verdict.held && arguments.limits == "all") {
         return fail(ErrorKind::Internal, "bench.estimate_limits", "{} ({}); --limits none only measures",
                     verdict.what, verdict.found);
@@ -85,4 +87,4 @@ BenchCommand estimate_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

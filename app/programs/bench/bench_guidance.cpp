@@ -7,46 +7,47 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path config;
-    GuidanceOptions options;
+    bench::GuidanceOptions options;
 };
 
 /// Each prop twice: without an artifact, where every visible face counts, and with one, where the artifact counts.
-using NamedSetups = std::vector<std::pair<std::string, GuidanceSetup>>;
-NamedSetups without_and_with_artifact(const std::string& name, const Settings& settings) {
-    NamedSetups setups{{name, guidance_setup(settings)},
-                       {name + ", an artifact in it", guidance_setup(settings)}};
-    setups.back().second.hull = usual_artifact(setups.back().second.prop);
+using NamedSetups = std::vector<std::pair<std::string, guidance::GuidanceSetup>>;
+NamedSetups without_and_with_artifact(const std::string& name, const settings::Settings& settings) {
+    NamedSetups setups{{name, exhibit::guidance_setup(settings)},
+                       {name + ", an artifact in it", exhibit::guidance_setup(settings)}};
+    setups.back().second.hull = settings::usual_artifact(setups.back().second.prop);
     return setups;
 }
 
 Result<NamedSetups> setups_of(const Arguments& arguments) {
     if (!arguments.config.empty()) {
-        TRY(const CheckedSettings checked, load_settings(arguments.config));
+        TRY(const settings::CheckedSettings checked, settings::load_settings(arguments.config));
         return without_and_with_artifact(arguments.config.stem().string(), *checked);
     }
-    NamedSetups setups = without_and_with_artifact("frustum on the table", Settings{});
-    setups.emplace_back("cube in the hand", guidance_setup(cube_in_hand()));
+    NamedSetups setups = without_and_with_artifact("frustum on the table", settings::Settings{});
+    setups.emplace_back("cube in the hand", exhibit::guidance_setup(bench::cube_in_hand()));
     return setups;
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     TRY(const NamedSetups props, setups_of(arguments));
-    std::vector<GuidedProp> results;
+    std::vector<bench::GuidedProp> results;
     for (const auto& [name, setup] : props) {
         results.push_back(
-            measure_guidance(name, setup, arguments.options,
-                             [&progress, &name = name](double done) { progress.show(name, done); }));
+            bench::measure_guidance(name, setup, arguments.options,
+                                    [&progress, &name = name](double done) { progress.show(name, done); }));
         progress.clear();
-        fmt::print("{}{}\n", guidance_table(results.back()), lines_of(judge(results.back())));
+        fmt::print("{}{}\n", bench::guidance_table(results.back()),
+                   bench::lines_of(bench::judge(results.back())));
     }
-    Result<void> written = write_all(arguments.out, {{"guidance.csv", guidance_csv(results)}});
+    Result<void> written = write_all(arguments.out, {{"guidance.csv", bench::guidance_csv(results)}});
     return written ? draw_all(arguments.out, {"guidance.csv"}) : written;
 }
 
@@ -76,4 +77,4 @@ BenchCommand guidance_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -16,21 +16,22 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<FaultEvent> fault_events =
-        seeded_faults(arguments.seed, arguments.days, arguments.times);
-    std::vector<MuseumRun> runs;
-    for (const Policy policy : all_policies) {
-        progress.show(std::string(name_of(policy)),
-                      static_cast<double>(runs.size()) / static_cast<double>(all_policies.size()));
-        runs.push_back(simulate(policy, fault_events, arguments.days, arguments.seed));
+    const std::vector<simulators::FaultEvent> fault_events =
+        simulators::seeded_faults(arguments.seed, arguments.days, arguments.times);
+    std::vector<simulators::MuseumRun> runs;
+    for (const simulators::Policy policy : simulators::all_policies) {
+        progress.show(std::string(simulators::name_of(policy)),
+                      static_cast<double>(runs.size()) /
+                          static_cast<double>(simulators::all_policies.size()));
+        runs.push_back(simulators::simulate(policy, fault_events, arguments.days, arguments.seed));
     }
     progress.clear();
     fmt::print("{} faults in {} days\n\n{}", fault_events.size(), arguments.days,
-               museum_table(runs, fault_events));
+               simulators::museum_table(runs, fault_events));
     const Result<void> written =
-        write_all(arguments.out, {{"ladder.csv", dark_times_csv(runs, arguments.days)},
-                                  {"ladder_policies.csv", museum_csv(runs, arguments.days)},
-                                  {"ladder_faults.csv", faults_csv(runs, fault_events)}});
+        write_all(arguments.out, {{"ladder.csv", simulators::dark_times_csv(runs, arguments.days)},
+                                  {"ladder_policies.csv", simulators::museum_csv(runs, arguments.days)},
+                                  {"ladder_faults.csv", simulators::faults_csv(runs, fault_events)}});
     return written ? draw_all(arguments.out, {"ladder.csv"}) : written;
 }
 
@@ -52,4 +53,4 @@ BenchCommand ladder_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,19 +8,19 @@
 #include <memory>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path recordings = "../shared/data/tracker";
-    LatencyOptions options;
+    bench::LatencyOptions options;
 };
 
 /// The targets are set for the first tracker. Only its latency of 18 ms is known; those of the others are
 /// assumed.
-std::vector<TrackedBy> trackers() {
+std::vector<bench::TrackedBy> trackers() {
     return {{"Polhemus PATRIOT", 60.0, 18.0, {}},
             {"Polhemus VIPER", 240.0, 5.0, {}},
             {"HID tracker", 120.0, 12.0, {}}};
@@ -35,16 +35,16 @@ constexpr std::array recording_files = {
     RecordingFile{"camera_target_handheld_1.csv", true}, RecordingFile{"tum_fr1_xyz_rgbdslam.txt", true}};
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<TrackedBy> measured_trackers = trackers();
-    std::vector<TrackerResult> results;
-    for (const TrackedBy& tracker : measured_trackers) {
+    const std::vector<bench::TrackedBy> measured_trackers = trackers();
+    std::vector<bench::TrackerResult> results;
+    for (const bench::TrackedBy& tracker : measured_trackers) {
         progress.show(tracker.name,
                       static_cast<double>(results.size()) / static_cast<double>(measured_trackers.size()));
-        results.push_back(measure_tracker(tracker, arguments.options));
+        results.push_back(bench::measure_tracker(tracker, arguments.options));
         progress.clear();
-        fmt::print("{}\n", latency_table(results.back(), arguments.options));
+        fmt::print("{}\n", bench::latency_table(results.back(), arguments.options));
     }
-    std::vector<RecordingResult> recordings;
+    std::vector<bench::RecordingResult> recordings;
     for (const RecordingFile& file : recording_files) {
         const std::filesystem::path path = arguments.recordings / file.name;
         if (!std::filesystem::exists(path)) {
@@ -52,15 +52,16 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                        path.string());
             continue;
         }
-        TRY(std::vector<RecordedPose> poses, read_recorded_poses(path));
-        recordings.push_back(
-            measure_recording({std::string(file.name), std::move(poses), file.noisy}, arguments.options));
+        TRY(std::vector<bench::RecordedPose> poses, bench::read_recorded_poses(path));
+        recordings.push_back(bench::measure_recording({std::string(file.name), std::move(poses), file.noisy},
+                                                      arguments.options));
     }
     if (!recordings.empty()) {
-        fmt::print("{}\n", recordings_table(recordings));
+        fmt::print("{}\n", bench::recordings_table(recordings));
     }
-    fmt::print("{}", lines_of(judge(results.front(), arguments.options)));
-    Result<void> written = write_all(arguments.out, {{"latency.csv", latency_csv(results, recordings)}});
+    fmt::print("{}", bench::lines_of(bench::judge(results.front(), arguments.options)));
+    Result<void> written =
+        write_all(arguments.out, {{"latency.csv", bench::latency_csv(results, recordings)}});
     return written ? draw_all(arguments.out, {"latency.csv"}) : written;
 }
 
@@ -85,4 +86,4 @@ BenchCommand latency_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 int run(int argc, char** argv) {
@@ -45,8 +45,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-bench", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-bench", frustumscreen::programs::run, argc,
+                                                 argv);
 }

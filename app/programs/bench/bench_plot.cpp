@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -19,7 +19,7 @@ Result<void> run(const Arguments& arguments) {
     for (const std::filesystem::path& folder : arguments.from) {
         words.push_back(folder.string());
     }
-    return draw_tables(plot_script(), words);
+    return bench::draw_tables(bench::plot_script(), words);
 }
 
 } // namespace
@@ -33,4 +33,4 @@ BenchCommand plot_command(CommandLine& app) {
     return {command, [arguments](BenchProgress&) { return run(*arguments); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

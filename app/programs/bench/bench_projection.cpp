@@ -4,24 +4,26 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     BenchPlace place;
     BenchArtifact artifact;
-    ProjectionOptions options;
+    bench::ProjectionOptions options;
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     return measure_set_ups(
         "projection", arguments.place, arguments.artifact, progress,
-        [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
-            const StepProgress& steps) { return projection(set_up, pack, mesh, arguments.options, steps); },
-        projection_table,
-        [](const std::vector<ProjectionResult>& results) {
-            return OutputFiles{{"projection.csv", projection_csv(results)}};
+        [&](const bench::SetUp& set_up, const pack::Pack& pack,
+            const std::shared_ptr<const bake::SourceMesh>& mesh, const bench::StepProgress& steps) {
+            return bench::projection(set_up, pack, mesh, arguments.options, steps);
+        },
+        bench::projection_table,
+        [](const std::vector<bench::ProjectionResult>& results) {
+            return OutputFiles{{"projection.csv", bench::projection_csv(results)}};
         });
 }
 
@@ -38,4 +40,4 @@ BenchCommand projection_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

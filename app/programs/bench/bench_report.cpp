@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -19,13 +19,14 @@ struct Arguments {
 Result<void> run(const Arguments& arguments) {
     TRY(const Bytes bytes, read_file(arguments.page));
     const std::string_view page = as_text(bytes);
-    TRY(const FilledPage filled, fill_page(page, arguments.page.string(), arguments.from));
-    for (const FilledTable& table : filled.tables) {
-        fmt::print("{}\n", line_of(table, arguments.check));
+    TRY(const bench::FilledPage filled, bench::fill_page(page, arguments.page.string(), arguments.from));
+    for (const bench::FilledTable& table : filled.tables) {
+        fmt::print("{}\n", bench::line_of(table, arguments.check));
     }
     const auto changed =
-        std::count_if(filled.tables.begin(), filled.tables.end(),
-                      [](const FilledTable& table) { return table.state == TableState::Changed; });
+        std::count_if(filled.tables.begin(), filled.tables.end(), [](const bench::FilledTable& table) {
+            return table.state == bench::TableState::Changed;
+        });
     if (changed == 0) {
         return {};
     }
@@ -54,4 +55,4 @@ BenchCommand report_command(CommandLine& app) {
     return {command, [arguments](BenchProgress&) { return run(*arguments); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

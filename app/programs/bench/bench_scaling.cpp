@@ -9,65 +9,67 @@
 #include <cstdio>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     BenchPlace place;
-    ScalingOptions options;
+    bench::ScalingOptions options;
     bool no_peers = false;
 };
 
 /// Makes the files of one set-up: cost against size, and for each amphora that is large enough the comparison
 /// with the two-pass method at each of its eye images.
-Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sources,
+Result<void> measure(const bench::SetUp& set_up, const std::vector<bench::ScalingSource>& sources,
                      const Arguments& arguments, BenchProgress& progress,
                      std::vector<std::pair<std::string, std::string>>& files) {
     const auto show = [&](const std::string& step, double done) {
         progress.show(set_up.name + ": " + step, done);
     };
-    TRY(const std::vector<ScalingRow> rows,
-        at(set_up.name, scaling(set_up, sources, arguments.options, show)));
+    TRY(const std::vector<bench::ScalingRow> rows,
+        at(set_up.name, bench::scaling(set_up, sources, arguments.options, show)));
     progress.clear();
-    fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(rows));
+    fmt::print("{} set-up\n{}\n", set_up.name, bench::scaling_table(rows));
     std::fflush(stdout);
-    files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(rows));
-    for (const ScalingSource& source : sources) {
-        if (arguments.no_peers || source.mesh->triangles.size() < min_two_pass_triangles) {
+    files.emplace_back("scaling_" + set_up.name + ".csv", bench::scaling_csv(rows));
+    for (const bench::ScalingSource& source : sources) {
+        if (arguments.no_peers || source.mesh->triangles.size() < bench::min_two_pass_triangles) {
             continue;
         }
-        ErrorTimeOptions compared;
+        bench::ErrorTimeOptions compared;
         compared.picture = arguments.options.picture;
         compared.poses = arguments.options.poses;
         compared.seed = arguments.options.seed;
         compared.peers.ray_cast = compared.peers.lod = compared.peers.two_pass_lod = false;
-        TRY(const SetUpResult result, error_time(set_up, source.pack, source.mesh, compared, show));
+        TRY(const bench::SetUpResult result,
+            bench::error_time(set_up, source.pack, source.mesh, compared, show));
         progress.clear();
         const std::string title =
             fmt::format("Built-in amphora, {} triangles", source.mesh->triangles.size());
-        fmt::print("{}\n{}\n", title, console_table(result));
+        fmt::print("{}\n{}\n", title, bench::console_table(result));
         std::fflush(stdout);
         files.emplace_back(fmt::format("two_pass_{}_{}.csv", set_up.name, source.mesh->triangles.size()),
-                           summary_csv({&result, 1}));
+                           bench::summary_csv({&result, 1}));
     }
     return {};
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
-    TRY(const std::vector<ScalingSource> sources,
-        bake_amphoras(arguments.options,
-                      [&](const std::string& step, double done) { progress.show("bake: " + step, done); }));
+    TRY(const std::vector<bench::SetUp> set_ups, load_set_ups(arguments.place));
+    TRY(const std::vector<bench::ScalingSource> sources,
+        bench::bake_amphoras(arguments.options, [&](const std::string& step, double done) {
+            progress.show("bake: " + step, done);
+        }));
     std::vector<std::pair<std::string, std::string>> files;
-    for (const SetUp& set_up : set_ups) {
+    for (const bench::SetUp& set_up : set_ups) {
         TRY_VOID(measure(set_up, sources, arguments, progress, files));
     }
     std::vector<std::string> tables;
     for (const auto& [name, text] : files) {
         tables.push_back(name);
     }
-    files.emplace_back("limits.csv", limits_csv());
+    files.emplace_back("limits.csv", bench::limits_csv());
     TRY_VOID(write_all(arguments.place.out, files));
     return draw_all(arguments.place.out, tables);
 }
@@ -98,4 +100,4 @@ BenchCommand scaling_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

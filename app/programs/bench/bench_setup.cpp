@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -16,43 +16,43 @@ struct Arguments {
     std::filesystem::path pack; ///< the pack whose frames are timed; empty: none
     std::vector<int> picture;   ///< width, height; empty: the settings'
     std::vector<double> zone_m; ///< width, depth; empty: not required
-    AdviceOptions options;
+    bench::AdviceOptions options;
 };
 
 constexpr std::size_t max_timed = 5;
 
 /// Times a frame of the pack in the settings as they are and in the best choices.
-Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUpChoice>& found,
-                           BenchProgress& progress) {
-    std::vector<SetUpChoice*> timed = best_working(found, max_timed);
+Result<void> measure_costs(const pack::Pack& pack, bench::SetUpChoice& now,
+                           std::vector<bench::SetUpChoice>& found, BenchProgress& progress) {
+    std::vector<bench::SetUpChoice*> timed = bench::best_working(found, max_timed);
     timed.insert(timed.begin(), &now);
-    std::vector<const Settings*> set_ups;
-    for (const SetUpChoice* choice : timed) {
+    std::vector<const settings::Settings*> set_ups;
+    for (const bench::SetUpChoice* choice : timed) {
         set_ups.push_back(&choice->settings);
     }
-    TRY(const std::vector<SetUpCost> costs,
-        frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); }));
+    TRY(const std::vector<bench::SetUpCost> costs,
+        bench::frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); }));
     for (std::size_t k = 0; k < timed.size(); ++k) {
         timed[k]->cost = costs[k];
     }
     return {};
 }
 
-Result<std::optional<VerifiedPack>> load_if_named(const std::filesystem::path& file) {
+Result<std::optional<pack::VerifiedPack>> load_if_named(const std::filesystem::path& file) {
     if (file.empty()) {
-        return std::optional<VerifiedPack>();
+        return std::optional<pack::VerifiedPack>();
     }
-    TRY(VerifiedPack pack, load_pack(file));
+    TRY(pack::VerifiedPack pack, pack::load_pack(file));
     return std::optional(std::move(pack));
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    TRY(const CheckedSettings checked, load_settings(arguments.config));
+    TRY(const settings::CheckedSettings checked, settings::load_settings(arguments.config));
     if (arguments.options.lowest_m > arguments.options.highest_m) {
         return bad_input("bench.heights", "--lowest-m is above --highest-m; give a lower --lowest-m");
     }
-    const Settings& settings = *checked;
-    AdviceOptions options = arguments.options;
+    const settings::Settings& settings = *checked;
+    bench::AdviceOptions options = arguments.options;
     if (arguments.picture.size() == 2) {
         options.width = arguments.picture[0];
         options.height = arguments.picture[1];
@@ -60,26 +60,26 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     if (arguments.zone_m.size() == 2) {
         options.zone_m = {arguments.zone_m[0], arguments.zone_m[1]};
     }
-    TRY(const std::optional<VerifiedPack> pack, load_if_named(arguments.pack));
-    SetUpChoice now = as_it_is(settings);
-    std::vector<SetUpChoice> found =
-        choices(settings, options, [&progress](double done) { progress.show("set-ups", done); });
+    TRY(const std::optional<pack::VerifiedPack> pack, load_if_named(arguments.pack));
+    bench::SetUpChoice now = bench::as_it_is(settings);
+    std::vector<bench::SetUpChoice> found =
+        bench::choices(settings, options, [&progress](double done) { progress.show("set-ups", done); });
     if (pack) {
         TRY_VOID(measure_costs(**pack, now, found, progress));
     }
     progress.clear();
-    fmt::print("{}\n", setup_table(now, found, options));
+    fmt::print("{}\n", bench::setup_table(now, found, options));
     if (!pack) {
         fmt::print("The cost of a frame is not measured; give a pack with --pack to measure it.\n\n");
     }
-    if (const SetUpChoice* best = best_of(found); best != nullptr && best->works) {
-        fmt::print("{}", setup_toml(*best));
+    if (const bench::SetUpChoice* best = bench::best_of(found); best != nullptr && best->works) {
+        fmt::print("{}", bench::setup_toml(*best));
     } else {
         fmt::print("No choice meets the limits: hang the projector higher (--highest-m), take a wider table, "
                    "or lower "
                    "the limits (--evenness, --pixels).\n");
     }
-    Result<void> written = write_all(arguments.out, {{"setup.csv", setup_csv(now, found)}});
+    Result<void> written = write_all(arguments.out, {{"setup.csv", bench::setup_csv(now, found)}});
     return written ? draw_all(arguments.out, {"setup.csv"}) : written;
 }
 
@@ -103,7 +103,7 @@ BenchCommand setup_command(CommandLine& app) {
                     "smaller then, and the picture wider")
         .expected(2)
         .within(0.01, 5.0);
-    AdviceOptions& options = arguments->options;
+    bench::AdviceOptions& options = arguments->options;
     command.add_option("--artifact-m", options.artifact_m, "least height of the artifact, with --zone-m")
         .within(0.02, 1.0)
         .capture_default_str();
@@ -129,4 +129,4 @@ BenchCommand setup_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

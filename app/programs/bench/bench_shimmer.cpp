@@ -4,26 +4,28 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     BenchPlace place;
     BenchArtifact artifact;
-    ShimmerOptions options;
+    bench::ShimmerOptions options;
     bool one_ray = false;
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     return measure_set_ups(
         "shimmer", arguments.place, arguments.artifact, progress,
-        [&](const SetUp& set_up, const Pack& pack, const std::shared_ptr<const SourceMesh>& mesh,
-            const StepProgress& steps) { return shimmer(set_up, pack, mesh, arguments.options, steps); },
-        shimmer_table,
-        [](const std::vector<ShimmerResult>& results) {
-            return OutputFiles{{"shimmer.csv", shimmer_csv(results)},
-                               {"edge_sparkle.csv", edge_sparkle_csv(results)}};
+        [&](const bench::SetUp& set_up, const pack::Pack& pack,
+            const std::shared_ptr<const bake::SourceMesh>& mesh, const bench::StepProgress& steps) {
+            return bench::shimmer(set_up, pack, mesh, arguments.options, steps);
+        },
+        bench::shimmer_table,
+        [](const std::vector<bench::ShimmerResult>& results) {
+            return OutputFiles{{"shimmer.csv", bench::shimmer_csv(results)},
+                               {"edge_sparkle.csv", bench::edge_sparkle_csv(results)}};
         });
 }
 
@@ -50,4 +52,4 @@ BenchCommand shimmer_command(CommandLine& app) {
             }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,32 +8,32 @@
 #include <cstdio>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Arguments {
     std::filesystem::path out;
-    StabilityOptions options{"../shared/data/tracker", 4'000'000};
+    bench::StabilityOptions options{"../shared/data/tracker", 4'000'000};
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<StabilityCase> cases = stability_cases();
-    std::vector<MeasuredCase> measured;
-    for (const StabilityCase& one : cases) {
+    const std::vector<bench::StabilityCase> cases = bench::stability_cases();
+    std::vector<bench::MeasuredCase> measured;
+    for (const bench::StabilityCase& one : cases) {
         progress.show(one.theme + ": " + one.name,
                       static_cast<double>(measured.size()) / static_cast<double>(cases.size()));
-        measured.push_back({one.theme, one.name, measure(one, arguments.options)});
+        measured.push_back({one.theme, one.name, bench::measure(one, arguments.options)});
     }
     progress.clear();
-    fmt::print("{}", stability_table(measured));
+    fmt::print("{}", bench::stability_table(measured));
     std::fflush(stdout);
-    const std::vector<StepError> smoothers = smoother_step_errors();
-    const std::vector<StepError> program = program_step_errors();
-    TRY_VOID(write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
-                                       {"step_error.csv", step_error_csv(smoothers, program)}}));
+    const std::vector<bench::StepError> smoothers = bench::smoother_step_errors();
+    const std::vector<bench::StepError> program = bench::program_step_errors();
+    TRY_VOID(write_all(arguments.out, {{"stability.csv", bench::stability_csv(measured)},
+                                       {"step_error.csv", bench::step_error_csv(smoothers, program)}}));
     Result<void> drawn = draw_all(arguments.out, {"step_error.csv"});
-    if (!all_held(measured)) {
+    if (!bench::all_held(measured)) {
         return fail(ErrorKind::Internal, "bench.bound_missed", "a bound was missed; {} says which",
                     (arguments.out / "stability.csv").string());
     }
@@ -55,4 +55,4 @@ BenchCommand stability_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

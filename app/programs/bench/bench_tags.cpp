@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -21,32 +21,36 @@ struct Arguments {
 };
 
 /// The hand's motion in a recording, from a random moment on. The recording's up axis is the table's.
-std::function<PropMotion(std::mt19937_64&)> slid_as(std::shared_ptr<const std::vector<RecordedPose>> poses) {
-    return [poses = std::move(poses)](std::mt19937_64& random) -> PropMotion {
+std::function<simulators::PropMotion(std::mt19937_64&)>
+slid_as(std::shared_ptr<const std::vector<bench::RecordedPose>> poses) {
+    return [poses = std::move(poses)](std::mt19937_64& random) -> simulators::PropMotion {
         std::uniform_real_distribution<double> any_s(poses->front().t_s, poses->back().t_s);
-        return [poses, motion = slid(recorded(*poses), any_s(random))](double t_s) { return motion(t_s); };
+        return [poses, motion = bench::slid(bench::recorded(*poses), any_s(random))](double t_s) {
+            return motion(t_s);
+        };
     };
 }
 
 /// Skips missing recordings, with a line.
-Result<void> add_recordings(const std::filesystem::path& folder, std::vector<TagCase>& cases) {
+Result<void> add_recordings(const std::filesystem::path& folder, std::vector<simulators::TagCase>& cases) {
     for (const char* name : {"vicon_handheld_1.csv", "tum_fr1_xyz_groundtruth.txt"}) {
         if (!std::filesystem::exists(folder / name)) {
             say_line("frustumscreen-bench",
                      fmt::format("{}: this recording is missing and is skipped", (folder / name).string()));
             continue;
         }
-        TRY(std::vector<RecordedPose> poses, read_recorded_poses(folder / name));
-        const auto motion = slid_as(std::make_shared<const std::vector<RecordedPose>>(std::move(poses)));
+        TRY(std::vector<bench::RecordedPose> poses, bench::read_recorded_poses(folder / name));
+        const auto motion =
+            slid_as(std::make_shared<const std::vector<bench::RecordedPose>>(std::move(poses)));
         for (const double rolling_ms : {0.0, 25.0}) {
-            TagCase one;
+            simulators::TagCase one;
             one.name =
                 fmt::format("slid as in {}, {} shutter", name, rolling_ms > 0.0 ? "rolling 25 ms" : "global");
             one.motion = motion;
             one.camera.rolling_ms = rolling_ms;
             cases.push_back(one);
             if (rolling_ms > 0.0) {
-                cases.push_back(with_known_shutter(one));
+                cases.push_back(simulators::with_known_shutter(one));
             }
         }
     }
@@ -54,19 +58,19 @@ Result<void> add_recordings(const std::filesystem::path& folder, std::vector<Tag
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    std::vector<TagCase> cases = tag_cases();
+    std::vector<simulators::TagCase> cases = simulators::tag_cases();
     TRY_VOID(add_recordings(arguments.recordings, cases));
-    for (TagCase& one : cases) {
+    for (simulators::TagCase& one : cases) {
         one.decimate = arguments.half ? 2.0 : 1.0;
     }
-    std::vector<TagFigures> figures;
-    for (const TagCase& one : cases) {
+    std::vector<simulators::TagFigures> figures;
+    for (const simulators::TagCase& one : cases) {
         progress.show(one.name, static_cast<double>(figures.size()) / static_cast<double>(cases.size()));
-        figures.push_back(measure(one, arguments.pictures, arguments.seed));
+        figures.push_back(simulators::measure(one, arguments.pictures, arguments.seed));
     }
     progress.clear();
-    fmt::print("{}", table_of(figures));
-    return write_all(arguments.out, {{"tags.csv", csv_of(figures)}});
+    fmt::print("{}", simulators::table_of(figures));
+    return write_all(arguments.out, {{"tags.csv", simulators::csv_of(figures)}});
 }
 
 } // namespace
@@ -89,4 +93,4 @@ BenchCommand tags_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

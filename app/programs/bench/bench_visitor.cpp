@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -17,22 +17,23 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<VisitorCase> cases = visitor_cases();
-    const std::vector<VisitorCase> empty = empty_cases();
+    const std::vector<simulators::VisitorCase> cases = simulators::visitor_cases();
+    const std::vector<simulators::VisitorCase> empty = simulators::empty_cases();
     const auto all = static_cast<double>(cases.size() + empty.size());
-    std::vector<VisitorFigures> figures;
-    for (const VisitorCase& one : cases) {
+    std::vector<simulators::VisitorFigures> figures;
+    for (const simulators::VisitorCase& one : cases) {
         progress.show(one.name, static_cast<double>(figures.size()) / all);
-        figures.push_back(measure(one, arguments.visits, arguments.seed));
+        figures.push_back(simulators::measure(one, arguments.visits, arguments.seed));
     }
-    std::vector<WrongPresence> wrong;
-    for (const VisitorCase& one : empty) {
+    std::vector<simulators::WrongPresence> wrong;
+    for (const simulators::VisitorCase& one : empty) {
         progress.show("nobody there: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
-        wrong.push_back(measure_empty(one, arguments.minutes, arguments.seed));
+        wrong.push_back(simulators::measure_empty(one, arguments.minutes, arguments.seed));
     }
     progress.clear();
-    fmt::print("{}\n{}", table_of(figures), table_of(wrong));
-    return write_all(arguments.out, {{"visitor.csv", csv_of(figures)}, {"nobody.csv", csv_of(wrong)}});
+    fmt::print("{}\n{}", simulators::table_of(figures), simulators::table_of(wrong));
+    return write_all(arguments.out, {{"visitor.csv", simulators::csv_of(figures)},
+                                     {"nobody.csv", simulators::csv_of(wrong)}});
 }
 
 } // namespace
@@ -53,4 +54,4 @@ BenchCommand visitor_command(CommandLine& app) {
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

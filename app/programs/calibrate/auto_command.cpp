@@ -13,14 +13,14 @@
 
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 /// The JSON of a calibration by touch, with the rests' own numbers, and the members that only rests have.
-Json auto_json(const AutoCalibration& c, const Rests& rests) {
+Json auto_json(const calibration::AutoCalibration& c, const calibration::Rests& rests) {
     Json json = touch_json(c.found);
     json["repeat"] = Json::array();
     for (const std::size_t k : c.found.repeat) {
@@ -38,8 +38,9 @@ Json auto_json(const AutoCalibration& c, const Rests& rests) {
     return json;
 }
 
-std::string auto_text(const AutoCalibration& c, const Rests& rests) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.found.verdict), c.found.reason.sentence);
+std::string auto_text(const calibration::AutoCalibration& c, const calibration::Rests& rests) {
+    std::string text =
+        fmt::format("{}: {}\n", calibration::name_of(c.found.verdict), c.found.reason.sentence);
     if (!c.found.table) {
         return text;
     }
@@ -63,8 +64,9 @@ Result<int> calibrate(const CalibrateRequest& request) {
         return calibrate_by_camera(request);
     }
     TRY(const Described described, describe(request));
-    TRY(const auto rests, read_points(request, parse_rests));
-    const AutoCalibration calibration = calibrate_auto(rests, set_up_for<AutoSetup>(described, request));
+    TRY(const auto rests, read_points(request, calibration::parse_rests));
+    const calibration::AutoCalibration calibration =
+        calibration::calibrate_auto(rests, set_up_for<calibration::AutoSetup>(described, request));
     if (request.json) {
         fmt::print("{}\n", auto_json(calibration, rests).dump(2));
     } else {
@@ -111,4 +113,4 @@ void add_auto_command(CommandLine& app, CalibrateRequest& request, std::function
     });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

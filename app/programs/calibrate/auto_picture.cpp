@@ -6,83 +6,84 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-using Stage = CalibrationStage;
+using Stage = calibration::CalibrationStage;
 
-constexpr Colour ground{150, 150, 150};
-constexpr Colour ink{0, 0, 0};
-constexpr Colour place_colour{255, 255, 255};
-constexpr Colour taken_colour{0, 70, 0};
+constexpr typography::Colour ground{150, 150, 150};
+constexpr typography::Colour ink{0, 0, 0};
+constexpr typography::Colour place_colour{255, 255, 255};
+constexpr typography::Colour taken_colour{0, 70, 0};
 
 /// `filled` replaces the names in braces. The words None and Taken have no key here: the next posture's key is used.
-constexpr std::array<WordMessage<AutoPrompt>, 15> auto_messages{{
-    {AutoPrompt::NoLight,
+constexpr std::array<WordMessage<calibration::AutoPrompt>, 15> auto_messages{{
+    {calibration::AutoPrompt::NoLight,
      {"calibration.no_light",
       "The camera does not see the projector's light. Turn it to the table, then press Next."}},
-    {AutoPrompt::CameraFault, {"calibration.camera_fault", "{camera}"}},
-    {AutoPrompt::NoFrames,
+    {calibration::AutoPrompt::CameraFault, {"calibration.camera_fault", "{camera}"}},
+    {calibration::AutoPrompt::NoFrames,
      {"calibration.camera_fault",
       "The camera has stopped sending. Look at its cable; the stripes come again by themselves."}},
-    {AutoPrompt::NotSeen,
+    {calibration::AutoPrompt::NotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
-    {AutoPrompt::FewTags,
+    {calibration::AutoPrompt::FewTags,
      {"calibration.few_tags",
       "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Nothing may "
       "lie on them or stand before them; put the board more into the middle."}},
-    {AutoPrompt::TurnIt,
+    {calibration::AutoPrompt::TurnIt,
      {"calibration.turn_it", "Turn it too: the first three rests must look in different directions."}},
-    {AutoPrompt::NotFlat,
+    {calibration::AutoPrompt::NotFlat,
      {"calibration.not_flat",
       "The first three rests were not all flat. Press Back three times, and lay the board flat each time."}},
-    {AutoPrompt::LeansLittle,
+    {calibration::AutoPrompt::LeansLittle,
      {"calibration.leans_little",
       "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees."}},
-    {AutoPrompt::WrongHeight,
+    {calibration::AutoPrompt::WrongHeight,
      {"calibration.wrong_height", "It lies neither on the table nor on {block_mm:.0f} mm of board."}},
-    {AutoPrompt::Moved,
+    {calibration::AutoPrompt::Moved,
      {"calibration.board_moved",
       "It moved, or the camera did. Leave both alone; the stripes come again by themselves."}},
-    {AutoPrompt::Disturbed,
+    {calibration::AutoPrompt::Disturbed,
      {"calibration.disturbed",
       "Something passed through the light. Step back; the stripes come again by themselves."}},
-    {AutoPrompt::TooBright,
+    {calibration::AutoPrompt::TooBright,
      {"calibration.too_bright", "The tags are too bright for the camera. Shorten camera.exposure_ms in the "
                                 "settings, or close its lens a little."}},
-    {AutoPrompt::Taken, {"", "Good: {tags} of {all_tags} tags."}},
-    {AutoPrompt::Dropped, {"calibration.dropped", "The last rest is dropped."}},
-    {AutoPrompt::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
+    {calibration::AutoPrompt::Taken, {"", "Good: {tags} of {all_tags} tags."}},
+    {calibration::AutoPrompt::Dropped, {"calibration.dropped", "The last rest is dropped."}},
+    {calibration::AutoPrompt::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
 }};
-constexpr std::array<WordMessage<Posture>, 3> posture_messages{{
-    {Posture::Flat,
+constexpr std::array<WordMessage<calibration::Posture>, 3> posture_messages{{
+    {calibration::Posture::Flat,
      {"calibration.lay_flat", "Lay the board flat on the table, the prop in the ring, turned by about a "
                               "quarter from before. Take your hands away."}},
-    {Posture::Block,
+    {calibration::Posture::Block,
      {"calibration.lay_on_boards",
       "Lay the board flat on {block_mm:.0f} mm of board, the prop in the ring. Take your hands away."}},
-    {Posture::Leaning,
+    {calibration::Posture::Leaning,
      {"calibration.lean",
       "Lean the board on the wedge by 15 to 30 degrees, the prop about in the ring. Take your hands away."}},
 }};
 
-std::string filled(std::string_view english, const AutoProcedure& procedure) {
+std::string filled(std::string_view english, const calibration::AutoProcedure& procedure) {
     using fmt::arg;
-    return fmt::format(fmt::runtime(english), arg("camera", as_sentence(sentence_of(procedure.camera()))),
-                       arg("tags", procedure.tags()), arg("all_tags", procedure.board().tags.size()),
-                       arg("least_tags", AutoProcedure::min_tags), arg("least_rests", procedure.least()),
-                       arg("block_mm", 1e3 * procedure.plan().block_m));
+    return fmt::format(
+        fmt::runtime(english), arg("camera", as_sentence(camera::sentence_of(procedure.camera()))),
+        arg("tags", procedure.tags()), arg("all_tags", procedure.board().tags.size()),
+        arg("least_tags", calibration::AutoProcedure::min_tags), arg("least_rests", procedure.least()),
+        arg("block_mm", 1e3 * procedure.plan().block_m));
 }
 
-TableWords words_of_begin(const AutoProcedure& procedure) {
+TableWords words_of_begin(const calibration::AutoProcedure& procedure) {
     const bool may_go_on = procedure.plan().crosses_follow;
     if (!procedure.problem().empty()) {
         return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
-    if (procedure.word() == AutoPrompt::CameraFault) {
+    if (procedure.word() == calibration::AutoPrompt::CameraFault) {
         return {key_of(procedure.word(), {}, may_go_on),
-                {"The camera cannot be used now", as_sentence(sentence_of(procedure.camera())),
+                {"The camera cannot be used now", as_sentence(camera::sentence_of(procedure.camera())),
                  may_go_on ? "Put that right, or press Back to measure the table with crosses."
                            : "Put that right. Back returns to the exhibit."}};
     }
@@ -100,15 +101,15 @@ TableWords words_of_begin(const AutoProcedure& procedure) {
 }
 
 /// Words before a pattern: the delay will be measured, or a rest taken.
-TableWords words_of_point(const AutoProcedure& procedure) {
-    const Posture requested = procedure.request().posture;
+TableWords words_of_point(const calibration::AutoProcedure& procedure) {
+    const calibration::Posture requested = procedure.request().posture;
     const bool is_delay = procedure.stage() == Stage::Delay;
     const bool may_go_on = is_delay && procedure.plan().crosses_follow;
     TableWords words;
     if (is_delay) {
         words = {"calibration.look_at_light",
                  {"The camera looks at the light",
-                  may_go_on && procedure.word() != AutoPrompt::None
+                  may_go_on && procedure.word() != calibration::AutoPrompt::None
                       ? "Light and dark follow each other. Back goes on to the crosses."
                       : "Light and dark follow each other. Back returns."}};
     } else {
@@ -116,38 +117,39 @@ TableWords words_of_point(const AutoProcedure& procedure) {
                  {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
                   filled(message_of(posture_messages, requested).english, procedure)}};
     }
-    if (!is_delay || procedure.word() != AutoPrompt::None) {
+    if (!is_delay || procedure.word() != calibration::AutoPrompt::None) {
         words.add(key_of(procedure.word(), requested, may_go_on),
                   filled(message_of(auto_messages, procedure.word()).english, procedure));
     }
     // The procedure goes on with these faults.
-    if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
-        words.add("", as_sentence(sentence_of(procedure.camera())));
+    if (procedure.camera() == camera::CameraState::Slow ||
+        procedure.camera() == camera::CameraState::Unlocked) {
+        words.add("", as_sentence(camera::sentence_of(procedure.camera())));
     }
     return words;
 }
 
 /// Tells what the two buttons do after the verdict.
-Message choice_of(const TouchCalibration& found) {
+Message choice_of(const calibration::TouchCalibration& found) {
     switch (found.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
+    case calibration::Verdict::Good:
+    case calibration::Verdict::Usable:
         return {"calibration.may_be_kept", "Next keeps it. Back goes on with four more rests."};
-    case Verdict::Repeat:
+    case calibration::Verdict::Repeat:
         return found.repeat.empty()
                    ? Message{"calibration.more_rests", "Next goes on with four more rests."}
                    : Message{"calibration.repeat",
                              "Next replaces the doubtful rests. Back goes on with four more rests."};
-    case Verdict::Refused:
+    case calibration::Verdict::Refused:
         break;
     }
     return {"calibration.refused", "Next begins anew. Back goes on with four more rests."};
 }
 
-TableWords words_of_verdict(const TouchCalibration& found) {
-    TableWords words{
-        "",
-        {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason.sentence)}};
+TableWords words_of_verdict(const calibration::TouchCalibration& found) {
+    TableWords words{"",
+                     {fmt::format("The calibration is: {}", calibration::name_of(found.verdict)),
+                      as_sentence(found.reason.sentence)}};
     if (found.table) {
         words.add(
             "",
@@ -159,7 +161,7 @@ TableWords words_of_verdict(const TouchCalibration& found) {
     return words;
 }
 
-TableWords words_of_stage(const AutoProcedure& procedure) {
+TableWords words_of_stage(const calibration::AutoProcedure& procedure) {
     switch (procedure.stage()) {
     case Stage::Begin:
         return words_of_begin(procedure);
@@ -177,9 +179,9 @@ TableWords words_of_stage(const AutoProcedure& procedure) {
     }
 }
 
-Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
-    const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
-    Image8 picture(stripes.width, stripes.height);
+image::Image8 grey_picture(const calibration::StripeSetup& stripes, const calibration::Pattern& pattern) {
+    const std::vector<std::uint8_t> codes = calibration::pattern_picture(stripes, pattern);
+    image::Image8 picture(stripes.width, stripes.height);
     std::transform(codes.begin(), codes.end(), picture.texels.begin(),
                    [](std::uint8_t code) { return glm::u8vec4(code, code, code, 255); });
     return picture;
@@ -187,26 +189,27 @@ Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
 
 } // namespace
 
-TableWords table_words(const AutoProcedure& procedure) {
+TableWords table_words(const calibration::AutoProcedure& procedure) {
     TableWords words = procedure.shown() ? TableWords() : words_of_stage(procedure);
     words.of = procedure.number();
     return words;
 }
 
-std::string_view key_of(AutoPrompt word, Posture requested, bool may_go_on) {
-    if (may_go_on && (word == AutoPrompt::CameraFault || word == AutoPrompt::NoFrames)) {
+std::string_view key_of(calibration::AutoPrompt word, calibration::Posture requested, bool may_go_on) {
+    if (may_go_on &&
+        (word == calibration::AutoPrompt::CameraFault || word == calibration::AutoPrompt::NoFrames)) {
         return "calibration.no_camera";
     }
     const std::string_view key = message_of(auto_messages, word).key;
     return key.empty() ? message_of(posture_messages, requested).key : key;
 }
 
-Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
+image::Image8 table_picture(const calibration::AutoProcedure& procedure, const TableDrawing& with) {
     if (procedure.shown()) {
         return grey_picture(procedure.plan().stripes, *procedure.shown());
     }
     const auto [width, height] = std::pair(with.width, with.height);
-    Canvas canvas(width, height, ground);
+    typography::Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
     const bool has_place = procedure.stage() == Stage::Place;
     const glm::dvec2 place = procedure.request().pixel;
@@ -218,7 +221,7 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     // The words are in the half of the picture without the board.
     const bool below = !has_place || place.y < 0.45 * height;
     const TableWords words = table_words(procedure);
-    const Image<std::uint8_t> coverage =
+    const image::Image<std::uint8_t> coverage =
         above(house_sentence(with.house, words.key, 0.7 * width),
               with.typesetter.set(paragraphs_of(words.lines, unit), 0.7 * width), 2.0 * unit);
     const double room = height - 5.0 * unit - coverage.height;
@@ -234,4 +237,4 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

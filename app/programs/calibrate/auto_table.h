@@ -11,15 +11,16 @@
 #include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_devices.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Runs the procedure and keeps its result. `settings` have a camera. `crosses_follow`: Back goes on to the
 /// crosses instead of leaving.
-[[nodiscard]] Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateRequest& request,
-                                               const Board& board, TableDevices& devices,
+[[nodiscard]] Result<WayEnd> measure_by_camera(const settings::Settings& settings,
+                                               const CalibrateRequest& request,
+                                               const calibration::Board& board, TableDevices& devices,
                                                bool crosses_follow);
 
 /// Runs `frustumscreen-calibrate auto` without a file; returns the exit status.
 [[nodiscard]] Result<int> calibrate_by_camera(const CalibrateRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

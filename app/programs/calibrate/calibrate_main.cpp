@@ -10,7 +10,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/version.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 int run(int argc, char** argv) {
@@ -41,8 +41,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-calibrate", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-calibrate", frustumscreen::programs::run,
+                                                 argc, argv);
 }

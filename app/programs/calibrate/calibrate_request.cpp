@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void add_common_options(CommandLine& command, CalibrateRequest& request) {
     command.add_option("--from", request.from, "the points, CSV").required();
@@ -72,19 +72,22 @@ Result<void> check_sensor_height(std::optional<double> height_m, std::optional<d
 Result<Described> describe(const CalibrateRequest& request) {
     if (!request.picture.empty()) {
         TRY_VOID(check_sensor_height(request.sensor_height_m, std::nullopt));
-        return Described{std::nullopt, request.picture[0], request.picture[1]};
+        return Described{.settings = std::nullopt, .width = request.picture[0], .height = request.picture[1]};
     }
-    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     TRY_VOID(check_sensor_height(request.sensor_height_m, settings->prop.height_m));
     return described_by(*settings);
 }
 
-Described described_by(const Settings& settings) {
-    const Pinhole& pinhole = settings.projector.pinhole;
-    return {settings, pinhole.width, pinhole.height, settings.prop.height_m};
+Described described_by(const settings::Settings& settings) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
+    return {.settings = settings,
+            .width = pinhole.width,
+            .height = pinhole.height,
+            .top_m = settings.prop.height_m};
 }
 
-nlohmann::ordered_json matrix_json(const RigidTransform& transform) {
+nlohmann::ordered_json matrix_json(const geometry::RigidTransform& transform) {
     const glm::dmat4 matrix = transform.matrix();
     nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
     for (int column = 0; column < 4; ++column) {
@@ -95,7 +98,8 @@ nlohmann::ordered_json matrix_json(const RigidTransform& transform) {
     return numbers;
 }
 
-nlohmann::ordered_json projector_json(const Pinhole& pinhole, const RigidTransform& table_from_projector) {
+nlohmann::ordered_json projector_json(const geometry::Pinhole& pinhole,
+                                      const geometry::RigidTransform& table_from_projector) {
     return {{"width", pinhole.width},
             {"height", pinhole.height},
             {"fx", pinhole.fx},
@@ -107,7 +111,7 @@ nlohmann::ordered_json projector_json(const Pinhole& pinhole, const RigidTransfo
             {"table_from_projector", matrix_json(table_from_projector)}};
 }
 
-std::string projector_text(const RigidTransform& table_from_projector) {
+std::string projector_text(const geometry::RigidTransform& table_from_projector) {
     const glm::dvec3& lens = table_from_projector.translation;
     return fmt::format(
         "The projector is {:.3f} m above the table, {:.0f} mm to the {} of its picture's middle "
@@ -120,13 +124,14 @@ int end_with(const Result<int>& status) {
     return status ? *status : exit_status("frustumscreen-calibrate", tl::unexpected<Error>(status.error()));
 }
 
-int status_of(Verdict verdict, const CalibrateRequest& request, const VerdictReason& reason) {
-    if (verdict == Verdict::Good || verdict == Verdict::Usable) {
+int status_of(calibration::Verdict verdict, const CalibrateRequest& request,
+              const calibration::VerdictReason& reason) {
+    if (verdict == calibration::Verdict::Good || verdict == calibration::Verdict::Usable) {
         return 0;
     }
-    fmt::print(stderr, "frustumscreen-calibrate: {}: {}: {} [{}]\n", request.from.string(), name_of(verdict),
-               reason.sentence, reason.id.view());
+    fmt::print(stderr, "frustumscreen-calibrate: {}: {}: {} [{}]\n", request.from.string(),
+               calibration::name_of(verdict), reason.sentence, reason.id.view());
     return 1;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

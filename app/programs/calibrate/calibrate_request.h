@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct CalibrateRequest {
     std::filesystem::path from;
@@ -44,8 +44,8 @@ struct CalibrateRequest {
 
 /// Data known before anything is measured.
 struct Described {
-    std::optional<Settings> settings; ///< none if --picture replaces them
-    int width = 0;                    ///< of the picture
+    std::optional<settings::Settings> settings; ///< none if --picture replaces them
+    int width = 0;                              ///< of the picture
     int height = 0;
     double top_m = 0.12; ///< the prop's height
 };
@@ -58,7 +58,7 @@ void add_touch_options(CommandLine& command, CalibrateRequest& request);
 /// Throws a WrongUse if options contradict each other.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
-[[nodiscard]] Described described_by(const Settings& settings);
+[[nodiscard]] Described described_by(const settings::Settings& settings);
 /// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the
 /// prop's height, if known.
 [[nodiscard]] Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m);
@@ -89,15 +89,16 @@ template <typename Setup>
 }
 
 /// 16 numbers, column by column.
-[[nodiscard]] nlohmann::ordered_json matrix_json(const RigidTransform& transform);
-[[nodiscard]] nlohmann::ordered_json projector_json(const Pinhole& pinhole,
-                                                    const RigidTransform& table_from_projector);
+[[nodiscard]] nlohmann::ordered_json matrix_json(const geometry::RigidTransform& transform);
+[[nodiscard]] nlohmann::ordered_json projector_json(const geometry::Pinhole& pinhole,
+                                                    const geometry::RigidTransform& table_from_projector);
 /// The projector's place, one sentence.
-[[nodiscard]] std::string projector_text(const RigidTransform& table_from_projector);
+[[nodiscard]] std::string projector_text(const geometry::RigidTransform& table_from_projector);
 /// 0 if the calibration may be used; otherwise 1, and the reason goes to standard error, with its id.
-[[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const VerdictReason& reason);
+[[nodiscard]] int status_of(calibration::Verdict verdict, const CalibrateRequest& request,
+                            const calibration::VerdictReason& reason);
 
 /// Reports the error, if any, and returns the exit status.
 [[nodiscard]] int end_with(const Result<int>& status);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 enum class CalibrationWay {
     TouchUp, ///< by crosses: only what moved since the kept calibration
@@ -49,4 +49,4 @@ enum class WayEnd {
                                 : problem);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,20 +10,21 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 /// The JSON of a calibration by touch, without the tracker's members.
-Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
+Json corners_json(const calibration::CornerCalibration& c,
+                  const calibration::CornerUncertainty& uncertainty) {
     Json json{{"projector", nullptr},        {"table_from_tracker", nullptr},
               {"sensor_offset_m", nullptr},  {"residual_mm", nullptr},
               {"residual_px", nullptr},      {"centre_m", nullptr},
               {"angles_deg", nullptr},       {"condition", nullptr},
               {"uncertainty_mm", nullptr},   {"within_mm", nullptr},
-              {"ruler_mm", nullptr},         {"verdict", name_of(c.verdict)},
+              {"ruler_mm", nullptr},         {"verdict", calibration::name_of(c.verdict)},
               {"reason", c.reason.sentence}, {"reason_id", c.reason.id.view()},
               {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
@@ -43,8 +44,9 @@ Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertain
     return json;
 }
 
-std::string corners_text(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason.sentence);
+std::string corners_text(const calibration::CornerCalibration& c,
+                         const calibration::CornerUncertainty& uncertainty) {
+    std::string text = fmt::format("{}: {}\n", calibration::name_of(c.verdict), c.reason.sentence);
     if (c.pinhole) {
         text += fmt::format("The light comes from ({:.3f}, {:.3f}, {:.3f}) m in the frame that the corners "
                             "were measured in, {:.1f} degrees "
@@ -55,17 +57,19 @@ std::string corners_text(const CornerCalibration& c, const CornerUncertainty& un
         text += fmt::format(
             "A corner is measured to {:.1f} mm (one standard deviation); with a lens that does not "
             "distort {}.\n",
-            1e3 * uncertainty.ruler_error_m, in_words(uncertainty.picture));
+            1e3 * uncertainty.ruler_error_m, calibration::in_words(uncertainty.picture));
     }
     return text;
 }
 
 Result<int> corners(const CalibrateRequest& request) {
     TRY(const Described described, describe(request));
-    TRY(const auto measured, read_points(request, parse_corners));
-    const CornerCalibration calibration = calibrate_corners(measured, described.width, described.height);
-    const CornerUncertainty uncertainty =
-        calibration.pinhole ? uncertainty_of(calibration, measured, described.top_m) : CornerUncertainty{};
+    TRY(const auto measured, read_points(request, calibration::parse_corners));
+    const calibration::CornerCalibration calibration =
+        calibration::calibrate_corners(measured, described.width, described.height);
+    const calibration::CornerUncertainty uncertainty =
+        calibration.pinhole ? calibration::uncertainty_of(calibration, measured, described.top_m)
+                            : calibration::CornerUncertainty{};
     if (request.json) {
         fmt::print("{}\n", corners_json(calibration, uncertainty).dump(2));
     } else {
@@ -93,4 +97,4 @@ void add_corners_command(CommandLine& app, CalibrateRequest& request, std::funct
     command.callback([&] { chosen = [&] { return end_with(corners(request)); }; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,9 +8,9 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_corners_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -23,7 +23,7 @@ Json vector_json(const glm::dvec3& v) {
 }
 
 /// Every key is always present; unknown values are null.
-Json eye_json(const EyeFit& fit) {
+Json eye_json(const calibration::EyeFit& fit) {
     Json json{{"eye_in_sensor_m", nullptr},
               {"deviation_mm", nullptr},
               {"left_m", nullptr},
@@ -33,7 +33,7 @@ Json eye_json(const EyeFit& fit) {
               {"hidden_error_mm", nullptr},
               {"residual_mm", nullptr},
               {"rows", Json::array()},
-              {"verdict", name_of(fit.verdict)},
+              {"verdict", calibration::name_of(fit.verdict)},
               {"reason", fit.reason.sentence},
               {"reason_id", fit.reason.id.view()},
               {"repeat", Json::array()}};
@@ -41,7 +41,7 @@ Json eye_json(const EyeFit& fit) {
         json["repeat"].push_back(row + 1);
     }
     if (fit.eyes) {
-        const EyeFit::Eyes& eyes = *fit.eyes;
+        const calibration::EyeFit::Eyes& eyes = *fit.eyes;
         const Eigen::Vector3d deviation = eyes.covariance.diagonal().cwiseSqrt();
         json["eye_in_sensor_m"] = vector_json(eyes.middle_m);
         json["deviation_mm"] = {1e3 * deviation.x(), 1e3 * deviation.y(), 1e3 * deviation.z()};
@@ -58,8 +58,8 @@ Json eye_json(const EyeFit& fit) {
     return json;
 }
 
-std::string eye_text(const EyeFit& fit) {
-    std::string text = fmt::format("{}: {}\n", name_of(fit.verdict), fit.reason.sentence);
+std::string eye_text(const calibration::EyeFit& fit) {
+    std::string text = fmt::format("{}: {}\n", calibration::name_of(fit.verdict), fit.reason.sentence);
     if (fit.eyes) {
         const glm::dvec3& eye = fit.eyes->middle_m;
         text += fmt::format("The point between the eyes, in the head's sensor: eye_in_sensor_m = [{:.4f}, "
@@ -74,19 +74,19 @@ std::string eye_text(const EyeFit& fit) {
 }
 
 /// The crosses for the prop at its requested place and a head at the visitors' usual place.
-Json crosses_json(const Settings& settings) {
-    const SightScene scene = sight_scene(settings);
-    const SightPlan plan =
-        plan_sights(scene, first_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
+Json crosses_json(const settings::Settings& settings) {
+    const calibration::SightScene scene = sight_scene(settings);
+    const calibration::SightPlan plan = calibration::plan_sights(
+        scene, calibration::first_place(scene), scene.usual_eye_m, calibration::EyeProcedure::max_of_each);
     Json crosses = Json::array();
-    for (const SightCross& cross : plan.crosses) {
+    for (const calibration::SightCross& cross : plan.crosses) {
         crosses.push_back(
             {{"u_px", cross.pixel.x}, {"v_px", cross.pixel.y}, {"tip_m", vector_json(cross.tip_m)}});
     }
-    return {{"table_from_prop", matrix_json(first_place(scene))}, {"crosses", crosses}};
+    return {{"table_from_prop", matrix_json(calibration::first_place(scene))}, {"crosses", crosses}};
 }
 
-Result<int> on_table(const Settings& settings, const CalibrateRequest& request) {
+Result<int> on_table(const settings::Settings& settings, const CalibrateRequest& request) {
     if (request.json) {
         fmt::print("{}\n", crosses_json(settings).dump(2));
         return 0;
@@ -94,13 +94,13 @@ Result<int> on_table(const Settings& settings, const CalibrateRequest& request) 
     return calibrate_eyes(settings, request).map([] { return 0; });
 }
 
-Result<int> from_file(const Settings& settings, const CalibrateRequest& request) {
+Result<int> from_file(const settings::Settings& settings, const CalibrateRequest& request) {
     if (const std::string why = why_no_eye(settings); request.keep && !why.empty()) {
         return fail(ErrorKind::BadConfiguration, "calibrate.no_kept_table", "{}: {}",
                     settings.calibration.folder.string(), why);
     }
-    TRY(const auto reported, read_points(request, parse_sights));
-    const std::optional<EyeFit> fit = fit_reported(reported, settings);
+    TRY(const auto reported, read_points(request, calibration::parse_sights));
+    const std::optional<calibration::EyeFit> fit = fit_reported(reported, settings);
     if (!fit) {
         return bad_input(
             "calibrate.cross_without_light",
@@ -120,7 +120,7 @@ Result<int> from_file(const Settings& settings, const CalibrateRequest& request)
 }
 
 Result<int> eye(const CalibrateRequest& request) {
-    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     return request.from.empty() ? on_table(*settings, request) : from_file(*settings, request);
 }
 
@@ -147,4 +147,4 @@ void add_eye_command(CommandLine& app, CalibrateRequest& request, std::function<
     command.callback([&] { chosen = [&] { return end_with(eye(request)); }; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

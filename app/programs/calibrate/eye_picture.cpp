@@ -7,43 +7,43 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-using Stage = CalibrationStage;
+using Stage = calibration::CalibrationStage;
 
-constexpr std::array<WordMessage<EyePrompt>, 9> eye_messages{{
-    {EyePrompt::PropMoves,
+constexpr std::array<WordMessage<calibration::EyePrompt>, 9> eye_messages{{
+    {calibration::EyePrompt::PropMoves,
      {"calibration.eyes.block_moves", "The prop is not at rest yet. Take your hands away."}},
-    {EyePrompt::PropMoved,
+    {calibration::EyePrompt::PropMoved,
      {"calibration.eyes.block_moved",
       "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again."}},
-    {EyePrompt::PropNotSeen,
+    {calibration::EyePrompt::PropNotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
-    {EyePrompt::HeadNotSeen,
+    {calibration::EyePrompt::HeadNotSeen,
      {"calibration.eyes.head_not_seen",
       "The tracker does not see the sensor on your head. Look at its cable, and come nearer."}},
-    {EyePrompt::OffTable,
+    {calibration::EyePrompt::OffTable,
      {"calibration.eyes.off_table", "The prop does not stand as the table was measured. Stand it upright; if "
                                     "it is upright, put the picture right first (table --touch-up)."}},
-    {EyePrompt::NoRoom,
+    {calibration::EyePrompt::NoRoom,
      {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
-    {EyePrompt::HeadMoved,
+    {calibration::EyePrompt::HeadMoved,
      {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second begins anew."}},
-    {EyePrompt::SameHead,
+    {calibration::EyePrompt::SameHead,
      {"calibration.eyes.same_head",
       "Your head is held as before. Hold it as it is asked for, then press Next again."}},
-    {EyePrompt::Taken, {"", "Good."}},
+    {calibration::EyePrompt::Taken, {"", "Good."}},
 }};
-constexpr std::array<WordMessage<HeadPosture>, 4> posture_messages{{
-    {HeadPosture::ChinUp, {"calibration.eyes.chin_up", "chin up"}},
-    {HeadPosture::ChinDown, {"calibration.eyes.chin_down", "chin down"}},
-    {HeadPosture::TurnedLeft, {"calibration.eyes.turned_left", "face turned to the left"}},
-    {HeadPosture::TurnedRight, {"calibration.eyes.turned_right", "face turned to the right"}},
+constexpr std::array<WordMessage<calibration::HeadPosture>, 4> posture_messages{{
+    {calibration::HeadPosture::ChinUp, {"calibration.eyes.chin_up", "chin up"}},
+    {calibration::HeadPosture::ChinDown, {"calibration.eyes.chin_down", "chin down"}},
+    {calibration::HeadPosture::TurnedLeft, {"calibration.eyes.turned_left", "face turned to the left"}},
+    {calibration::HeadPosture::TurnedRight, {"calibration.eyes.turned_right", "face turned to the right"}},
 }};
 
-TableWords words_of_begin(const EyeProcedure& procedure) {
+TableWords words_of_begin(const calibration::EyeProcedure& procedure) {
     if (!procedure.problem().empty()) {
         return why_not("The eyes cannot be measured", procedure.problem(), "Back leaves.");
     }
@@ -57,9 +57,9 @@ TableWords words_of_begin(const EyeProcedure& procedure) {
          "Next begins. Back leaves; so does a minute without a press."}};
 }
 
-TableWords words_of_sight(const EyeProcedure& procedure) {
-    const AskedSight& asked = procedure.asked();
-    const bool is_left = asked.eye == OpenEye::Left;
+TableWords words_of_sight(const calibration::EyeProcedure& procedure) {
+    const calibration::AskedSight& asked = procedure.asked();
+    const bool is_left = asked.eye == calibration::OpenEye::Left;
     const char* const open = is_left ? "left" : "right";
     const std::string sight = fmt::format("Sighting {} of {}", procedure.at() + 1, procedure.count());
     if (procedure.stage() == Stage::HoldStill) {
@@ -82,26 +82,27 @@ TableWords words_of_sight(const EyeProcedure& procedure) {
 }
 
 /// Tells what the two buttons do after the verdict.
-Message choice_of(const EyeProcedure& procedure) {
+Message choice_of(const calibration::EyeProcedure& procedure) {
     switch (procedure.judged()->verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
+    case calibration::Verdict::Good:
+    case calibration::Verdict::Usable:
         return {"calibration.eyes.may_be_kept",
                 "Next keeps it. Back does the sighting again that lies farthest off."};
-    case Verdict::Repeat:
+    case calibration::Verdict::Repeat:
         return procedure.asks_for_more()
                    ? Message{"calibration.more_rests", "Next brings more sightings."}
                    : Message{"calibration.repeat", "Next does the doubtful sightings again."};
-    case Verdict::Refused:
+    case calibration::Verdict::Refused:
         break;
     }
     return {"calibration.eyes.refused", "Next begins anew. Back does one sighting again."};
 }
 
-TableWords words_of_verdict(const EyeProcedure& procedure) {
-    const EyeFit& fit = *procedure.judged();
-    TableWords words{
-        "", {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason.sentence)}};
+TableWords words_of_verdict(const calibration::EyeProcedure& procedure) {
+    const calibration::EyeFit& fit = *procedure.judged();
+    TableWords words{"",
+                     {fmt::format("The eyes' place is: {}", calibration::name_of(fit.verdict)),
+                      as_sentence(fit.reason.sentence)}};
     if (fit.eyes) {
         words.add("",
                   fmt::format(
@@ -112,7 +113,7 @@ TableWords words_of_verdict(const EyeProcedure& procedure) {
     return words;
 }
 
-TableWords words_of_stage(const EyeProcedure& procedure) {
+TableWords words_of_stage(const calibration::EyeProcedure& procedure) {
     switch (procedure.stage()) {
     case Stage::Begin:
         return words_of_begin(procedure);
@@ -140,22 +141,23 @@ bool has_cross(Stage stage) {
 /// Draws lines between points in the table's frame.
 class SightDrawing {
 public:
-    SightDrawing(const EyeProcedure& procedure, Canvas& canvas)
+    SightDrawing(const calibration::EyeProcedure& procedure, typography::Canvas& canvas)
         : procedure_(procedure), scene_(procedure.scene()), canvas_(canvas),
           unit_(scene_.pinhole.width / 160.0) {}
 
     /// The square on which the prop should stand.
     void square() {
-        const RigidTransform place = first_place(scene_);
+        const geometry::RigidTransform place = calibration::first_place(scene_);
         std::array<glm::dvec2, 4> bottom{};
         for (std::size_t k = 0; k < bottom.size(); ++k) {
             bottom[k] = pixel(place.point(scene_.prop.corners[k]));
         }
         canvas_.outline(bottom, 0.5 * unit_, TableColours::front);
     }
-    void cross(Colour colour) {
+    void cross(typography::Colour colour) {
         const glm::dvec3& middle = procedure_.cross().cross_m;
-        for (const glm::dvec3& arm : {glm::dvec3(cross_arm_m, 0.0, 0.0), glm::dvec3(0.0, cross_arm_m, 0.0)}) {
+        for (const glm::dvec3& arm : {glm::dvec3(calibration::cross_arm_m, 0.0, 0.0),
+                                      glm::dvec3(0.0, calibration::cross_arm_m, 0.0)}) {
             line(middle - arm, middle + arm, 0.2 * unit_, colour);
         }
         canvas_.circle(procedure_.cross().pixel, 0.8 * unit_, 0.2 * unit_, colour);
@@ -180,7 +182,7 @@ public:
 
 private:
     [[nodiscard]] glm::dvec2 pixel(const glm::dvec3& point) const {
-        return pixel_of(scene_, point).value_or(glm::dvec2(-1e4));
+        return calibration::pixel_of(scene_, point).value_or(glm::dvec2(-1e4));
     }
     [[nodiscard]] glm::dvec3 middle_of_top() const {
         glm::dvec3 sum(0.0);
@@ -194,22 +196,22 @@ private:
         }
         return sum / count;
     }
-    void line(const glm::dvec3& from, const glm::dvec3& to, double width, Colour colour) {
+    void line(const glm::dvec3& from, const glm::dvec3& to, double width, typography::Colour colour) {
         canvas_.line(pixel(from), pixel(to), width, colour);
     }
 
-    const EyeProcedure& procedure_;
-    const SightScene& scene_;
-    Canvas& canvas_;
+    const calibration::EyeProcedure& procedure_;
+    const calibration::SightScene& scene_;
+    typography::Canvas& canvas_;
     double unit_;
 };
 
 /// The sentence in the house's language, also the head's posture while the corner is brought over the cross,
 /// above the English lines.
-Image<std::uint8_t> words_at(const EyeProcedure& procedure, const TableDrawing& with, double width,
-                             double unit) {
+image::Image<std::uint8_t> words_at(const calibration::EyeProcedure& procedure, const TableDrawing& with,
+                                    double width, double unit) {
     const TableWords said = table_words(procedure);
-    Image<std::uint8_t> words = with.typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
+    image::Image<std::uint8_t> words = with.typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
     const auto put_above = [&](std::string_view key) {
         words = above(house_sentence(with.house, key, 0.95 * width, beside_em), words, 2.0 * unit);
     };
@@ -222,21 +224,23 @@ Image<std::uint8_t> words_at(const EyeProcedure& procedure, const TableDrawing& 
 }
 
 /// Draws the words as large as they fit into the box, at its lower end, where the person stands.
-void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawing& with) {
-    const WordsBox& box = procedure.words();
+void draw_words(typography::Canvas& canvas, const calibration::EyeProcedure& procedure,
+                const TableDrawing& with) {
+    const calibration::WordsBox& box = procedure.words();
     const double row = box.size().x / (4.0 * static_cast<double>(procedure.count() + 1));
     const double dot = std::fmin(procedure.scene().pinhole.width / 160.0, row);
     const double height = box.size().y - 5.0 * dot;
     constexpr double smaller = 0.9, smallest = 0.3;
     double share = 1.0;
-    Image<std::uint8_t> words;
+    image::Image<std::uint8_t> words;
     do {
         words =
             words_at(procedure, with, share * box.size().x, share * procedure.scene().pinhole.width / 160.0);
         share *= smaller;
     } while ((words.height > height || words.width > box.size().x) && share > smallest);
     const glm::dvec2 corner(box.low.x, box.high.y - 5.0 * dot - words.height);
-    const bool is_well = procedure.word() == EyePrompt::Taken || procedure.word() == EyePrompt::None;
+    const bool is_well =
+        procedure.word() == calibration::EyePrompt::Taken || procedure.word() == calibration::EyePrompt::None;
     canvas.coverage(words, glm::ivec2(glm::max(corner, glm::dvec2(0.0))),
                     is_well ? TableColours::white : TableColours::front);
     draw_dots(canvas, {0.5 * (box.low.x + box.high.x), box.high.y - 2.0 * dot}, dot,
@@ -247,7 +251,7 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawin
 
 } // namespace
 
-TableWords table_words(const EyeProcedure& procedure) {
+TableWords table_words(const calibration::EyeProcedure& procedure) {
     TableWords words = words_of_stage(procedure);
     const Stage stage = procedure.stage();
     if (stage > Stage::Begin && stage < Stage::Solve) {
@@ -258,15 +262,15 @@ TableWords table_words(const EyeProcedure& procedure) {
     return words;
 }
 
-Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with) {
-    Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
+image::Image8 table_picture(const calibration::EyeProcedure& procedure, const TableDrawing& with) {
+    typography::Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
     SightDrawing drawing(procedure, canvas);
     if (!procedure.knows_place() && procedure.stage() != Stage::Left) {
         drawing.square();
     }
     if (has_cross(procedure.stage())) {
         const bool is_held = procedure.stage() == Stage::HoldStill;
-        const bool moved = procedure.word() == EyePrompt::HeadMoved;
+        const bool moved = procedure.word() == calibration::EyePrompt::HeadMoved;
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();
     }
@@ -274,4 +278,4 @@ Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with) {
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,18 +14,19 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] SightScene sight_scene(const Settings& settings);
+[[nodiscard]] calibration::SightScene sight_scene(const settings::Settings& settings);
 
 /// The fit on the settings' table. Nothing if the light of a cross does not reach the table.
-[[nodiscard]] std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights,
-                                                 const Settings& settings);
+[[nodiscard]] std::optional<calibration::EyeFit>
+fit_reported(std::span<const calibration::ReportedSight> sights, const settings::Settings& settings);
 
 /// Runs the procedure and keeps its result; nothing if it ended without an eye.
 [[nodiscard]] Result<std::optional<WayEnd>>
-measure_eyes(const Settings& settings, const CalibrateRequest& request, TableDevices& devices);
+measure_eyes(const settings::Settings& settings, const CalibrateRequest& request, TableDevices& devices);
 /// Runs the procedure alone; an end without an eye is an error.
-[[nodiscard]] Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request);
+[[nodiscard]] Result<void> calibrate_eyes(const settings::Settings& settings,
+                                          const CalibrateRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

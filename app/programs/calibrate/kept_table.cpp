@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -17,20 +17,21 @@ const glm::dvec3 up(0.0, 0.0, 1.0);
 
 } // namespace
 
-RigidTransform settings_from_measured(const ProjectorSettings& projector) {
+geometry::RigidTransform settings_from_measured(const settings::ProjectorSettings& projector) {
     const glm::dvec2 middle = 0.5 * glm::dvec2(projector.pinhole.width, projector.pinhole.height);
     const auto lit = [&](const glm::dvec2& pixel) { // checked settings light the table
-        return lights_table(projector.pinhole, projector.table_from_projector, pixel).value();
+        return geometry::lights_table(projector.pinhole, projector.table_from_projector, pixel).value();
     };
     const glm::dvec2 origin = lit(middle);
     const glm::dvec2 along_u = lit(middle + glm::dvec2(1.0, 0.0)) - origin;
     return {glm::angleAxis(std::atan2(along_u.y, along_u.x), up), glm::dvec3(origin, 0.0)};
 }
 
-RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const Touch> touches,
-                                const RigidTransform& described) {
+geometry::RigidTransform sensor_from_prop(const calibration::CalibratedTable& table,
+                                          std::span<const calibration::Touch> touches,
+                                          const geometry::RigidTransform& described) {
     const glm::dvec3 up_in_tracker = glm::inverse(table.table_from_tracker.rotation) * up;
-    const std::vector<bool> upright = upright_ones(touches, up_in_tracker);
+    const std::vector<bool> upright = calibration::upright_ones(touches, up_in_tracker);
     glm::dvec3 axis(0.0); // the table's +Z in the sensor
     for (std::size_t k = 0; k < touches.size(); ++k) {
         axis += upright[k] ? glm::inverse(touches[k].tracker_from_sensor.rotation) * up_in_tracker
@@ -45,10 +46,11 @@ RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const To
     return {glm::normalize(glm::rotation(rotation * up, axis) * rotation), table.sensor_offset_m};
 }
 
-Calibration kept_table(const CalibratedTable& table, const RigidTransform& sensor_from_prop,
-                       const Settings& settings) {
-    const RigidTransform settings_table = settings_from_measured(settings.projector);
-    Calibration kept;
+settings::Calibration kept_table(const calibration::CalibratedTable& table,
+                                 const geometry::RigidTransform& sensor_from_prop,
+                                 const settings::Settings& settings) {
+    const geometry::RigidTransform settings_table = settings_from_measured(settings.projector);
+    settings::Calibration kept;
     kept.pinhole = table.pinhole;
     kept.table_from_projector = settings_table * table.table_from_projector;
     kept.registration = settings.tracker.registration; // keeps the eye in the head's sensor
@@ -57,10 +59,11 @@ Calibration kept_table(const CalibratedTable& table, const RigidTransform& senso
     return kept;
 }
 
-Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,
-                       const Settings& settings) {
+settings::Calibration kept_table(const calibration::CalibratedTable& table,
+                                 std::span<const calibration::Touch> touches,
+                                 const settings::Settings& settings) {
     return kept_table(table, sensor_from_prop(table, touches, settings.tracker.registration.sensor_from_prop),
                       settings);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

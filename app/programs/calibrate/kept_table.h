@@ -16,21 +16,24 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The settings' projector must look down at the table; checked settings do.
-[[nodiscard]] RigidTransform settings_from_measured(const ProjectorSettings& projector);
+[[nodiscard]] geometry::RigidTransform settings_from_measured(const settings::ProjectorSettings& projector);
 
 /// The prop in its sensor: its bottom's centre at the touched place, its axis as in most touches.
-[[nodiscard]] RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const Touch> touches,
-                                              const RigidTransform& described);
+[[nodiscard]] geometry::RigidTransform sensor_from_prop(const calibration::CalibratedTable& table,
+                                                        std::span<const calibration::Touch> touches,
+                                                        const geometry::RigidTransform& described);
 
 /// Pinhole, poses and registration, for a known pose of the prop in its sensor.
-[[nodiscard]] Calibration kept_table(const CalibratedTable& table, const RigidTransform& sensor_from_prop,
-                                     const Settings& settings);
+[[nodiscard]] settings::Calibration kept_table(const calibration::CalibratedTable& table,
+                                               const geometry::RigidTransform& sensor_from_prop,
+                                               const settings::Settings& settings);
 
 /// Pinhole, poses and registration; the caller adds the origin and the quality.
-[[nodiscard]] Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,
-                                     const Settings& settings);
+[[nodiscard]] settings::Calibration kept_table(const calibration::CalibratedTable& table,
+                                               std::span<const calibration::Touch> touches,
+                                               const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,7 +16,7 @@
 #include <optional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 template <typename Way> class ProcedureTable {
 public:
@@ -24,9 +24,8 @@ public:
     struct Manner {
         std::function<void(Way&)> solve; ///< in stage Solve: computes the verdict
         /// A step with the input; a camera adds its frames.
-        std::function<void(Way&, CalibrationInput&)> step = [](Way& way, CalibrationInput& heard) {
-            way.step(heard);
-        };
+        std::function<void(Way&, calibration::CalibrationInput&)> step =
+            [](Way& way, calibration::CalibrationInput& heard) { way.step(heard); };
         std::function<Result<void>(const Way&)> write; ///< saves the points, also of an unfinished way
         std::function<Result<void>(const Way&)> keep;  ///< in stage Done
         std::function<Way(std::string)> why_not;       ///< a way that only shows a problem
@@ -34,12 +33,12 @@ public:
         bool with_camera = false; ///< frames have the system's time, so no time is skipped
     };
     /// `devices` must outlive it.
-    ProcedureTable(TableDevices& devices, const Settings& settings, Manner manner)
+    ProcedureTable(TableDevices& devices, const settings::Settings& settings, Manner manner)
         : devices_(devices), manner_(std::move(manner)) {
         const double focal_px = settings.projector.pinhole.fx;
         above_m_ = settings.projector.table_from_projector.translation.z;
         prop_px_ = settings.prop.base_m * focal_px / above_m_;
-        board_px_ = Board::size_m.x * focal_px / above_m_;
+        board_px_ = calibration::Board::size_m.x * focal_px / above_m_;
     }
 
     /// Runs the way to its end and keeps the result. Nothing if it ended without one.
@@ -50,10 +49,10 @@ public:
         if (!*ended) {
             return std::nullopt;
         }
-        if (way.stage() == CalibrationStage::GoesOn) {
+        if (way.stage() == calibration::CalibrationStage::GoesOn) {
             return WayEnd::GoesOn;
         }
-        const bool is_done = way.stage() == CalibrationStage::Done;
+        const bool is_done = way.stage() == calibration::CalibrationStage::Done;
         if (const Result<void> kept = is_done ? manner_.keep(way) : Result<void>(); !kept) {
             Way told = manner_.why_not(kept.error().message);
             static_cast<void>(run(told)); // a technician at the table does not read standard error
@@ -72,10 +71,10 @@ private:
             if (way.has_ended()) {
                 return true;
             }
-            if (way.stage() == CalibrationStage::Solve) {
+            if (way.stage() == calibration::CalibrationStage::Solve) {
                 manner_.solve(way);
             }
-            CalibrationInput heard = devices_.hear(now);
+            calibration::CalibrationInput heard = devices_.hear(now);
             heard.lit = lit_;
             manner_.step(way, heard);
             wait();
@@ -112,7 +111,7 @@ private:
         }
         TRY(const MonotonicTime lit, devices_.present(now));
         if (!lit_ || lit_->number != words_.of) {
-            lit_ = CalibrationInput::Lit{words_.of, lit};
+            lit_ = calibration::CalibrationInput::Lit{words_.of, lit};
         }
         return {};
     }
@@ -121,7 +120,7 @@ private:
     Manner manner_;
     double above_m_, prop_px_, board_px_; ///< height of the projector; approximate widths on the table
     TableWords words_;                    ///< the shown words
-    std::optional<CalibrationInput::Lit> lit_;
+    std::optional<calibration::CalibrationInput::Lit> lit_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

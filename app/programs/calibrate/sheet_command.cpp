@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -14,18 +14,18 @@ Result<int> draw(const CalibrateRequest& request) {
     const std::array inputs{request.config};
     TRY_VOID(check_output_is_no_input(request.out, inputs));
     TRY(const Described described, describe(request));
-    TRY(const Board board, board_of(*described.settings));
-    return write_file(request.out, as_bytes(board_sheet(board, request.config.filename().string()))).map([] {
-        return 0;
-    });
+    TRY(const calibration::Board board, board_of(*described.settings));
+    return write_file(request.out, as_bytes(drawing::board_sheet(board, request.config.filename().string())))
+        .map([] { return 0; });
 }
 
 } // namespace
 
-Result<Board> board_of(const Settings& settings) {
-    const PropSettings& prop = settings.prop;
-    return board_for(prop.kind == PropKind::Cube ? FrustumSize{prop.base_m, prop.base_m, prop.base_m}
-                                                 : FrustumSize{prop.base_m, prop.top_m, prop.height_m});
+Result<calibration::Board> board_of(const settings::Settings& settings) {
+    const settings::PropSettings& prop = settings.prop;
+    return calibration::board_for(prop.kind == settings::PropKind::Cube
+                                      ? geometry::FrustumSize{prop.base_m, prop.base_m, prop.base_m}
+                                      : geometry::FrustumSize{prop.base_m, prop.top_m, prop.height_m});
 }
 
 void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
@@ -36,4 +36,4 @@ void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.callback([&] { chosen = [&] { return end_with(draw(request)); }; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,11 +9,11 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The tag sheet for the settings' prop.
-[[nodiscard]] Result<Board> board_of(const Settings& settings);
+[[nodiscard]] Result<calibration::Board> board_of(const settings::Settings& settings);
 
 void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -20,7 +20,7 @@
 #include <optional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -31,12 +31,13 @@ constexpr int more_after_few = 2;
 constexpr int max_crosses = 30;
 
 /// Half the width and depth of the area for the middle of the prop's bottom.
-glm::dvec2 reach_in(const Settings& settings) {
-    return reach_of(glm::dvec2(settings.table.width_m, settings.table.depth_m), settings.prop.base_m);
+glm::dvec2 reach_in(const settings::Settings& settings) {
+    return calibration::reach_of(glm::dvec2(settings.table.width_m, settings.table.depth_m),
+                                 settings.prop.base_m);
 }
 
-CrossSetup cross_setup(const Settings& settings, const CalibrateRequest& request) {
-    CrossSetup setup;
+calibration::CrossSetup cross_setup(const settings::Settings& settings, const CalibrateRequest& request) {
+    calibration::CrossSetup setup;
     setup.count = request.touches.value_or(settings.calibration.touches);
     setup.block_m = request.block_m.value_or(settings.calibration.block_m);
     setup.top_m = settings.prop.height_m;
@@ -45,8 +46,8 @@ CrossSetup cross_setup(const Settings& settings, const CalibrateRequest& request
 }
 
 /// The projector of the settings, with a tracker in the table's frame.
-TouchModel described_table(const Settings& settings, double sensor_height_m) {
-    TouchModel model;
+calibration::TouchModel described_table(const settings::Settings& settings, double sensor_height_m) {
+    calibration::TouchModel model;
     model.pinhole = settings.projector.pinhole;
     model.projector_from_tracker = settings.projector.table_from_projector.inverse();
     model.sensor_offset_m = {0.0, 0.0, -sensor_height_m};
@@ -55,25 +56,27 @@ TouchModel described_table(const Settings& settings, double sensor_height_m) {
 
 /// Crosses for a whole calibration. The settings' projector is accurate enough: a cross's information hardly
 /// depends on it.
-std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
-    TouchModel rough = described_table(settings, request.sensor_height_m.value_or(0.0));
+std::vector<calibration::Cross> crosses_for(const settings::Settings& settings,
+                                            const CalibrateRequest& request) {
+    calibration::TouchModel rough = described_table(settings, request.sensor_height_m.value_or(0.0));
     rough.pinhole = rough.pinhole.ideal();
-    const CrossSetup setup = cross_setup(settings, request);
-    return choose_crosses(rough, setup, std::max(max_crosses - setup.count, 0));
+    const calibration::CrossSetup setup = cross_setup(settings, request);
+    return calibration::choose_crosses(rough, setup, std::max(max_crosses - setup.count, 0));
 }
 
 /// Crosses for a touch-up, from the kept projector.
-std::vector<Cross> touch_up_crosses_for(const Settings& settings, const CalibrateRequest& request) {
-    CrossSetup setup = cross_setup(settings, request);
+std::vector<calibration::Cross> touch_up_crosses_for(const settings::Settings& settings,
+                                                     const CalibrateRequest& request) {
+    calibration::CrossSetup setup = cross_setup(settings, request);
     setup.count = few_crosses;
-    return choose_touch_up_crosses(
+    return calibration::choose_touch_up_crosses(
         described_table(settings, -settings.tracker.registration.sensor_from_prop.translation.z), setup,
         more_after_few);
 }
 
 /// The sensor's height above the prop's bottom: from the request, else from the settings, else as measured
 /// before.
-std::optional<double> sensor_height(const Settings& settings, const CalibrateRequest& request) {
+std::optional<double> sensor_height(const settings::Settings& settings, const CalibrateRequest& request) {
     if (request.sensor_height_m) {
         return request.sensor_height_m;
     }
@@ -87,9 +90,9 @@ std::optional<double> sensor_height(const Settings& settings, const CalibrateReq
 constexpr const char* no_sensor_height = "the sensor's height above the prop's bottom is not known; measure "
                                          "it with a ruler and set calibration.sensor_height_m";
 
-nlohmann::ordered_json list_json(std::span<const Cross> crosses) {
+nlohmann::ordered_json list_json(std::span<const calibration::Cross> crosses) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Cross& cross : crosses) {
+    for (const calibration::Cross& cross : crosses) {
         list.push_back({{"u_px", cross.pixel.x},
                         {"v_px", cross.pixel.y},
                         {"block_m", cross.block_m},
@@ -100,76 +103,81 @@ nlohmann::ordered_json list_json(std::span<const Cross> crosses) {
 
 /// `first`: how many crosses come before a verdict may ask for more. `overhang_m`: how far prop or boards hang over the table's edge at
 /// the worst cross.
-nlohmann::ordered_json crosses_json(const Settings& settings, std::span<const Cross> crosses,
-                                    std::size_t first) {
+nlohmann::ordered_json crosses_json(const settings::Settings& settings,
+                                    std::span<const calibration::Cross> crosses, std::size_t first) {
     const glm::dvec2 reach_m = reach_in(settings);
     return {{"crosses", list_json(crosses.first(first))},
             {"more_crosses", list_json(crosses.subspan(first))},
-            {"boards_side_m", boards_side_m(settings.prop.base_m)},
-            {"overhang_m", overhang_m(described_table(settings, 0.0), crosses, reach_m)}};
+            {"boards_side_m", calibration::boards_side_m(settings.prop.base_m)},
+            {"overhang_m", calibration::overhang_m(described_table(settings, 0.0), crosses, reach_m)}};
 }
 
 /// A table with a technician, and the request for both.
 struct Session {
     TableDevices& devices;
-    const Settings& settings;
+    const settings::Settings& settings;
     const CalibrateRequest& request;
-    TouchSetup setup; ///< includes the sensor's height, if known
+    calibration::TouchSetup setup; ///< includes the sensor's height, if known
     // Chosen before the devices are opened: choosing takes a second, in which the service manager's watchdog
     // would not be fed.
-    std::vector<Cross> crosses;
-    std::size_t first_crosses = 0;       ///< crosses touched before a verdict asks for more
-    std::vector<Cross> touch_up_crosses; ///< empty if there is nothing to touch up
+    std::vector<calibration::Cross> crosses;
+    std::size_t first_crosses = 0;                    ///< crosses touched before a verdict asks for more
+    std::vector<calibration::Cross> touch_up_crosses; ///< empty if there is nothing to touch up
 };
 
 /// Runs the way and keeps its result. `solve` judges the touches, `keep` keeps the calibration.
-Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
-                                const std::function<TouchJudgement(const Touches&)>& solve,
-                                const std::function<Result<void>(const Touches&)>& keep) {
-    ProcedureTable<TouchProcedure> table(
+Result<WayEnd>
+measure_by_touch(const Session& session, calibration::TouchProcedure way,
+                 const std::function<calibration::TouchJudgement(const calibration::Touches&)>& solve,
+                 const std::function<Result<void>(const calibration::Touches&)>& keep) {
+    ProcedureTable<calibration::TouchProcedure> table(
         session.devices, session.settings,
-        {.solve = [&](TouchProcedure& solved) { solved.judge(solve(solved.touches())); },
+        {.solve = [&](calibration::TouchProcedure& solved) { solved.judge(solve(solved.touches())); },
          .write =
-             [&](const TouchProcedure& touched) {
-                 return write_points(session.request, touched.touches(), touches_text);
+             [&](const calibration::TouchProcedure& touched) {
+                 return write_points(session.request, touched.touches(), calibration::touches_text);
              },
-         .keep = [&](const TouchProcedure& kept) { return keep(kept.touches()); },
-         .why_not = [&](std::string problem) { return TouchProcedure(way.crosses(), std::move(problem)); }});
+         .keep = [&](const calibration::TouchProcedure& kept) { return keep(kept.touches()); },
+         .why_not =
+             [&](std::string problem) {
+                 return calibration::TouchProcedure(way.crosses(), std::move(problem));
+             }});
     TRY(const std::optional<WayEnd> end, table.measure(way));
     return ended_with(end, way.problem());
 }
 
 Result<WayEnd> measure_by_crosses(const Session& session) {
-    TouchCalibration found;
+    calibration::TouchCalibration found;
     return measure_by_touch(
         session,
-        TouchProcedure(TouchTask::Anew, session.crosses, session.first_crosses,
-                       session.setup.sensor_height_m ? "" : no_sensor_height),
-        [&](const Touches& touches) {
-            found = calibrate_touch(touches, session.setup);
+        calibration::TouchProcedure(calibration::TouchTask::Anew, session.crosses, session.first_crosses,
+                                    session.setup.sensor_height_m ? "" : no_sensor_height),
+        [&](const calibration::Touches& touches) {
+            found = calibration::calibrate_touch(touches, session.setup);
             return judgement_of(found);
         },
-        [&](const Touches& touches) { return keep_touch(session.settings, found, touches); });
+        [&](const calibration::Touches& touches) { return keep_touch(session.settings, found, touches); });
 }
 
 /// A touch-up; it may end with a request for a whole calibration.
 Result<WayEnd> touch_up_on_table(const Session& session) {
-    TouchUp found;
+    calibration::TouchUp found;
     return measure_by_touch(
-        session, TouchProcedure(TouchTask::TouchUp, session.touch_up_crosses, few_crosses),
-        [&](const Touches& touches) {
-            found = touch_up(kept_table_of(session.settings), touches, session.setup);
+        session,
+        calibration::TouchProcedure(calibration::TouchTask::TouchUp, session.touch_up_crosses, few_crosses),
+        [&](const calibration::Touches& touches) {
+            found = calibration::touch_up(kept_table_of(session.settings), touches, session.setup);
             return judgement_of(found);
         },
-        [&](const Touches&) { return keep_touch_up(session.settings, found); });
+        [&](const calibration::Touches&) { return keep_touch_up(session.settings, found); });
 }
 
 /// The tag sheet, if there is a camera. If no sheet fits the prop, the other ways remain.
-std::optional<Board> board_for_camera(const Settings& settings) {
-    if (settings.camera.kind == CameraKind::None) {
+std::optional<calibration::Board> board_for_camera(const settings::Settings& settings) {
+    if (settings.camera.kind == settings::CameraKind::None) {
         return std::nullopt;
     }
-    Result<Board> board = board_of(settings);
+    Result<calibration::Board> board = board_of(settings);
     if (!board) {
         say_line("frustumscreen-calibrate", board.error().message);
         return std::nullopt;
@@ -177,7 +185,8 @@ std::optional<Board> board_for_camera(const Settings& settings) {
     return *std::move(board);
 }
 
-Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optional<Board>& board) {
+Result<WayEnd> take(CalibrationWay way, const Session& session,
+                    const std::optional<calibration::Board>& board) {
     switch (way) {
     case CalibrationWay::TouchUp:
         return touch_up_on_table(session);
@@ -192,8 +201,8 @@ Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optio
 /// Measures the eyes after a calibration is kept, if the tracker reports a head's sensor and the eyes in it
 /// are unknown. The calibration stays kept even if this ends without eyes.
 Result<int> measure_missing_eyes(const Session& session) {
-    TRY(const CheckedSettings settings,
-        load_settings(session.request.config)); // rereads what is kept
+    TRY(const settings::CheckedSettings settings,
+        settings::load_settings(session.request.config)); // rereads what is kept
     const bool are_known = settings->tracker.registration.eye_in_sensor_m != glm::dvec3(0.0);
     if (are_known || !session.devices.has_seen_head()) {
         return 0;
@@ -205,7 +214,7 @@ Result<int> measure_missing_eyes(const Session& session) {
 
 /// Offers one way after the other, until one ends with a calibration or without.
 Result<int> take_first_wanted(const Session& session) {
-    const std::optional<Board> board = board_for_camera(session.settings);
+    const std::optional<calibration::Board> board = board_for_camera(session.settings);
     for (const CalibrationWay way : ways_through(!session.touch_up_crosses.empty(), board.has_value())) {
         TRY(const WayEnd ended, take(way, session, board));
         if (ended == WayEnd::Kept) {
@@ -217,21 +226,21 @@ Result<int> take_first_wanted(const Session& session) {
 
 Result<int> calibrate_table(const CalibrateRequest& request) {
     TRY(const Described described, describe(request));
-    const Settings& settings = *described.settings;
+    const settings::Settings& settings = *described.settings;
     if (request.touch_up && !settings.calibration.used) {
         return none_kept(settings);
     }
     const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
     if (request.json) {
-        const std::vector<Cross> crosses =
+        const std::vector<calibration::Cross> crosses =
             touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
         const int first = touches_up ? few_crosses : cross_setup(settings, request).count;
         fmt::print("{}\n", crosses_json(settings, crosses, static_cast<std::size_t>(first)).dump(2));
         return 0;
     }
-    const std::vector<Cross> crosses = crosses_for(settings, request);
-    const std::vector<Cross> touch_up_crosses =
-        touches_up ? touch_up_crosses_for(settings, request) : std::vector<Cross>();
+    const std::vector<calibration::Cross> crosses = crosses_for(settings, request);
+    const std::vector<calibration::Cross> touch_up_crosses =
+        touches_up ? touch_up_crosses_for(settings, request) : std::vector<calibration::Cross>();
     TRY(const std::unique_ptr<TableDevices> devices, TableDevices::open(request, settings, ""));
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
@@ -239,7 +248,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     return take_first_wanted({.devices = *devices,
                               .settings = settings,
                               .request = request,
-                              .setup = set_up_for<TouchSetup>(described, known),
+                              .setup = set_up_for<calibration::TouchSetup>(described, known),
                               .crosses = crosses,
                               .first_crosses = static_cast<std::size_t>(cross_setup(settings, request).count),
                               .touch_up_crosses = touch_up_crosses});
@@ -275,4 +284,4 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

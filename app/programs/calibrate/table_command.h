@@ -7,8 +7,8 @@
 
 #include <functional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void add_table_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

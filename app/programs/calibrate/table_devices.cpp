@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -22,11 +22,11 @@ constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
 constexpr int max_buffers = 4; // of a display: each buffer gets the picture once
 
 /// The house's words. Without them a calibration goes on in English.
-std::optional<LanguageWords> house_words(const Settings& settings) {
+std::optional<pack::LanguageWords> house_words(const settings::Settings& settings) {
     if (settings.exhibit.words.empty()) {
         return std::nullopt;
     }
-    Result<LanguageWords> words = read_house_words(settings, "calibration.begin");
+    Result<pack::LanguageWords> words = show::read_house_words(settings, "calibration.begin");
     if (!words) {
         say_line(program, words.error().message);
         return std::nullopt;
@@ -34,8 +34,9 @@ std::optional<LanguageWords> house_words(const Settings& settings) {
     return *std::move(words);
 }
 
-std::optional<TableVoice> voice_of(const Settings& settings, const std::optional<LanguageWords>& words) {
-    if (!words || settings.sound.kind == SoundKind::None) {
+std::optional<TableVoice> voice_of(const settings::Settings& settings,
+                                   const std::optional<pack::LanguageWords>& words) {
+    if (!words || settings.sound.kind == settings::SoundKind::None) {
         return std::nullopt;
     }
     return TableVoice(*words, make_sound(settings.sound), settings.sound.gain_db);
@@ -43,56 +44,57 @@ std::optional<TableVoice> voice_of(const Settings& settings, const std::optional
 
 } // namespace
 
-Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest& request, Settings settings,
-                                                         std::string_view instead) {
+Result<std::unique_ptr<TableDevices>>
+TableDevices::open(const CalibrateRequest& request, settings::Settings settings, std::string_view instead) {
     settings.tracker.registration = {}; // reports in the device's own frame
     settings.camera = {};
-    const DevicePlan plan = plan_devices(settings, false, false);
-    if (plan.tracker == TrackerKind::None || !plan.panel) {
+    const scene::DevicePlan plan = scene::plan_devices(settings, false, false);
+    if (plan.tracker == settings::TrackerKind::None || !plan.panel) {
         return fail(ErrorKind::BadConfiguration, "calibrate.no_devices",
                     "{}: a calibration on the table needs a tracker and two buttons; set "
                     "tracker.kind and panel.kind{}",
                     request.config.string(), instead);
     }
-    TRY(std::unique_ptr<Display> display, make_display(settings, request.headless));
-    TRY(Typesetter typesetter, Typesetter::open());
-    TRY(Inputs inputs, make_inputs(settings, plan, std::nullopt, monotonic_now()));
+    TRY(std::unique_ptr<display::Display> display, make_display(settings, request.headless));
+    TRY(typography::Typesetter typesetter, typography::Typesetter::open());
+    TRY(show::Inputs inputs, make_inputs(settings, plan, std::nullopt, monotonic_now()));
     return std::make_unique<TableDevices>(settings, request.headless, std::move(inputs), std::move(display),
                                           std::move(typesetter));
 }
 
-TableDevices::TableDevices(const Settings& settings, bool headless, Inputs inputs,
-                           std::unique_ptr<Display> display, Typesetter typesetter)
+TableDevices::TableDevices(const settings::Settings& settings, bool headless, show::Inputs inputs,
+                           std::unique_ptr<display::Display> display, typography::Typesetter typesetter)
     : headless_(headless), inputs_(std::move(inputs)), display_(std::move(display)),
       typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
       house_(house_words(settings)), voice_(voice_of(settings, house_)) {}
 
-CalibrationInput TableDevices::hear(MonotonicTime now) {
-    CalibrationInput heard;
+calibration::CalibrationInput TableDevices::hear(MonotonicTime now) {
+    calibration::CalibrationInput heard;
     heard.now = now;
     samples_.clear();
     static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state names the fault
-    for (const PoseSample& sample : samples_) {
-        std::optional<RigidTransform>* const of = sample.station == prop_station   ? &heard.prop
-                                                  : sample.station == head_station ? &heard.head
-                                                                                   : nullptr;
+    for (const tracker::PoseSample& sample : samples_) {
+        std::optional<geometry::RigidTransform>* const of =
+            sample.station == tracker::prop_station   ? &heard.prop
+            : sample.station == tracker::head_station ? &heard.head
+                                                      : nullptr;
         if (of != nullptr && sample.ok) {
-            *of = RigidTransform{sample.rotation, sample.position_m};
+            *of = geometry::RigidTransform{sample.rotation, sample.position_m};
         }
     }
     has_seen_head_ |= heard.head.has_value();
     events_.clear();
     static_cast<void>(inputs_.panel->poll(now, events_));
-    for (const PanelEvent& event : events_) {
-        heard.next |= event.kind == PressKind::Press && event.button == next_button;
-        heard.back |= event.kind == PressKind::Press && event.button == back_button;
+    for (const panel::PanelEvent& event : events_) {
+        heard.next |= event.kind == panel::PressKind::Press && event.button == next_button;
+        heard.back |= event.kind == panel::PressKind::Press && event.button == back_button;
     }
     tell(inputs_.tracker->state(), "tracker", tracker_state_);
     tell(inputs_.panel->state(), "panel", panel_state_);
     return heard;
 }
 
-void TableDevices::show(Image8 picture) {
+void TableDevices::show(image::Image8 picture) {
     picture_ = std::move(picture);
     uploads_left_ = max_buffers;
 }
@@ -130,4 +132,4 @@ Result<MonotonicTime> TableDevices::present(MonotonicTime now) {
     return lit;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

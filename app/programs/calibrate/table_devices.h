@@ -25,7 +25,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class TableDevices {
 public:
@@ -34,9 +34,9 @@ public:
     /// Opens the settings' devices except the camera; the tracker reports in its own frame. `instead`: the
     /// end of a sentence, what else the technician may do if the settings have no tracker or no buttons.
     [[nodiscard]] static Result<std::unique_ptr<TableDevices>>
-    open(const CalibrateRequest& request, Settings settings, std::string_view instead);
-    TableDevices(const Settings& settings, bool headless, Inputs inputs, std::unique_ptr<Display> display,
-                 Typesetter typesetter);
+    open(const CalibrateRequest& request, settings::Settings settings, std::string_view instead);
+    TableDevices(const settings::Settings& settings, bool headless, show::Inputs inputs,
+                 std::unique_ptr<display::Display> display, typography::Typesetter typesetter);
 
     [[nodiscard]] bool is_headless() const { return headless_; }
     /// The system's time plus the skipped time.
@@ -44,11 +44,11 @@ public:
     void pass_over(Nanoseconds time) { passed_over_ += time; }
 
     /// The input since the last call: the latest reports, and presses.
-    [[nodiscard]] CalibrationInput hear(MonotonicTime now);
+    [[nodiscard]] calibration::CalibrationInput hear(MonotonicTime now);
     /// True once the tracker has reported a head's sensor.
     [[nodiscard]] bool has_seen_head() const { return has_seen_head_; }
     /// Sets the picture that is presented from now on.
-    void show(Image8 picture);
+    void show(image::Image8 picture);
     /// Logs the words of the picture and speaks them; `key`: of the spoken text.
     void say(const std::vector<std::string>& words, std::string_view key);
     /// Reports a device's state, if it differs from `told`.
@@ -60,28 +60,28 @@ public:
     [[nodiscard]] bool told_to_stop() const { return stop_.received(); }
     [[nodiscard]] int width() const { return display_->width(); }
     [[nodiscard]] int height() const { return display_->height(); }
-    [[nodiscard]] const Typesetter& typesetter() const { return typesetter_; }
+    [[nodiscard]] const typography::Typesetter& typesetter() const { return typesetter_; }
     /// None: silent, and in English only.
-    [[nodiscard]] const LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
+    [[nodiscard]] const pack::LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
 
 private:
     bool headless_;
     Nanoseconds passed_over_{0};
-    StopSignals stop_;
-    ServiceManager manager_;
+    service::StopSignals stop_;
+    service::ServiceManager manager_;
     std::optional<MonotonicTime> fed_;
-    Inputs inputs_;
-    std::unique_ptr<Display> display_;
-    Typesetter typesetter_;
-    PictureUpload upload_;
-    std::optional<LanguageWords> house_;
+    show::Inputs inputs_;
+    std::unique_ptr<display::Display> display_;
+    typography::Typesetter typesetter_;
+    render::PictureUpload upload_;
+    std::optional<pack::LanguageWords> house_;
     std::optional<TableVoice> voice_;
-    Image8 picture_;
+    image::Image8 picture_;
     int uploads_left_ = 0;
-    std::vector<PoseSample> samples_;
-    std::vector<PanelEvent> events_;
+    std::vector<tracker::PoseSample> samples_;
+    std::vector<panel::PanelEvent> events_;
     bool has_seen_head_ = false;
     Sentence tracker_state_, panel_state_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

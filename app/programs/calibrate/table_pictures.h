@@ -23,18 +23,19 @@
 #include "app/programs/calibrate/table_words.h"
 #include "app/typography/text_image.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] TableWords table_words(const TouchProcedure& procedure);
+[[nodiscard]] TableWords table_words(const calibration::TouchProcedure& procedure);
 /// Empty while a pattern is shown.
-[[nodiscard]] TableWords table_words(const AutoProcedure& procedure);
-[[nodiscard]] TableWords table_words(const EyeProcedure& procedure);
+[[nodiscard]] TableWords table_words(const calibration::AutoProcedure& procedure);
+[[nodiscard]] TableWords table_words(const calibration::EyeProcedure& procedure);
 /// The key of a word: what is wrong, else how to put the board next. `may_go_on`: Back leads on to the
 /// crosses.
-[[nodiscard]] std::string_view key_of(AutoPrompt word, Posture requested, bool may_go_on);
+[[nodiscard]] std::string_view key_of(calibration::AutoPrompt word, calibration::Posture requested,
+                                      bool may_go_on);
 /// The result of a technician's touches, in words for the table and as the procedure needs it.
-[[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
-[[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);
+[[nodiscard]] calibration::TouchJudgement judgement_of(const calibration::TouchCalibration& calibration);
+[[nodiscard]] calibration::TouchJudgement judgement_of(const calibration::TouchUp& found);
 
 /// Parameters of a picture. By eye its size must be the scene's.
 struct TableDrawing {
@@ -43,12 +44,15 @@ struct TableDrawing {
     double above_m =
         0.0; ///< approximate height of the projector, which widens what lies on boards; 0: ignored
     double board_px = 0.0; ///< approximate width of the board
-    const Typesetter& typesetter;
-    const LanguageWords* house = nullptr; ///< the house's words
+    const typography::Typesetter& typesetter;
+    const pack::LanguageWords* house = nullptr; ///< the house's words
 };
-[[nodiscard]] Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with);
+[[nodiscard]] image::Image8 table_picture(const calibration::TouchProcedure& procedure,
+                                          const TableDrawing& with);
 /// The pattern, if one is shown.
-[[nodiscard]] Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with);
-[[nodiscard]] Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with);
+[[nodiscard]] image::Image8 table_picture(const calibration::AutoProcedure& procedure,
+                                          const TableDrawing& with);
+[[nodiscard]] image::Image8 table_picture(const calibration::EyeProcedure& procedure,
+                                          const TableDrawing& with);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -2,17 +2,17 @@
 
 #include "firmware_host/sound/opus_reader.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-TableVoice::TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db)
+TableVoice::TableVoice(const pack::LanguageWords& words, std::unique_ptr<sound::Sound> sound, double gain_db)
     : sound_(std::move(sound)) {
     request_.set_gain_db(gain_db);
     for (const auto& [key, opus] : words.sounds) {
         if (!key.starts_with("calibration.")) {
             continue;
         }
-        if (Result<Prompt> prompt = read_opus(opus)) {
-            prompts_[key] = std::make_shared<const Prompt>(*std::move(prompt));
+        if (Result<sound::Prompt> prompt = sound::read_opus(opus)) {
+            prompts_[key] = std::make_shared<const sound::Prompt>(*std::move(prompt));
         }
     }
 }
@@ -24,4 +24,4 @@ void TableVoice::say(std::string_view key) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,20 +13,20 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class TableVoice {
 public:
-    TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db);
+    TableVoice(const pack::LanguageWords& words, std::unique_ptr<sound::Sound> sound, double gain_db);
 
     /// Interrupts the current prompt. A key without a recording is silent.
     void say(std::string_view key);
     void poll(MonotonicTime now) { static_cast<void>(sound_->poll(now, request_)); }
 
 private:
-    std::map<std::string, SharedPrompt, std::less<>> prompts_;
-    std::unique_ptr<Sound> sound_;
-    SoundRequest request_;
+    std::map<std::string, sound::SharedPrompt, std::less<>> prompts_;
+    std::unique_ptr<sound::Sound> sound_;
+    sound::SoundRequest request_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 void TableWords::add(std::string_view next_key, std::string_view line) {
     key = next_key.empty() ? key : next_key;
@@ -37,39 +37,43 @@ std::string as_sentence(std::string_view reason) {
     return sentence;
 }
 
-std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit) {
-    std::vector<Paragraph> paragraphs;
+std::vector<typography::Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit) {
+    std::vector<typography::Paragraph> paragraphs;
     for (const std::string& line : lines) {
         const bool is_first = paragraphs.empty();
-        paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
+        paragraphs.push_back({.text = line,
+                              .em_px = (is_first ? 4.0 : 2.6) * unit,
+                              .bold = is_first,
+                              .brightness = 1.0,
+                              .space_before_px = is_first ? 0.0 : unit});
     }
     return paragraphs;
 }
 
-Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key, double width_px,
-                                   double width_em) {
+image::Image<std::uint8_t> house_sentence(const pack::LanguageWords* house, std::string_view key,
+                                          double width_px, double width_em) {
     if (house == nullptr || house->language.starts_with("en")) {
         return {};
     }
     const double em_px = width_px / width_em;
-    const GlyphSetting* const setting = fitting_setting(house->runs.find(key), width_em);
-    return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
-                              : Image<std::uint8_t>();
+    const pack::GlyphSetting* const setting = typography::fitting_setting(house->runs.find(key), width_em);
+    return setting != nullptr ? typography::glyph_image(house->runs, house->atlas, *setting, em_px).coverage
+                              : image::Image<std::uint8_t>();
 }
 
-Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
-                          double between_px) {
+image::Image<std::uint8_t> above(const image::Image<std::uint8_t>& upper,
+                                 const image::Image<std::uint8_t>& lower, double between_px) {
     if (upper.width == 0) {
         return lower;
     }
     const int top = upper.height + static_cast<int>(between_px);
-    Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
-    draw_lighter(upper, 1.0, 0, 0, both);
-    draw_lighter(lower, 1.0, 0, top, both);
+    image::Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
+    typography::draw_lighter(upper, 1.0, 0, 0, both);
+    typography::draw_lighter(lower, 1.0, 0, top, both);
     return both;
 }
 
-void draw_dots(Canvas& canvas, const glm::dvec2& middle, double unit, int count,
+void draw_dots(typography::Canvas& canvas, const glm::dvec2& middle, double unit, int count,
                const std::function<bool(int)>& is_done, const DotColours& colours) {
     for (int k = 0; k < count; ++k) {
         const bool done = is_done(k);
@@ -78,4 +82,4 @@ void draw_dots(Canvas& canvas, const glm::dvec2& middle, double unit, int count,
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct Message {
     std::string_view key, english; ///< either may be empty
@@ -55,32 +55,34 @@ struct TableWords {
 /// Makes a sentence of a reason, which is a clause as programs print it after a colon.
 [[nodiscard]] std::string as_sentence(std::string_view reason);
 /// The first line is the largest.
-[[nodiscard]] std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit);
+[[nodiscard]] std::vector<typography::Paragraph> paragraphs_of(const std::vector<std::string>& lines,
+                                                               double unit);
 
 /// Widths, in type sizes, for which the bake breaks lines: over the table's width, and beside the prop.
 inline constexpr double widest_em = 36.0, beside_em = 20.0;
 /// The word of a key, set in the house's language; empty if there is none, or if that language is English,
 /// the language of the other words.
-[[nodiscard]] Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key,
-                                                 double width_px, double width_em = widest_em);
+[[nodiscard]] image::Image<std::uint8_t> house_sentence(const pack::LanguageWords* house,
+                                                        std::string_view key, double width_px,
+                                                        double width_em = widest_em);
 /// Stacks two pictures, aligned at their left edges.
-[[nodiscard]] Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
-                                        double between_px);
+[[nodiscard]] image::Image<std::uint8_t> above(const image::Image<std::uint8_t>& upper,
+                                               const image::Image<std::uint8_t>& lower, double between_px);
 
 /// On a dark ground.
 struct TableColours {
-    static constexpr Colour white{255, 255, 255};
-    static constexpr Colour dim{150, 150, 150};
-    static constexpr Colour front{255, 184, 92}; ///< the prop's front or corner, and problems
-    static constexpr Colour good{120, 240, 120};
-    static constexpr Colour bad{255, 110, 90};
+    static constexpr typography::Colour white{255, 255, 255};
+    static constexpr typography::Colour dim{150, 150, 150};
+    static constexpr typography::Colour front{255, 184, 92}; ///< the prop's front or corner, and problems
+    static constexpr typography::Colour good{120, 240, 120};
+    static constexpr typography::Colour bad{255, 110, 90};
 };
 
 struct DotColours {
-    Colour done, open;
+    typography::Colour done, open;
 };
 /// Draws a row of `count` dots about `middle`; dots that are done are thick.
-void draw_dots(Canvas& canvas, const glm::dvec2& middle, double unit, int count,
+void draw_dots(typography::Canvas& canvas, const glm::dvec2& middle, double unit, int count,
                const std::function<bool(int)>& is_done, const DotColours& colours);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

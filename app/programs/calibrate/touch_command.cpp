@@ -9,14 +9,14 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string touch_text(const TouchCalibration& c) {
-    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason.sentence);
+std::string touch_text(const calibration::TouchCalibration& c) {
+    std::string text = fmt::format("{}: {}\n", calibration::name_of(c.verdict), c.reason.sentence);
     if (!c.table) {
         return text;
     }
@@ -36,11 +36,12 @@ std::string touch_text(const TouchCalibration& c) {
 
 Result<int> touch(const CalibrateRequest& request) {
     TRY(const Described described, describe(request));
-    TRY(const auto touches, read_points(request, parse_touches));
+    TRY(const auto touches, read_points(request, calibration::parse_touches));
     if (request.touch_up) {
         return touch_up_kept(request, described, touches);
     }
-    const TouchCalibration calibration = calibrate_touch(touches, set_up_for<TouchSetup>(described, request));
+    const calibration::TouchCalibration calibration =
+        calibration::calibrate_touch(touches, set_up_for<calibration::TouchSetup>(described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
@@ -62,13 +63,13 @@ nlohmann::ordered_json mm_json(double mean_m, double worst_m) {
     return {{"mean", 1e3 * mean_m}, {"worst", 1e3 * worst_m}};
 }
 
-nlohmann::ordered_json within_json(const PictureShares& shares) {
+nlohmann::ordered_json within_json(const calibration::PictureShares& shares) {
     return {{"places_68", 1e3 * shares.usual_m},
             {"places_95", 1e3 * shares.max_m},
             {"worst_place_95", 1e3 * shares.worst_m}};
 }
 
-nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
+nlohmann::ordered_json rows_json(std::span<const calibration::TouchResidual> residuals) {
     Json rows = Json::array();
     for (std::size_t k = 0; k < residuals.size(); ++k) {
         rows.push_back({{"row", k + 1},
@@ -78,13 +79,15 @@ nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
     return rows;
 }
 
-nlohmann::ordered_json touch_json(const TouchCalibration& c) {
-    Json json{
-        {"projector", nullptr},        {"table_from_tracker", nullptr},   {"sensor_offset_m", nullptr},
-        {"residual_mm", nullptr},      {"residual_px", nullptr},          {"uncertainty_mm", nullptr},
-        {"within_mm", nullptr},        {"hidden_error_mm", nullptr},      {"prior_share", nullptr},
-        {"boards_mm", nullptr},        {"rows", Json::array()},           {"verdict", name_of(c.verdict)},
-        {"reason", c.reason.sentence}, {"reason_id", c.reason.id.view()}, {"repeat", Json::array()}};
+nlohmann::ordered_json touch_json(const calibration::TouchCalibration& c) {
+    Json json{{"projector", nullptr},        {"table_from_tracker", nullptr},
+              {"sensor_offset_m", nullptr},  {"residual_mm", nullptr},
+              {"residual_px", nullptr},      {"uncertainty_mm", nullptr},
+              {"within_mm", nullptr},        {"hidden_error_mm", nullptr},
+              {"prior_share", nullptr},      {"boards_mm", nullptr},
+              {"rows", Json::array()},       {"verdict", calibration::name_of(c.verdict)},
+              {"reason", c.reason.sentence}, {"reason_id", c.reason.id.view()},
+              {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -126,4 +129,4 @@ void add_touch_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,16 +10,16 @@
 #include <functional>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Every key is always present; unknown values are null.
-[[nodiscard]] nlohmann::ordered_json touch_json(const TouchCalibration& calibration);
+[[nodiscard]] nlohmann::ordered_json touch_json(const calibration::TouchCalibration& calibration);
 /// Mean and worst, in millimetres.
 [[nodiscard]] nlohmann::ordered_json mm_json(double mean_m, double worst_m);
 /// The distances that hold at 68 and 95 % of the places, and at the worst place, in millimetres.
-[[nodiscard]] nlohmann::ordered_json within_json(const PictureShares& shares);
-[[nodiscard]] nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals);
+[[nodiscard]] nlohmann::ordered_json within_json(const calibration::PictureShares& shares);
+[[nodiscard]] nlohmann::ordered_json rows_json(std::span<const calibration::TouchResidual> residuals);
 /// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_touch_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

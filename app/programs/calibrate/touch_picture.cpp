@@ -9,32 +9,33 @@
 #include <cmath>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-using Stage = CalibrationStage;
+using Stage = calibration::CalibrationStage;
 
-constexpr std::array<WordMessage<TouchPrompt>, 4> touch_messages{{
-    {TouchPrompt::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
-    {TouchPrompt::NotSeen,
+constexpr std::array<WordMessage<calibration::TouchPrompt>, 4> touch_messages{{
+    {calibration::TouchPrompt::Moved,
+     {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+    {calibration::TouchPrompt::NotSeen,
      {"calibration.not_seen",
       "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
-    {TouchPrompt::SamePlace,
+    {calibration::TouchPrompt::SamePlace,
      {"calibration.same_place",
       "The prop still lies where it lay before. Lay it on this cross, then press Next."}},
-    {TouchPrompt::Taken, {"calibration.taken", "Good."}},
+    {calibration::TouchPrompt::Taken, {"calibration.taken", "Good."}},
 }};
 
-std::string height_of(const Cross& cross) {
+std::string height_of(const calibration::Cross& cross) {
     return cross.block_m > 0.0 ? fmt::format("on top of {:.0f} mm of board", 1e3 * cross.block_m)
                                : std::string("on the table");
 }
 
 /// The board heights that the crosses need, millimetres.
-std::set<int> block_heights_mm(const TouchProcedure& procedure) {
+std::set<int> block_heights_mm(const calibration::TouchProcedure& procedure) {
     std::set<int> heights_mm;
-    for (const Cross& cross : procedure.crosses()) {
+    for (const calibration::Cross& cross : procedure.crosses()) {
         heights_mm.insert(static_cast<int>(std::lround(1e3 * cross.block_m)));
     }
     heights_mm.erase(0);
@@ -46,7 +47,7 @@ std::size_t minutes_for(std::size_t touches) {
     return (touches + 1) / 2;
 }
 
-TableWords words_of_begin(const TouchProcedure& procedure) {
+TableWords words_of_begin(const calibration::TouchProcedure& procedure) {
     if (!procedure.problem().empty()) {
         return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
@@ -54,7 +55,7 @@ TableWords words_of_begin(const TouchProcedure& procedure) {
                                            "bottom edges, and boards that make {} mm, "
                                            "a little wider than the prop.",
                                            fmt::join(block_heights_mm(procedure), ", "));
-    if (procedure.task() == TouchTask::TouchUp) {
+    if (procedure.task() == calibration::TouchTask::TouchUp) {
         return {
             "calibration.touch_up",
             {"Staff: put the picture right",
@@ -72,8 +73,8 @@ TableWords words_of_begin(const TouchProcedure& procedure) {
              "Next begins. Back returns to the exhibit; so does a minute without a press."}};
 }
 
-TableWords words_of_cross(const TouchProcedure& procedure) {
-    const Cross& cross = procedure.cross();
+TableWords words_of_cross(const calibration::TouchProcedure& procedure) {
+    const calibration::Cross& cross = procedure.cross();
     TableWords words{"", {fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())}};
     if (procedure.stage() == Stage::HoldStill) {
         words.add("calibration.hold_still", "Hold still: one second.");
@@ -85,7 +86,7 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
                         height_of(cross)));
     }
     words.add(message_of(touch_messages, procedure.word()));
-    if (procedure.word() == TouchPrompt::Taken && procedure.at() > 0 &&
+    if (procedure.word() == calibration::TouchPrompt::Taken && procedure.at() > 0 &&
         cross.block_m > procedure.crosses()[procedure.at() - 1].block_m) {
         words.key = "calibration.on_boards";
     }
@@ -93,22 +94,22 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
 }
 
 /// Tells what the two buttons do after the verdict.
-Message choice_of(const TouchProcedure& procedure) {
-    const TouchJudgement& judged = *procedure.judged();
-    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
+Message choice_of(const calibration::TouchProcedure& procedure) {
+    const calibration::TouchJudgement& judged = *procedure.judged();
+    const bool is_touch_up = procedure.task() == calibration::TouchTask::TouchUp;
     switch (judged.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
+    case calibration::Verdict::Good:
+    case calibration::Verdict::Usable:
         return judged.nothing_moved
                    ? Message{"calibration.nothing_moved",
                              "Next returns to the exhibit. Back does one touch again."}
                    : Message{is_touch_up ? "calibration.put_right" : "calibration.may_be_kept",
                              "Next keeps it. Back does the touch again that lies farthest off."};
-    case Verdict::Repeat:
+    case calibration::Verdict::Repeat:
         return procedure.asks_for_more()
                    ? Message{"calibration.more", "Next brings two more crosses."}
                    : Message{"calibration.repeat", "Next does the doubtful touches again."};
-    case Verdict::Refused:
+    case calibration::Verdict::Refused:
         break;
     }
     return is_touch_up ? Message{"calibration.does_not_fit",
@@ -116,9 +117,9 @@ Message choice_of(const TouchProcedure& procedure) {
                        : Message{"calibration.refused", "Next begins anew."};
 }
 
-Colour colour_of(const TouchProcedure& procedure) {
+typography::Colour colour_of(const calibration::TouchProcedure& procedure) {
     if (procedure.stage() == Stage::HoldStill) {
-        return procedure.word() == TouchPrompt::Moved ? TableColours::bad : TableColours::good;
+        return procedure.word() == calibration::TouchPrompt::Moved ? TableColours::bad : TableColours::good;
     }
     return TableColours::white;
 }
@@ -133,12 +134,13 @@ glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
 /// Draws the cross. Its arms extend beyond the prop, perpendicular to its sides; the thick one leads to its
 /// front. A square shows where the prop stands. If the front's arm leaves the picture, an arrow head on a
 /// side arm, beyond the prop, points to the front: of two opposite arms at most one leaves the picture.
-void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
-    const Cross& cross = procedure.cross();
-    const Colour colour = colour_of(procedure);
+void draw_cross(typography::Canvas& canvas, const calibration::TouchProcedure& procedure, double unit,
+                double prop_px) {
+    const calibration::Cross& cross = procedure.cross();
+    const typography::Colour colour = colour_of(procedure);
     const double arm = std::fmax(0.75 * prop_px, 16.0 * unit);
     const double edge = 0.5 * prop_px;
-    const auto line = [&](const glm::dvec2& from, const glm::dvec2& to, double width, Colour of) {
+    const auto line = [&](const glm::dvec2& from, const glm::dvec2& to, double width, typography::Colour of) {
         canvas.line(cross.pixel + turned(from, cross.yaw_rad), cross.pixel + turned(to, cross.yaw_rad), width,
                     of);
     };
@@ -160,7 +162,7 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
 }
 
 /// The prop's width at the cross's height: boards are nearer to the projector.
-double prop_px_at(const Cross& cross, const TableDrawing& with) {
+double prop_px_at(const calibration::Cross& cross, const TableDrawing& with) {
     return with.above_m > cross.block_m ? with.prop_px * with.above_m / (with.above_m - cross.block_m)
                                         : with.prop_px;
 }
@@ -175,7 +177,7 @@ WordsColumn middle_column(double width) {
 }
 
 /// The wider of the columns beside the prop's square; the middle of the picture where both are too narrow.
-WordsColumn column_beside(const Cross& cross, const TableDrawing& with, double unit) {
+WordsColumn column_beside(const calibration::Cross& cross, const TableDrawing& with, double unit) {
     constexpr double min_share = 0.2; // of the picture's width
     const double reach = 0.5 * prop_px_at(cross, with) + 3.0 * unit;
     const double left_room = cross.pixel.x - reach - 3.0 * unit;
@@ -189,22 +191,22 @@ WordsColumn column_beside(const Cross& cross, const TableDrawing& with, double u
     return {middle, room};
 }
 
-std::string what_moved(Moved moved) {
+std::string what_moved(calibration::Moved moved) {
     switch (moved) {
-    case Moved::Projector:
+    case calibration::Moved::Projector:
         return "The projector moved.";
-    case Moved::Tracker:
+    case calibration::Moved::Tracker:
         return "The tracker's source moved.";
-    case Moved::Either:
+    case calibration::Moved::Either:
         return "The projector moved, or the tracker's source.";
     default:
         return "Nothing has moved.";
     }
 }
 
-std::string right_again(const TouchUp& found) {
+std::string right_again(const calibration::TouchUp& found) {
     const std::string was = fmt::format("The picture was {:.0f} mm beside its place.", 1e3 * found.off_m);
-    return found.verdict == Verdict::Repeat
+    return found.verdict == calibration::Verdict::Repeat
                ? was + " These touches are too few to check each other."
                : fmt::format("{} Once this is kept it is right again, to about {:.1f} mm.", was,
                              1e3 * found.uncertainty.mean_m);
@@ -212,7 +214,7 @@ std::string right_again(const TouchUp& found) {
 
 } // namespace
 
-TableWords table_words(const TouchProcedure& procedure) {
+TableWords table_words(const calibration::TouchProcedure& procedure) {
     switch (procedure.stage()) {
     case Stage::Begin:
         return words_of_begin(procedure);
@@ -233,12 +235,13 @@ TableWords table_words(const TouchProcedure& procedure) {
     }
 }
 
-TouchJudgement judgement_of(const TouchCalibration& calibration) {
-    TouchJudgement judged{.verdict = calibration.verdict,
-                          .told = {fmt::format("The calibration is: {}", name_of(calibration.verdict)),
-                                   as_sentence(calibration.reason.sentence)},
-                          .repeat = calibration.repeat,
-                          .residuals = calibration.residuals};
+calibration::TouchJudgement judgement_of(const calibration::TouchCalibration& calibration) {
+    calibration::TouchJudgement judged{
+        .verdict = calibration.verdict,
+        .told = {fmt::format("The calibration is: {}", calibration::name_of(calibration.verdict)),
+                 as_sentence(calibration.reason.sentence)},
+        .repeat = calibration.repeat,
+        .residuals = calibration.residuals};
     if (calibration.table) {
         judged.told.push_back(
             fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
@@ -247,22 +250,23 @@ TouchJudgement judgement_of(const TouchCalibration& calibration) {
     return judged;
 }
 
-TouchJudgement judgement_of(const TouchUp& found) {
-    TouchJudgement judged{.verdict = found.verdict, .told = {}, .repeat = {}, .residuals = found.residuals};
+calibration::TouchJudgement judgement_of(const calibration::TouchUp& found) {
+    calibration::TouchJudgement judged{
+        .verdict = found.verdict, .told = {}, .repeat = {}, .residuals = found.residuals};
     if (!found.table) {
         judged.told = {"The touches do not fit what was measured before.",
                        as_sentence(found.reason.sentence)};
         return judged;
     }
-    judged.nothing_moved = found.moved == Moved::Nothing;
+    judged.nothing_moved = found.moved == calibration::Moved::Nothing;
     judged.told = {what_moved(found.moved),
                    judged.nothing_moved ? as_sentence(found.reason.sentence) : right_again(found)};
     return judged;
 }
 
-Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) {
+image::Image8 table_picture(const calibration::TouchProcedure& procedure, const TableDrawing& with) {
     const auto [width, height] = std::pair(with.width, with.height);
-    Canvas canvas(width, height, {0, 0, 0});
+    typography::Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == Stage::Place || procedure.stage() == Stage::HoldStill;
     if (has_cross) {
@@ -274,13 +278,14 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     const WordsColumn column =
         has_cross ? column_beside(procedure.cross(), with, unit) : middle_column(width);
     const TableWords words = table_words(procedure);
-    const Image<std::uint8_t> coverage =
+    const image::Image<std::uint8_t> coverage =
         above(house_sentence(with.house, words.key, column.width),
               with.typesetter.set(paragraphs_of(words.lines, unit), column.width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     const double left = column.middle - 0.5 * coverage.width;
     canvas.coverage(coverage, {static_cast<int>(left), static_cast<int>(std::max(top, unit))},
-                    procedure.word() == TouchPrompt::Taken || procedure.word() == TouchPrompt::None
+                    procedure.word() == calibration::TouchPrompt::Taken ||
+                            procedure.word() == calibration::TouchPrompt::None
                         ? TableColours::white
                         : TableColours::front);
     const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the words' side
@@ -290,4 +295,4 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

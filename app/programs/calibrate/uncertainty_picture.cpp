@@ -10,13 +10,13 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-constexpr Colour paper{255, 255, 255};
-constexpr Colour ink{34, 40, 49};
-constexpr Colour grey{110, 118, 129};
+constexpr typography::Colour paper{255, 255, 255};
+constexpr typography::Colour ink{34, 40, 49};
+constexpr typography::Colour grey{110, 118, 129};
 constexpr glm::ivec2 size_px{1600, 900};
 constexpr double margin_px = 70.0;
 constexpr glm::dvec2 field_px{700.0, 500.0};
@@ -25,14 +25,14 @@ constexpr double between_px = size_px.x - 2.0 * margin_px - 2.0 * field_px.x;
 constexpr int bands = 8;
 
 /// From light to dark, in perceptually even steps, also readable in grey (ColorBrewer's YlGnBu, 2013).
-constexpr std::array<Colour, bands> band_colours{{{255, 255, 217},
-                                                  {237, 248, 177},
-                                                  {199, 233, 180},
-                                                  {127, 205, 187},
-                                                  {65, 182, 196},
-                                                  {29, 145, 192},
-                                                  {34, 94, 168},
-                                                  {12, 44, 132}}};
+constexpr std::array<typography::Colour, bands> band_colours{{{255, 255, 217},
+                                                              {237, 248, 177},
+                                                              {199, 233, 180},
+                                                              {127, 205, 187},
+                                                              {65, 182, 196},
+                                                              {29, 145, 192},
+                                                              {34, 94, 168},
+                                                              {12, 44, 132}}};
 
 /// A band's width in millimetres: a round number, so that the legend's numbers are round too.
 double band_mm(double largest_mm) {
@@ -49,7 +49,7 @@ class Level {
 public:
     Level(const UncertaintyMap& map, double height_m)
         : pinhole_(map.pinhole), height_m_(height_m), projector_(map.table_from_projector.inverse()) {
-        for (const PlaceUncertainty& place : map.zone) {
+        for (const calibration::PlaceUncertainty& place : map.zone) {
             if (std::abs(place.height_m - height_m) < 1e-9) {
                 values_.push_back(place.rms_m);
             }
@@ -60,32 +60,36 @@ public:
     [[nodiscard]] std::optional<double> at(const glm::dvec2& place) const {
         const auto pixel = pinhole_.pixel(projector_.point({place, height_m_}));
         const glm::dvec2 size(pinhole_.width, pinhole_.height);
-        if (!pixel || values_.size() != zone_columns * zone_rows ||
+        if (!pixel || values_.size() != calibration::zone_columns * calibration::zone_rows ||
             glm::any(glm::lessThan(*pixel, glm::dvec2(0.0))) || glm::any(glm::greaterThan(*pixel, size))) {
             return std::nullopt;
         }
-        const glm::dvec2 cells = *pixel / size * glm::dvec2(zone_columns - 1, zone_rows - 1);
-        const std::size_t column = std::min<std::size_t>(static_cast<std::size_t>(cells.x), zone_columns - 2);
-        const std::size_t row = std::min<std::size_t>(static_cast<std::size_t>(cells.y), zone_rows - 2);
+        const glm::dvec2 cells =
+            *pixel / size * glm::dvec2(calibration::zone_columns - 1, calibration::zone_rows - 1);
+        const std::size_t column =
+            std::min<std::size_t>(static_cast<std::size_t>(cells.x), calibration::zone_columns - 2);
+        const std::size_t row =
+            std::min<std::size_t>(static_cast<std::size_t>(cells.y), calibration::zone_rows - 2);
         const glm::dvec2 share = cells - glm::dvec2(column, row);
-        const double* const low = &values_[row * zone_columns + column];
+        const double* const low = &values_[row * calibration::zone_columns + column];
         return glm::mix(glm::mix(low[0], low[1], share.x),
-                        glm::mix(low[zone_columns], low[zone_columns + 1], share.x), share.y);
+                        glm::mix(low[calibration::zone_columns], low[calibration::zone_columns + 1], share.x),
+                        share.y);
     }
     [[nodiscard]] double height_m() const { return height_m_; }
 
 private:
-    const Pinhole& pinhole_;
+    const geometry::Pinhole& pinhole_;
     double height_m_;
-    RigidTransform projector_;
+    geometry::RigidTransform projector_;
     std::vector<double> values_;
 };
 
 /// The place that a pixel lights at a height above the table. All pixels of a calibrated projector reach it.
 glm::dvec2 light_of(const UncertaintyMap& map, const glm::dvec2& pixel, double height_m) {
-    RigidTransform pose = map.table_from_projector;
+    geometry::RigidTransform pose = map.table_from_projector;
     pose.translation.z -= height_m;
-    return lights_table(map.pinhole, pose, pixel).value_or(glm::dvec2(pose.translation));
+    return geometry::lights_table(map.pinhole, pose, pixel).value_or(glm::dvec2(pose.translation));
 }
 
 struct Field {
@@ -118,8 +122,8 @@ Field fitted(const UncertaintyMap& map) {
     return field;
 }
 
-Image8 coloured(std::span<const Level> levels, std::span<const Field> fields, double band_m) {
-    Image8 image(size_px.x, size_px.y, glm::u8vec4(paper, 255));
+image::Image8 coloured(std::span<const Level> levels, std::span<const Field> fields, double band_m) {
+    image::Image8 image(size_px.x, size_px.y, glm::u8vec4(paper, 255));
     for (std::size_t k = 0; k < levels.size(); ++k) {
         const glm::ivec2 low(fields[k].low_px);
         for (int y = low.y; y < low.y + static_cast<int>(field_px.y); ++y) {
@@ -134,7 +138,8 @@ Image8 coloured(std::span<const Level> levels, std::span<const Field> fields, do
     return image;
 }
 
-void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& at, int number) {
+void draw_cross(typography::Canvas& canvas, const typography::Typesetter& typesetter, const glm::dvec2& at,
+                int number) {
     constexpr double arm = 9.0;
     for (const auto& [width, colour] : {std::pair(6.0, paper), std::pair(2.5, ink)}) {
         canvas.line(at - glm::dvec2(arm, 0.0), at + glm::dvec2(arm, 0.0), width, colour);
@@ -147,7 +152,7 @@ void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& 
 }
 
 /// Draws the picture's edge, as straight lines between its corners and the middles of its sides.
-void draw_edge(Canvas& canvas, const UncertaintyMap& map, const Field& field, double height_m) {
+void draw_edge(typography::Canvas& canvas, const UncertaintyMap& map, const Field& field, double height_m) {
     std::vector<glm::dvec2> edge;
     for (const glm::dvec2& share :
          {glm::dvec2(0.0, 0.0), glm::dvec2(0.5, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(1.0, 0.5),
@@ -158,7 +163,7 @@ void draw_edge(Canvas& canvas, const UncertaintyMap& map, const Field& field, do
     canvas.outline(edge, 1.5, grey);
 }
 
-void draw_scale(Canvas& canvas, const Typesetter& typesetter, const Field& field) {
+void draw_scale(typography::Canvas& canvas, const typography::Typesetter& typesetter, const Field& field) {
     constexpr double length_m = 0.2;
     const glm::dvec2 at = field.low_px + glm::dvec2(0.0, field_px.y + 22.0);
     const glm::dvec2 end = at + glm::dvec2(length_m * field.px_per_m, 0.0);
@@ -169,7 +174,8 @@ void draw_scale(Canvas& canvas, const Typesetter& typesetter, const Field& field
     canvas.text(typesetter, "200 mm", end + glm::dvec2(14.0, 0.0), 20.0, ink, {0.0, 0.5});
 }
 
-void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm, const std::string& what) {
+void draw_legend(typography::Canvas& canvas, const typography::Typesetter& typesetter, double width_mm,
+                 const std::string& what) {
     constexpr double box_px = 90.0;
     const glm::dvec2 at(margin_px, 796.0);
     for (int k = 0; k < bands; ++k) {
@@ -193,19 +199,19 @@ void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm, 
 
 } // namespace
 
-MeasuredPlaces places_of(std::span<const Touch> touches) {
+MeasuredPlaces places_of(std::span<const calibration::Touch> touches) {
     MeasuredPlaces measured{"a touched cross", {}};
-    for (const Touch& touch : touches) {
+    for (const calibration::Touch& touch : touches) {
         measured.places.push_back({touch.pixel, touch.block_m, static_cast<int>(measured.places.size()) + 1});
     }
     return measured;
 }
 
-MeasuredPlaces places_of(std::span<const Rest> rests) {
+MeasuredPlaces places_of(std::span<const calibration::Rest> rests) {
     MeasuredPlaces measured{"the points of a rest", {}};
-    for (const Rest& rest : rests) {
+    for (const calibration::Rest& rest : rests) {
         MeasuredPlace middle{{}, rest.block_m.value_or(0.0), rest.name};
-        for (const PropPoint& point : rest.points) {
+        for (const calibration::PropPoint& point : rest.points) {
             middle.pixel += point.pixel / static_cast<double>(rest.points.size());
             middle.height_m += point.prop_m.z / static_cast<double>(rest.points.size());
         }
@@ -214,54 +220,63 @@ MeasuredPlaces places_of(std::span<const Rest> rests) {
     return measured;
 }
 
-MeasuredPlaces places_of(std::span<const MeasuredCorner> corners, int width, int height) {
+MeasuredPlaces places_of(std::span<const calibration::MeasuredCorner> corners, int width, int height) {
     MeasuredPlaces measured{"a measured corner", {}};
-    for (const MeasuredCorner& corner : corners) {
-        measured.places.push_back({pixel_of(corner.corner, width, height), corner.place_m.z,
+    for (const calibration::MeasuredCorner& corner : corners) {
+        measured.places.push_back({calibration::pixel_of(corner.corner, width, height), corner.place_m.z,
                                    static_cast<int>(measured.places.size()) + 1});
     }
     return measured;
 }
 
-std::optional<UncertaintyMap> map_of(const TouchCalibration& calibration) {
+std::optional<UncertaintyMap> map_of(const calibration::TouchCalibration& calibration) {
     if (!calibration.table) {
         return std::nullopt;
     }
-    return UncertaintyMap{calibration.verdict, calibration.table->pinhole,
-                          calibration.table->table_from_projector, calibration.uncertainty, calibration.zone};
+    return UncertaintyMap{.verdict = calibration.verdict,
+                          .pinhole = calibration.table->pinhole,
+                          .table_from_projector = calibration.table->table_from_projector,
+                          .uncertainty = calibration.uncertainty,
+                          .zone = calibration.zone};
 }
 
-std::optional<UncertaintyMap> map_of(const TouchUp& touched_up) {
+std::optional<UncertaintyMap> map_of(const calibration::TouchUp& touched_up) {
     if (!touched_up.table) {
         return std::nullopt;
     }
-    return UncertaintyMap{touched_up.verdict, touched_up.table->pinhole,
-                          touched_up.table->table_from_projector, touched_up.uncertainty, touched_up.zone};
+    return UncertaintyMap{.verdict = touched_up.verdict,
+                          .pinhole = touched_up.table->pinhole,
+                          .table_from_projector = touched_up.table->table_from_projector,
+                          .uncertainty = touched_up.uncertainty,
+                          .zone = touched_up.zone};
 }
 
-std::optional<UncertaintyMap> map_of(const CornerCalibration& calibration,
-                                     const CornerUncertainty& uncertainty) {
+std::optional<UncertaintyMap> map_of(const calibration::CornerCalibration& calibration,
+                                     const calibration::CornerUncertainty& uncertainty) {
     if (!calibration.pinhole) {
         return std::nullopt;
     }
-    return UncertaintyMap{calibration.verdict, *calibration.pinhole, calibration.table_from_projector,
-                          uncertainty.picture, uncertainty.zone};
+    return UncertaintyMap{.verdict = calibration.verdict,
+                          .pinhole = *calibration.pinhole,
+                          .table_from_projector = calibration.table_from_projector,
+                          .uncertainty = uncertainty.picture,
+                          .zone = uncertainty.zone};
 }
 
-Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& measured, double top_m,
-                           const Typesetter& typesetter) {
+image::Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& measured, double top_m,
+                                  const typography::Typesetter& typesetter) {
     const std::array<Level, 2> levels{Level(map, 0.0), Level(map, top_m)};
     std::array<Field, 2> fields;
     fields.fill(fitted(map));
     fields[0].low_px = {margin_px, field_top_px};
     fields[1].low_px = {margin_px + field_px.x + between_px, field_top_px};
     const double width_mm = band_mm(1e3 * map.uncertainty.worst_m);
-    Canvas canvas(coloured(levels, fields, 1e-3 * width_mm));
+    typography::Canvas canvas(coloured(levels, fields, 1e-3 * width_mm));
     canvas.text(typesetter, "How far the light may lie beside its place", {margin_px, 36.0}, 38.0, ink, {},
                 true);
     canvas.text(typesetter,
                 fmt::format("{}: {:.2f} mm on average over the zone, {:.2f} mm at the worst place",
-                            name_of(map.verdict), 1e3 * map.uncertainty.mean_m,
+                            calibration::name_of(map.verdict), 1e3 * map.uncertainty.mean_m,
                             1e3 * map.uncertainty.worst_m),
                 {margin_px, 92.0}, 23.0, grey);
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -286,8 +301,8 @@ Result<void> write_uncertainty(const std::filesystem::path& file, const std::opt
     if (!map) {
         return {}; // the calibration was refused, and the reason is printed
     }
-    TRY(const Typesetter typesetter, Typesetter::open());
-    return write_file(file, encode_png(uncertainty_picture(*map, measured, top_m, typesetter)));
+    TRY(const typography::Typesetter typesetter, typography::Typesetter::open());
+    return write_file(file, image::encode_png(uncertainty_picture(*map, measured, top_m, typesetter)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -22,21 +22,22 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The data of a calibration that are drawn.
 struct UncertaintyMap {
-    Verdict verdict = Verdict::Refused;
-    Pinhole pinhole;
-    RigidTransform table_from_projector;
-    PictureUncertainty uncertainty;
-    std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
+    calibration::Verdict verdict = calibration::Verdict::Refused;
+    geometry::Pinhole pinhole;
+    geometry::RigidTransform table_from_projector;
+    calibration::PictureUncertainty uncertainty;
+    std::vector<calibration::PlaceUncertainty>
+        zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 /// Nothing if the calibration was refused; so in all three.
-[[nodiscard]] std::optional<UncertaintyMap> map_of(const TouchCalibration& calibration);
-[[nodiscard]] std::optional<UncertaintyMap> map_of(const TouchUp& touched_up);
-[[nodiscard]] std::optional<UncertaintyMap> map_of(const CornerCalibration& calibration,
-                                                   const CornerUncertainty& uncertainty);
+[[nodiscard]] std::optional<UncertaintyMap> map_of(const calibration::TouchCalibration& calibration);
+[[nodiscard]] std::optional<UncertaintyMap> map_of(const calibration::TouchUp& touched_up);
+[[nodiscard]] std::optional<UncertaintyMap> map_of(const calibration::CornerCalibration& calibration,
+                                                   const calibration::CornerUncertainty& uncertainty);
 
 /// A measured place: the projector's pixel that lights it, and its height above the table.
 struct MeasuredPlace {
@@ -48,17 +49,18 @@ struct MeasuredPlaces {
     std::string what; ///< the noun for one of them, e.g. "a touched cross"
     std::vector<MeasuredPlace> places;
 };
-[[nodiscard]] MeasuredPlaces places_of(std::span<const Touch> touches);
+[[nodiscard]] MeasuredPlaces places_of(std::span<const calibration::Touch> touches);
 /// The middle of each rest's points.
-[[nodiscard]] MeasuredPlaces places_of(std::span<const Rest> rests);
+[[nodiscard]] MeasuredPlaces places_of(std::span<const calibration::Rest> rests);
 /// The picture's measured corners, for a picture `width` x `height`.
-[[nodiscard]] MeasuredPlaces places_of(std::span<const MeasuredCorner> corners, int width, int height);
+[[nodiscard]] MeasuredPlaces places_of(std::span<const calibration::MeasuredCorner> corners, int width,
+                                       int height);
 
-[[nodiscard]] Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& measured,
-                                         double top_m, const Typesetter& typesetter);
+[[nodiscard]] image::Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& measured,
+                                                double top_m, const typography::Typesetter& typesetter);
 /// Writes the picture as PNG, if there is a map.
 [[nodiscard]] Result<void> write_uncertainty(const std::filesystem::path& file,
                                              const std::optional<UncertaintyMap>& map,
                                              const MeasuredPlaces& measured, double top_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

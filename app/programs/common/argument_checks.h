@@ -11,12 +11,12 @@
 #include <charconv>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Checks only the form of the word; the existing levels are known from the packs.
 [[nodiscard]] inline ArgumentCheck is_technique_word() {
     const auto check = [](const std::string& text) {
-        return is_technique(text)
+        return scene::is_technique(text)
                    ? std::string()
                    : fmt::format("unknown technique '{}'; allowed are auto, finest, level0, level1, ..., "
                                  "relief, relief96, relief192, ..., relief-gpu, relief96-gpu, ...",
@@ -38,4 +38,4 @@ namespace frustumscreen {
     return {check, fmt::format("in [{} - {:.0f}]", low, high)};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -246,4 +246,4 @@ FRUSTUMSCREEN_OPTION_VALUE(std::vector<double>);
 FRUSTUMSCREEN_OPTION_VALUE(std::vector<std::string>);
 FRUSTUMSCREEN_OPTION_VALUE(std::vector<std::filesystem::path>);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

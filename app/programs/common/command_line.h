@@ -21,7 +21,7 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Checks the text of an argument; returns a description of the error, empty if it is valid.
 struct ArgumentCheck {
@@ -101,4 +101,4 @@ struct WrongUse {
 /// True if `--name` or `--name=...` is present; selects the command if several have options of their own.
 [[nodiscard]] bool names_option(int argc, const char* const* argv, std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 #include <exception>
 #include <new>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// One line on standard error: the program, the sentence, and its id in brackets.
 inline void complain(const char* program, const Error& error) {
@@ -40,4 +40,4 @@ inline int guarded_main(const char* program, int (*run)(int, char**), int argc, 
     return 1;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 constexpr std::chrono::seconds patience(2);
@@ -64,4 +64,4 @@ void ProgressLine::clear() {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

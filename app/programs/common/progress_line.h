@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class ProgressLine {
 public:
@@ -32,4 +32,4 @@ private:
     std::chrono::steady_clock::time_point last_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

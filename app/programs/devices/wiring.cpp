@@ -30,7 +30,7 @@
 #include <ctime>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -42,130 +42,143 @@ Nanoseconds nanoseconds(double seconds) {
 }
 
 /// Opens a pose file or a packet recording.
-Result<std::unique_ptr<Tracker>> make_replay(const TrackerSettings& tracker, MonotonicTime start) {
+Result<std::unique_ptr<tracker::Tracker>> make_replay(const settings::TrackerSettings& tracker,
+                                                      MonotonicTime start) {
     const std::string name = tracker.poses.string();
     TRY(Bytes bytes, read_file(tracker.poses));
-    if (is_packet_recording(bytes)) {
-        TRY(PacketReplay replay, PacketReplay::open(std::move(bytes), name));
-        return std::make_unique<PacketReplayTracker>(std::move(replay), start, tracker.replay_speed);
+    if (tracker::is_packet_recording(bytes)) {
+        TRY(tracker::PacketReplay replay, tracker::PacketReplay::open(std::move(bytes), name));
+        return std::make_unique<tracker::PacketReplayTracker>(std::move(replay), start, tracker.replay_speed);
     }
-    TRY(std::vector<PoseSample> samples, parse_poses(as_text(bytes), name));
-    return std::make_unique<ReplayTracker>(std::move(samples), start, true, tracker.replay_speed);
+    TRY(std::vector<tracker::PoseSample> samples, tracker::parse_poses(as_text(bytes), name));
+    return std::make_unique<tracker::ReplayTracker>(std::move(samples), start, true, tracker.replay_speed);
 }
 
-bool has_packets(TrackerKind kind) {
-    return kind == TrackerKind::Usb || kind == TrackerKind::SpaceMouse;
+bool has_packets(settings::TrackerKind kind) {
+    return kind == settings::TrackerKind::Usb || kind == settings::TrackerKind::SpaceMouse;
 }
 
-std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
-    if (kind == TrackerKind::SpaceMouse) {
-        return make_hid_bus(UsbTrackerModel::SpaceMouse);
+std::unique_ptr<tracker::UsbBus> make_bus(settings::TrackerKind kind) {
+    if (kind == settings::TrackerKind::SpaceMouse) {
+        return tracker::make_hid_bus(tracker::UsbTrackerModel::SpaceMouse);
     }
-    std::vector<std::unique_ptr<UsbBus>> buses;
-    buses.push_back(make_libusb_bus());
-    buses.push_back(make_hid_bus(UsbTrackerModel::Hid));
-    return std::make_unique<CompositeBus>(std::move(buses));
+    std::vector<std::unique_ptr<tracker::UsbBus>> buses;
+    buses.push_back(tracker::make_libusb_bus());
+    buses.push_back(tracker::make_hid_bus(tracker::UsbTrackerModel::Hid));
+    return std::make_unique<tracker::CompositeBus>(std::move(buses));
 }
 
-Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
-    if (settings.tracker.kind == TrackerKind::Replay) {
+Result<std::unique_ptr<tracker::Tracker>> make_tracker(const settings::Settings& settings,
+                                                       MonotonicTime start, tracker::PacketTap* tap) {
+    if (settings.tracker.kind == settings::TrackerKind::Replay) {
         return at(settings.tracker.poses_key, make_replay(settings.tracker, start));
     }
     if (has_packets(settings.tracker.kind)) {
-        const UsbTrackerSetUp set_up{settings.tracker.hemisphere,
-                                     0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m)};
-        return std::make_unique<UsbTracker>(make_bus(settings.tracker.kind), set_up, tap);
+        const tracker::UsbTrackerSetUp set_up{
+            settings.tracker.hemisphere, 0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m)};
+        return std::make_unique<tracker::UsbTracker>(make_bus(settings.tracker.kind), set_up, tap);
     }
-    const Rectangle places = lit_rectangle(settings);
-    SimulatedVisitor visitor;
+    const settings::Rectangle places = settings::lit_rectangle(settings);
+    tracker::SimulatedVisitor visitor;
     visitor.seed = settings.tracker.seed;
     visitor.centre_m = places.centre_m;
     visitor.half_extent_m = used_share_of_zone * places.half_m;
     visitor.eye_m = settings.eye.default_m;
-    return std::make_unique<SimulatedTracker>(visitor, start);
+    return std::make_unique<tracker::SimulatedTracker>(visitor, start);
 }
 
-ButtonTimes times_of(const PanelSettings& panel) {
-    ButtonTimes times;
+panel::ButtonTimes times_of(const settings::PanelSettings& panel) {
+    panel::ButtonTimes times;
     times.debounce = nanoseconds(1e-3 * panel.debounce_ms);
     times.stuck = nanoseconds(panel.stuck_s);
     return times;
 }
 
-Result<std::unique_ptr<Panel>> make_keys(const PanelSettings& panel) {
-    TRY(const std::vector<std::uint16_t> codes, key_codes(panel.keys));
-    const KeyRequest request{panel.device, codes};
-    return std::make_unique<ButtonPanel>([request] { return open_key_lines(request); }, panel.keys.size(),
-                                         times_of(panel));
+Result<std::unique_ptr<panel::Panel>> make_keys(const settings::PanelSettings& panel) {
+    TRY(const std::vector<std::uint16_t> codes, panel::key_codes(panel.keys));
+    const panel::KeyRequest request{panel.device, codes};
+    return std::make_unique<panel::ButtonPanel>([request] { return panel::open_key_lines(request); },
+                                                panel.keys.size(), times_of(panel));
 }
 
-std::unique_ptr<Panel> make_buttons(const PanelSettings& panel) {
-    const LineRequest request{panel.chip, panel.lines, panel.bias, panel.active_low, panel.lamps};
-    return std::make_unique<ButtonPanel>([request] { return open_gpio_lines(request); }, panel.lines.size(),
-                                         times_of(panel));
+std::unique_ptr<panel::Panel> make_buttons(const settings::PanelSettings& panel) {
+    const panel::LineRequest request{.chip = panel.chip,
+                                     .lines = panel.lines,
+                                     .bias = panel.bias,
+                                     .active_low = panel.active_low,
+                                     .lamps = panel.lamps};
+    return std::make_unique<panel::ButtonPanel>([request] { return panel::open_gpio_lines(request); },
+                                                panel.lines.size(), times_of(panel));
 }
 
-Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optional<Nanoseconds> press_every,
-                                          MonotonicTime start) {
+Result<std::unique_ptr<panel::Panel>>
+make_panel(const settings::Settings& settings, std::optional<Nanoseconds> press_every, MonotonicTime start) {
     if (press_every) {
-        return std::make_unique<ScriptedPanel>(
-            std::vector<PanelPress>{{*press_every / 2, button_of(Command::NextArtifact)}}, *press_every,
-            start);
+        return std::make_unique<panel::ScriptedPanel>(
+            std::vector<panel::PanelPress>{
+                {*press_every / 2, settings::button_of(settings::Command::NextArtifact)}},
+            *press_every, start);
     }
-    if (settings.panel.kind == PanelKind::Gpio) {
+    if (settings.panel.kind == settings::PanelKind::Gpio) {
         return make_buttons(settings.panel);
     }
-    if (settings.panel.kind == PanelKind::Keys) {
+    if (settings.panel.kind == settings::PanelKind::Keys) {
         return make_keys(settings.panel);
     }
-    std::vector<PanelPress> script;
-    for (const ScriptedPress& press : settings.panel.script) {
+    std::vector<panel::PanelPress> script;
+    for (const settings::ScriptedPress& press : settings.panel.script) {
         script.push_back({nanoseconds(press.at_s), press.button});
     }
-    return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
+    return std::make_unique<panel::ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s),
+                                                  start);
 }
 
-TagSetUp tag_set_up(const CameraSettings& camera) {
-    TagSetUp set_up{camera.pinhole, camera.table_from_camera, {}, 1e-3 * camera.rolling_shutter_ms};
-    for (const TagSettings& tag : camera.tag) {
-        set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
+tags::TagSetUp tag_set_up(const settings::CameraSettings& camera) {
+    tags::TagSetUp set_up{.camera = camera.pinhole,
+                          .table_from_camera = camera.table_from_camera,
+                          .tags = {},
+                          .readout_s = 1e-3 * camera.rolling_shutter_ms};
+    for (const settings::TagSettings& tag : camera.tag) {
+        set_up.tags.push_back({tag.id, tag.size_m, settings::prop_from_tag(tag)});
     }
     return set_up;
 }
 
-VisitorSetUp visitor_set_up(const Settings& settings) {
-    VisitorSetUp set_up{settings.camera.pinhole, settings.camera.table_from_camera, {}};
+visitor::VisitorSetUp visitor_set_up(const settings::Settings& settings) {
+    visitor::VisitorSetUp set_up{settings.camera.pinhole, settings.camera.table_from_camera, {}};
     set_up.zone.table_size_m = {settings.table.width_m, settings.table.depth_m};
     return set_up;
 }
 
-DriftSetUp drift_set_up(const Settings& settings) {
-    DriftSetUp set_up{mark_places(settings), {}, settings.calibration.folder / drift_file};
-    for (const TagSettings& tag : settings.camera.tag) {
+drift::DriftSetUp drift_set_up(const settings::Settings& settings) {
+    drift::DriftSetUp set_up{
+        drift::mark_places(settings), {}, settings.calibration.folder / drift::drift_file};
+    for (const settings::TagSettings& tag : settings.camera.tag) {
         set_up.moving_tags.push_back(tag.id);
     }
     return set_up;
 }
 
 /// Adds the camera, and the users of its frames.
-void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan) {
-    std::vector<FrameUse> uses;
+void add_camera(show::Inputs& inputs, const settings::Settings& settings, const scene::DevicePlan& plan) {
+    std::vector<camera::FrameUse> uses;
     if (plan.tags) {
-        inputs.tags = std::make_unique<TagTracker>(tag_set_up(settings.camera));
-        uses.emplace_back([&tags = *inputs.tags](const CameraFrame& frame) { tags.use(frame); });
+        inputs.tags = std::make_unique<tags::TagTracker>(tag_set_up(settings.camera));
+        uses.emplace_back([&tags = *inputs.tags](const camera::CameraFrame& frame) { tags.use(frame); });
     }
     if (plan.visitor) {
-        inputs.visitor = std::make_unique<VisitorTracker>(visitor_set_up(settings));
-        uses.emplace_back([&visitor = *inputs.visitor](const CameraFrame& frame) { visitor.use(frame); });
+        inputs.visitor = std::make_unique<visitor::VisitorTracker>(visitor_set_up(settings));
+        uses.emplace_back(
+            [&visitor = *inputs.visitor](const camera::CameraFrame& frame) { visitor.use(frame); });
     }
     if (plan.drift) {
-        inputs.drift = std::make_unique<DriftWatch>(drift_set_up(settings));
-        uses.emplace_back([&drift = *inputs.drift](const CameraFrame& frame) { drift.use(frame); });
+        inputs.drift = std::make_unique<drift::DriftWatch>(drift_set_up(settings));
+        uses.emplace_back([&drift = *inputs.drift](const camera::CameraFrame& frame) { drift.use(frame); });
     }
     if (!uses.empty() && plan.panel) {
-        inputs.viewfinder = std::make_unique<Viewfinder>(settings);
+        inputs.viewfinder = std::make_unique<show::Viewfinder>(settings);
         uses.emplace_back(
-            [&viewfinder = *inputs.viewfinder](const CameraFrame& frame) { viewfinder.use(frame); });
+            [&viewfinder = *inputs.viewfinder](const camera::CameraFrame& frame) { viewfinder.use(frame); });
     }
     if (!uses.empty()) {
         inputs.camera = make_camera(settings.camera, std::move(uses));
@@ -174,10 +187,10 @@ void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan
 
 } // namespace
 
-Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
-    const DisplaySettings& display = settings.display;
-    if (!headless && display.kind == DisplayKind::Kms) {
-        OutputRequest request;
+Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings, bool headless) {
+    const settings::DisplaySettings& display = settings.display;
+    if (!headless && display.kind == settings::DisplayKind::Kms) {
+        display::OutputRequest request;
         const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
         request.connector = named(display.connector);
         request.width = display.mode.width;
@@ -187,33 +200,42 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
         request.picture_width = settings.projector.pinhole.width;
         request.picture_height = settings.projector.pinhole.height;
         request.picture_hz = settings.projector.refresh_hz;
-        return KmsDisplay::create(named(display.card), request);
+        return display::KmsDisplay::create(named(display.card), request);
     }
-    return SurfacelessDisplay::create(settings.projector.pinhole.width, settings.projector.pinhole.height);
+    return display::SurfacelessDisplay::create(settings.projector.pinhole.width,
+                                               settings.projector.pinhole.height);
 }
 
-Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
+Result<std::unique_ptr<tracker::PacketRecorder>> make_recorder(settings::TrackerKind kind,
+                                                               const std::filesystem::path& path) {
     if (!has_packets(kind)) {
         return fail(ErrorKind::BadConfiguration, "record.no_packets",
                     "tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
                     "\"spacemouse\"",
-                    name_of(kind));
+                    settings::name_of(kind));
     }
     TRY(GrowingFile file, GrowingFile::create(path));
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
                                           project_version(), fmt::gmtime(std::time(nullptr)));
-    return std::make_unique<PacketRecorder>(std::move(file), about, monotonic_now());
+    return std::make_unique<tracker::PacketRecorder>(std::move(file), about, monotonic_now());
 }
 
-std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
-    if (settings.kind == SoundKind::None) {
+std::unique_ptr<sound::Sound> make_sound(const settings::SoundSettings& settings) {
+    if (settings.kind == settings::SoundKind::None) {
         return nullptr;
     }
-    return std::make_unique<DeviceSound>([device = settings.device] { return open_alsa(device); });
+    return std::make_unique<sound::DeviceSound>(
+        [device = settings.device] { return sound::open_alsa(device); });
 }
 
-CameraRequest camera_request(const CameraSettings& settings) {
-    CameraRequest request{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
+camera::CameraRequest camera_request(const settings::CameraSettings& settings) {
+    camera::CameraRequest request{.device = settings.device,
+                                  .width = settings.width,
+                                  .height = settings.height,
+                                  .rate_hz = settings.rate_hz,
+                                  .exposure_ms = {},
+                                  .gain = {},
+                                  .white_balance_k = {}};
     if (settings.exposure_ms > 0.0) {
         request.exposure_ms = settings.exposure_ms;
     }
@@ -226,27 +248,29 @@ CameraRequest camera_request(const CameraSettings& settings) {
     return request;
 }
 
-std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
+std::unique_ptr<camera::Camera> make_camera(const settings::CameraSettings& settings,
+                                            std::vector<camera::FrameUse> uses) {
     const rlimit none{0, 0};
     static_cast<void>(::setrlimit(RLIMIT_CORE, &none));             // a dump would contain a frame
     const double max_share = uses.empty() ? 1.0 : max_camera_share; // a calibration needs every frame
-    const auto use_all = [uses = std::move(uses)](const CameraFrame& frame) {
-        for (const FrameUse& use : uses) {
+    const auto use_all = [uses = std::move(uses)](const camera::CameraFrame& frame) {
+        for (const camera::FrameUse& use : uses) {
             use(frame);
         }
     };
-    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_request(settings), use_all, max_share);
+    return std::make_unique<camera::V4l2Camera>(camera::kernel_v4l2_devices(), camera_request(settings),
+                                                use_all, max_share);
 }
 
-Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
-                           std::optional<Nanoseconds> press_every, MonotonicTime start,
-                           std::unique_ptr<PacketRecorder> recorder) {
-    Inputs inputs;
+Result<show::Inputs> make_inputs(const settings::Settings& settings, const scene::DevicePlan& plan,
+                                 std::optional<Nanoseconds> press_every, MonotonicTime start,
+                                 std::unique_ptr<tracker::PacketRecorder> recorder) {
+    show::Inputs inputs;
     inputs.recorder = std::move(recorder);
-    if (plan.tracker != TrackerKind::None) {
-        TRY(std::unique_ptr<Tracker> tracker, make_tracker(settings, start, inputs.recorder.get()));
+    if (plan.tracker != settings::TrackerKind::None) {
+        TRY(std::unique_ptr<tracker::Tracker> tracker, make_tracker(settings, start, inputs.recorder.get()));
         inputs.tracker =
-            std::make_unique<RegisteredTracker>(std::move(tracker), settings.tracker.registration);
+            std::make_unique<tracking::RegisteredTracker>(std::move(tracker), settings.tracker.registration);
     }
     add_camera(inputs, settings, plan);
     if (plan.panel) {
@@ -255,4 +279,4 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
     return inputs;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

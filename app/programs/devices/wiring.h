@@ -18,29 +18,31 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless);
+[[nodiscard]] Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings,
+                                                                     bool headless);
 
 /// Creates a new file for the tracker's packets.
-[[nodiscard]] Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind,
-                                                                    const std::filesystem::path& path);
+[[nodiscard]] Result<std::unique_ptr<tracker::PacketRecorder>>
+make_recorder(settings::TrackerKind kind, const std::filesystem::path& path);
 /// Opens only the devices of the plan. `press_every`: interval of presses of 'next artifact', in place of the
 /// panel's script. `recorder`, if any, gets the tracker's packets.
-[[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
-                                         std::optional<Nanoseconds> press_every, MonotonicTime start,
-                                         std::unique_ptr<PacketRecorder> recorder = nullptr);
+[[nodiscard]] Result<show::Inputs> make_inputs(const settings::Settings& settings,
+                                               const scene::DevicePlan& plan,
+                                               std::optional<Nanoseconds> press_every, MonotonicTime start,
+                                               std::unique_ptr<tracker::PacketRecorder> recorder = nullptr);
 
 /// nullptr: the settings switch sound off.
-[[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
+[[nodiscard]] std::unique_ptr<sound::Sound> make_sound(const settings::SoundSettings& settings);
 
-[[nodiscard]] CameraRequest camera_request(const CameraSettings& settings);
+[[nodiscard]] camera::CameraRequest camera_request(const settings::CameraSettings& settings);
 /// Limit of the camera's thread while the exhibit runs, decoding included, as a share of one core; frames are
 /// skipped to stay within it.
 inline constexpr double max_camera_share = 0.25;
 /// Starts the camera's thread, which passes each frame to all uses in turn, and stays within its share of a
 /// core if there are uses. The settings must have a camera. The process writes no core dumps from then on.
-[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,
-                                                  std::vector<FrameUse> uses = {});
+[[nodiscard]] std::unique_ptr<camera::Camera> make_camera(const settings::CameraSettings& settings,
+                                                          std::vector<camera::FrameUse> uses = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

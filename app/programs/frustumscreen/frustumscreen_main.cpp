@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 void print_usage(std::FILE* to) {
@@ -91,8 +91,9 @@ int dispatch(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen", frustumscreen::dispatch, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen", frustumscreen::programs::dispatch, argc,
+                                                 argv);
 }

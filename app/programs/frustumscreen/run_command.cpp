@@ -31,7 +31,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -43,20 +43,21 @@ Nanoseconds nanoseconds(double seconds) {
 }
 
 void record_crashes_of(const RunPlaces& places) {
-    const SystemImage image = read_system_image(usual_boot_folder);
-    const std::string system =
-        image.there() ? fmt::format("{}, image {}", system_name(), image.version) : system_name();
-    record_crashes({places.cache.empty() ? std::filesystem::path() : places.cache / "crashes",
-                    project_version(), system});
+    const status::SystemImage image = status::read_system_image(status::usual_boot_folder);
+    const std::string system = image.there()
+                                   ? fmt::format("{}, image {}", status::system_name(), image.version)
+                                   : status::system_name();
+    service::record_crashes({places.cache.empty() ? std::filesystem::path() : places.cache / "crashes",
+                             project_version(), system});
 }
 
 /// Reads the settings and packs of the watchdog's mode, and makes the folders for the run's output.
-Result<RunMode> load(RunRequest& request, const Journal& journal) {
+Result<RunMode> load(RunRequest& request, const service::Journal& journal) {
     TRY(RunMode mode, choose_run_mode(request.places, journal));
     if (!mode.packs.empty()) {
         request.show.packs = mode.packs;
     }
-    request.trust = mode.mode == Mode::LastGoodSet ? Trust::Before : Trust::Newest;
+    request.trust = mode.mode == watch::Mode::LastGoodSet ? show::Trust::Before : show::Trust::Newest;
     if (!request.out.empty()) {
         std::error_code failed;
         std::filesystem::create_directories(request.out, failed);
@@ -74,12 +75,14 @@ Result<RunMode> load(RunRequest& request, const Journal& journal) {
 }
 
 /// A service that cannot record reports it and runs without the recording.
-Result<Inputs> open_inputs(const RunRequest& request, const Settings& settings, const DevicePlan& devices,
-                           bool is_service, std::optional<Nanoseconds> press_every, MonotonicTime start) {
-    std::unique_ptr<PacketRecorder> recorder;
+Result<show::Inputs> open_inputs(const RunRequest& request, const settings::Settings& settings,
+                                 const scene::DevicePlan& devices, bool is_service,
+                                 std::optional<Nanoseconds> press_every, MonotonicTime start) {
+    std::unique_ptr<tracker::PacketRecorder> recorder;
     Sentence why_not;
     if (!request.record.empty()) {
-        Result<std::unique_ptr<PacketRecorder>> made = make_recorder(devices.tracker, request.record);
+        Result<std::unique_ptr<tracker::PacketRecorder>> made =
+            make_recorder(devices.tracker, request.record);
         if (made) {
             recorder = std::move(*made);
         } else if (is_service) {
@@ -88,7 +91,7 @@ Result<Inputs> open_inputs(const RunRequest& request, const Settings& settings, 
             return tl::unexpected<Error>(made.error());
         }
     }
-    Result<Inputs> inputs = make_inputs(settings, devices, press_every, start, std::move(recorder));
+    Result<show::Inputs> inputs = make_inputs(settings, devices, press_every, start, std::move(recorder));
     if (inputs) {
         inputs->why_not_recorded = why_not;
     }
@@ -96,47 +99,50 @@ Result<Inputs> open_inputs(const RunRequest& request, const Settings& settings, 
 }
 
 /// A headless run has no loudspeaker: its sound is kept with the pictures.
-std::unique_ptr<Sound> open_sound(const RunRequest& request, const Settings& settings, MonotonicTime start) {
-    if (!request.headless || settings.sound.kind == SoundKind::None) {
+std::unique_ptr<sound::Sound> open_sound(const RunRequest& request, const settings::Settings& settings,
+                                         MonotonicTime start) {
+    if (!request.headless || settings.sound.kind == settings::SoundKind::None) {
         return make_sound(settings.sound);
     }
     if (request.out.empty()) {
-        return std::make_unique<SilentSound>(start);
+        return std::make_unique<sound::SilentSound>(start);
     }
-    return std::make_unique<WavSound>(start);
+    return std::make_unique<sound::WavSound>(start);
 }
 
 /// The open parts of a run, closed from the last to the first.
 struct OpenExhibit {
-    std::unique_ptr<Display> display;
-    DevicePlan devices;
-    std::unique_ptr<Show> show;
-    std::optional<Error> error_screen;   ///< why there is nothing to show; shown instead
-    std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the error screen
+    std::unique_ptr<display::Display> display;
+    scene::DevicePlan devices;
+    std::unique_ptr<show::Show> show;
+    std::optional<Error> error_screen;         ///< why there is nothing to show; shown instead
+    std::unique_ptr<show::SetArrival> arrival; ///< none: no set of packs can end the error screen
     MonotonicTime start;
-    Inputs inputs;
+    show::Inputs inputs;
 };
 
-Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, const StopSignals& stop_signals,
-                         ServiceManager& manager, const Journal& journal) {
+Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& settings,
+                         const service::StopSignals& stop_signals, service::ServiceManager& manager,
+                         const service::Journal& journal) {
     OpenExhibit exhibit;
     TRY(exhibit.display, wait_for_display({[&] { return make_display(settings, request.headless); }},
                                           stop_signals, manager, journal));
-    note_driver_for_crashes(exhibit.display->name());
+    service::note_driver_for_crashes(exhibit.display->name());
     // Simulated time starts at zero, real time when loading is complete.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
-    exhibit.devices = plan_devices(settings, request.changes > 0, !request.status_file.empty());
+    exhibit.devices = scene::plan_devices(settings, request.changes > 0, !request.status_file.empty());
     const std::filesystem::path& library = settings.exhibit.library;
-    const std::optional<FileStamp> set_before = stamp_of_set(library);
-    Result<std::unique_ptr<Show>> show = [&] {
-        const StopSignals::AtOnce at_once(stop_signals); // loading takes long and leaves nothing behind
+    const std::optional<show::FileStamp> set_before = show::stamp_of_set(library);
+    Result<std::unique_ptr<show::Show>> show = [&] {
+        const service::StopSignals::AtOnce at_once(
+            stop_signals); // loading takes long and leaves nothing behind
         return make_show(request, settings, exhibit.devices, *exhibit.display, now());
     }();
     if (!show && manager.listens()) {
         exhibit.error_screen = show.error();
         show = make_error_screen(settings, journal, *exhibit.error_screen);
         if (!library.empty()) {
-            exhibit.arrival = std::make_unique<SetArrival>(library, set_before);
+            exhibit.arrival = std::make_unique<show::SetArrival>(library, set_before);
         }
     }
     TRY_VOID(show);
@@ -155,30 +161,31 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
 }
 
 /// True if calibration by buttons is possible: it needs a tracker that reports poses, and buttons.
-bool may_calibrate(const RunRequest& request, const Settings& settings, const DevicePlan& devices) {
+bool may_calibrate(const RunRequest& request, const settings::Settings& settings,
+                   const scene::DevicePlan& devices) {
     return !request.calibrate_file.empty() && settings.calibration.by_buttons &&
-           devices.tracker != TrackerKind::None && devices.panel;
+           devices.tracker != settings::TrackerKind::None && devices.panel;
 }
 
-void ask_for_calibration(const std::filesystem::path& file, const Journal& journal) {
+void ask_for_calibration(const std::filesystem::path& file, const service::Journal& journal) {
     const Result<void> written = write_file(file, {});
     journal.note(
-        LogPriority::Notice,
+        service::LogPriority::Notice,
         written ? "the staff ask for the table's calibration"
                 : fmt::format("the table's calibration cannot be asked for: {}", written.error().message),
         {{"DEVICE", "calibration"}});
 }
 
-LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const OpenExhibit& exhibit,
-                         const Journal& journal) {
-    LoopOptions options;
+show::LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const OpenExhibit& exhibit,
+                               const service::Journal& journal) {
+    show::LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = nanoseconds(request.seconds);
     } else if (exhibit.error_screen) {
         options.length = error_screen_length;
     }
     options.fast = request.fast;
-    options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
+    options.redraw = request.full_redraw ? render::Redraw::Everything : render::Redraw::Changes;
     options.stills = request.out.empty() ? 0 : request.stills;
     options.keep_rows = !request.out.empty();
     if (exhibit.arrival) {
@@ -189,7 +196,7 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
             ask_for_calibration(file, journal);
         };
     }
-    options.mode = word_of(mode.mode);
+    options.mode = watch::word_of(mode.mode);
     options.settings = Sentence(mode.used.instead);
     return options;
 }
@@ -197,19 +204,19 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
 /// Prints the error before anything is closed, because a thread that hangs may delay closing until the process ends.
 int end_with(const Error& why) {
     const int status = exit_status("frustumscreen", tl::unexpected<Error>(why));
-    end_within(longest_stop, status);
+    service::end_within(longest_stop, status);
     return status;
 }
 
 /// Returns the exit status, or an error that is not yet printed. Everything is still open.
-Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<LoopResult>& result,
-                   const Sound* sound, const Journal& journal) {
+Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<show::LoopResult>& result,
+                   const sound::Sound* sound, const service::Journal& journal) {
     const bool until_told = request.seconds == 0.0;
     switch (end.why) {
     case RunEnd::Why::SetInstalled:
-        journal.note(LogPriority::Notice, "a set of packs was installed; the exhibit starts anew with it",
-                     {{"DEVICE", "set"}});
-        end_within(longest_stop);
+        journal.note(service::LogPriority::Notice,
+                     "a set of packs was installed; the exhibit starts anew with it", {{"DEVICE", "set"}});
+        service::end_within(longest_stop);
         return 0;
     case RunEnd::Why::Failed:
         return until_told ? Result<int>(end_with(*end.error)) : tl::unexpected<Error>(*end.error);
@@ -217,7 +224,7 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<Lo
         break;
     }
     if (until_told) {
-        end_within(longest_stop);
+        service::end_within(longest_stop);
     }
     if (!request.out.empty()) {
         TRY_VOID(write_output(request.out, *result, sound));
@@ -227,37 +234,40 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<Lo
 }
 
 /// Nothing if visits are not counted. A run in simulated time has no date.
-std::unique_ptr<VisitBook> open_visit_book(const RunRequest& request, const Settings& settings) {
+std::unique_ptr<counts::VisitBook> open_visit_book(const RunRequest& request,
+                                                   const settings::Settings& settings) {
     std::error_code missing;
     const std::filesystem::path& folder = settings.exhibit.counts;
     const bool counts = !request.fast && !request.pattern && !folder.empty() &&
                         std::filesystem::is_directory(folder, missing);
-    return counts ? std::make_unique<VisitBook>(folder, local_offset_at) : nullptr;
+    return counts ? std::make_unique<counts::VisitBook>(folder, local_offset_at) : nullptr;
 }
 
 /// Runs the loop and finishes while its devices are still open, so that a hanging one cannot delay the end.
 Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, OpenExhibit& exhibit,
-                            const StopSignals& stop_signals, ServiceManager& manager,
-                            const Journal& journal) {
-    const Settings& settings = *mode.used.settings;
-    LoopOptions options = loop_options(request, mode, exhibit, journal);
+                            const service::StopSignals& stop_signals, service::ServiceManager& manager,
+                            const service::Journal& journal) {
+    const settings::Settings& settings = *mode.used.settings;
+    show::LoopOptions options = loop_options(request, mode, exhibit, journal);
     options.stop = &stop_signals;
-    Screenshot screenshot(exhibit.display->width(), exhibit.display->height());
+    show::Screenshot screenshot(exhibit.display->width(), exhibit.display->height());
     options.screenshot = request.staff_socket.empty() ? nullptr : &screenshot;
-    const std::unique_ptr<StaffSocket> staff = open_staff_socket(request.staff_socket, screenshot, journal);
+    const std::unique_ptr<service::StaffSocket> staff =
+        open_staff_socket(request.staff_socket, screenshot, journal);
     const std::string& zone = settings.hours.time_zone;
-    RunHours hours(settings.hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
+    show::RunHours hours(settings.hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
     options.hours = &hours;
-    const std::unique_ptr<VisitBook> visits = open_visit_book(request, settings);
+    const std::unique_ptr<counts::VisitBook> visits = open_visit_book(request, settings);
     options.visits = visits.get();
-    StatusPlaces places{.status_file = request.status_file};
-    if (library_is_there(settings)) {
+    status::StatusPlaces places{.status_file = request.status_file};
+    if (show::library_is_there(settings)) {
         places.data_folder = settings.exhibit.library;
     }
-    StatusFile status_file(std::move(places), keeper_of(request.places, mode));
-    RunWatch watch(manager, journal);
-    const Result<LoopResult> result = run_loop(settings, *exhibit.display, exhibit.inputs, *exhibit.show,
-                                               options, status_file, watch, exhibit.start);
+    show::StatusFile status_file(std::move(places), keeper_of(request.places, mode));
+    show::RunWatch watch(manager, journal);
+    const Result<show::LoopResult> result =
+        show::run_loop(settings, *exhibit.display, exhibit.inputs, *exhibit.show, options, status_file, watch,
+                       exhibit.start);
     manager.stopping();
     const RunEnd end = end_of_run(result, exhibit.error_screen, exhibit.arrival && exhibit.arrival->came());
     return finish(request, end, result, exhibit.inputs.sound.get(), journal);
@@ -266,11 +276,11 @@ Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, Open
 /// Returns the exit status, or an error that is not yet printed.
 Result<int> run(RunRequest& request) {
     record_crashes_of(request.places);
-    const StopSignals stop_signals;
-    const Journal journal("frustumscreen");
-    ServiceManager manager;
+    const service::StopSignals stop_signals;
+    const service::Journal journal("frustumscreen");
+    service::ServiceManager manager;
     TRY(const RunMode mode, load(request, journal));
-    const Settings& settings = *mode.used.settings;
+    const settings::Settings& settings = *mode.used.settings;
     static_cast<void>(use_time_zone(settings.hours.time_zone)); // before a second thread starts
     prepare_driver(request.places, mode.mode, journal);
     TRY(OpenExhibit exhibit, open(request, settings, stop_signals, manager, journal));
@@ -288,4 +298,4 @@ int run_command(int argc, char** argv) {
     return status ? *status : exit_status("frustumscreen", tl::unexpected<Error>(status.error()));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

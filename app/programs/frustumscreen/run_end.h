@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A service shows for this long why it has nothing to show. Then it ends, and systemd starts it again to look for
 /// packs; it ends at once when a set of packs is installed.
@@ -26,7 +26,7 @@ struct RunEnd {
 };
 
 /// `error_screen`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed during the run.
-[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result,
+[[nodiscard]] inline RunEnd end_of_run(const Result<show::LoopResult>& result,
                                        const std::optional<Error>& error_screen, bool set_came) {
     if (!result) {
         return {RunEnd::Why::Failed, result.error()};
@@ -41,4 +41,4 @@ struct RunEnd {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

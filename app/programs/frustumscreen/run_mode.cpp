@@ -10,18 +10,18 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 constexpr std::uintmax_t max_bytes = 64;
 
-void tell_of_calibration(const CalibrationSettings& calibration, const Journal& journal) {
+void tell_of_calibration(const settings::CalibrationSettings& calibration, const service::Journal& journal) {
     for (const std::string& why : calibration.unused) {
-        journal.note(LogPriority::Error, why);
+        journal.note(service::LogPriority::Error, why);
     }
     if (calibration.used) {
-        journal.note(LogPriority::Info,
+        journal.note(service::LogPriority::Info,
                      fmt::format("calibration: {} is used, made {}, of {} places", calibration.used_name,
                                  calibration.used->made, calibration.used->places));
     }
@@ -33,69 +33,70 @@ std::filesystem::path last_good(const RunPlaces& places) {
 
 } // namespace
 
-Mode read_run_mode(const std::filesystem::path& file) {
+watch::Mode read_run_mode(const std::filesystem::path& file) {
     std::error_code failed;
     if (file.empty() || !std::filesystem::exists(file, failed)) {
-        return Mode::Normal;
+        return watch::Mode::Normal;
     }
     const Result<Bytes> bytes = read_file(file, max_bytes);
     if (!bytes) {
         say_line("frustumscreen", fmt::format("{}; the mode is normal", bytes.error().message));
-        return Mode::Normal;
+        return watch::Mode::Normal;
     }
     std::string_view word = as_text(*bytes);
     word = word.substr(0, word.find_first_of(" \r\n"));
-    const std::optional<Mode> mode = mode_named(word);
+    const std::optional<watch::Mode> mode = watch::mode_named(word);
     if (!mode) {
         say_line("frustumscreen", fmt::format("{}: unknown mode '{}'; allowed are normal, last_good_set, "
                                               "plain and built_in; the mode is normal",
                                               file.string(), word));
     }
     // A person who starts the exhibit while the safe picture is shown wants the exhibit.
-    return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
+    return mode && *mode != watch::Mode::Safe ? *mode : watch::Mode::Normal;
 }
 
-Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal) {
-    const Mode mode = read_run_mode(places.mode_file);
-    std::optional<SettingsFallback> fallback;
+Result<RunMode> choose_run_mode(const RunPlaces& places, const service::Journal& journal) {
+    const watch::Mode mode = read_run_mode(places.mode_file);
+    std::optional<show::SettingsFallback> fallback;
     std::vector<std::filesystem::path> packs;
-    if (mode == Mode::BuiltIn) {
+    if (mode == watch::Mode::BuiltIn) {
         packs = {places.shipped / "built_in.fspack"};
-        fallback = SettingsFallback{last_good(places), places.shipped / "kiosk.toml"};
+        fallback = show::SettingsFallback{last_good(places), places.shipped / "kiosk.toml"};
     }
-    TRY(UsedSettings used, use_settings(places.config, fallback));
-    if (mode != Mode::Normal) {
-        journal.note(LogPriority::Warning, fmt::format("the watchdog asks for the mode {}", word_of(mode)));
+    TRY(show::UsedSettings used, show::use_settings(places.config, fallback));
+    if (mode != watch::Mode::Normal) {
+        journal.note(service::LogPriority::Warning,
+                     fmt::format("the watchdog asks for the mode {}", watch::word_of(mode)));
     }
     if (!used.instead.empty()) {
-        journal.note(LogPriority::Error, used.instead);
+        journal.note(service::LogPriority::Error, used.instead);
     }
     tell_of_calibration(used.settings->calibration, journal);
     return RunMode{mode, std::move(used), std::move(packs)};
 }
 
-void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal) {
-    if (mode == Mode::Plain) {
-        draw_plainly();
-    } else if (mode == Mode::BuiltIn) {
-        keep_no_shaders();
+void prepare_driver(const RunPlaces& places, watch::Mode mode, const service::Journal& journal) {
+    if (mode == watch::Mode::Plain) {
+        display::draw_plainly();
+    } else if (mode == watch::Mode::BuiltIn) {
+        display::keep_no_shaders();
     } else if (!places.cache.empty()) {
-        if (const Result<void> kept = keep_shaders_in(places.cache); !kept) {
-            journal.note(LogPriority::Warning, kept.error().message);
+        if (const Result<void> kept = display::keep_shaders_in(places.cache); !kept) {
+            journal.note(service::LogPriority::Warning, kept.error().message);
         }
     }
 }
 
-std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode) {
-    if (places.cache.empty() || mode.mode == Mode::BuiltIn) {
+std::function<void(const show::RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode) {
+    if (places.cache.empty() || mode.mode == watch::Mode::BuiltIn) {
         return {};
     }
-    return [keeper = SettingsKeeper(last_good(places), mode.used.text),
-            volume = VolumeKeeper(places.volume_file(), mode.used.settings->sound.gain_db)](
-               const RunStatus& status) mutable {
+    return [keeper = show::SettingsKeeper(last_good(places), mode.used.text),
+            volume = show::VolumeKeeper(places.volume_file(), mode.used.settings->sound.gain_db)](
+               const show::RunStatus& status) mutable {
         keeper.note(status);
         volume.note(status.louder_db);
     };
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

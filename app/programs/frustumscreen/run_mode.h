@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct RunPlaces {
     std::filesystem::path config;
@@ -27,19 +27,20 @@ struct RunPlaces {
     }
 };
 struct RunMode {
-    Mode mode = Mode::Normal; ///< never Safe
-    UsedSettings used;
+    watch::Mode mode = watch::Mode::Normal; ///< never Safe
+    show::UsedSettings used;
     std::vector<std::filesystem::path> packs; ///< replace all others; none: keep the others
 };
 
 /// Normal if there is no file. Reports an unknown mode in one line.
-[[nodiscard]] Mode read_run_mode(const std::filesystem::path& file);
-[[nodiscard]] Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal);
+[[nodiscard]] watch::Mode read_run_mode(const std::filesystem::path& file);
+[[nodiscard]] Result<RunMode> choose_run_mode(const RunPlaces& places, const service::Journal& journal);
 /// Tells the graphics driver how to draw and where to keep compiled shaders. Call before the first display. Modes plain
 /// and built_in keep none; a folder that cannot keep shaders is reported in one line.
-void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal);
+void prepare_driver(const RunPlaces& places, watch::Mode mode, const service::Journal& journal);
 /// Keeps the staff's volume, and a copy of settings that showed an artifact well. Keeps neither in mode built_in, which
 /// says little about the settings.
-[[nodiscard]] std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode);
+[[nodiscard]] std::function<void(const show::RunStatus&)> keeper_of(const RunPlaces& places,
+                                                                    const RunMode& mode);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

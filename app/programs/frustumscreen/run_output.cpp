@@ -10,39 +10,48 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-Result<void> write_pictures(const std::filesystem::path& folder, const LoopResult& result) {
-    std::vector<PoseSample> poses;
+Result<void> write_pictures(const std::filesystem::path& folder, const show::LoopResult& result) {
+    std::vector<tracker::PoseSample> poses;
     for (std::size_t k = 0; k < result.stills.size(); ++k) {
-        const Still& still = result.stills[k];
-        const RigidTransform& pose = still.tracked_state.table_from_prop;
-        poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
-        poses.push_back({still.time, head_station, still.tracked_state.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
+        const show::Still& still = result.stills[k];
+        const geometry::RigidTransform& pose = still.tracked_state.table_from_prop;
+        poses.push_back({.time = still.time,
+                         .station = tracker::prop_station,
+                         .position_m = pose.translation,
+                         .rotation = pose.rotation,
+                         .ok = true});
+        poses.push_back({.time = still.time,
+                         .station = tracker::head_station,
+                         .position_m = still.tracked_state.eye_m,
+                         .rotation = {1.0, 0.0, 0.0, 0.0},
+                         .ok = true});
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
-        TRY_VOID(write_file(file, encode_png(still.picture)));
+        TRY_VOID(write_file(file, image::encode_png(still.picture)));
     }
-    TRY_VOID(write_file(folder / "poses.csv", as_bytes(write_poses(poses))));
-    return write_file(folder / "frames.csv", as_bytes(frames_csv(result.rows)));
+    TRY_VOID(write_file(folder / "poses.csv", as_bytes(tracker::write_poses(poses))));
+    return write_file(folder / "frames.csv", as_bytes(show::frames_csv(result.rows)));
 }
 
 } // namespace
 
-Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result, const Sound* sound) {
+Result<void> write_output(const std::filesystem::path& folder, const show::LoopResult& result,
+                          const sound::Sound* sound) {
     std::error_code failed;
-    std::filesystem::remove(folder / visitor_cameras_name, failed);
+    std::filesystem::remove(folder / simulation::visitor_cameras_name, failed);
     TRY_VOID(write_pictures(folder, result));
-    const auto* const heard = dynamic_cast<const WavSound*>(sound);
+    const auto* const heard = dynamic_cast<const sound::WavSound*>(sound);
     return heard != nullptr ? heard->write(folder / "sound.wav") : Result<void>();
 }
 
-void report(const RunRequest& request, const LoopResult& result) {
-    RunStatus status = result.status;
-    stamp(status);
+void report(const RunRequest& request, const show::LoopResult& result) {
+    show::RunStatus status = result.status;
+    show::stamp(status);
     if (request.json) {
-        fmt::print("{}", status_json(status));
+        fmt::print("{}", status::status_json(status));
         return;
     }
     const auto [median_ms, p95_ms, p99_ms] = status.frame_ms;
@@ -62,4 +71,4 @@ void report(const RunRequest& request, const LoopResult& result) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,13 +11,13 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Writes frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run, and sound.wav if
 /// `sound` recorded it. Removes the visitor's cameras that an earlier call of render left there.
-[[nodiscard]] Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result,
-                                        const Sound* sound);
+[[nodiscard]] Result<void> write_output(const std::filesystem::path& folder, const show::LoopResult& result,
+                                        const sound::Sound* sound);
 
-void report(const RunRequest& request, const LoopResult& result);
+void report(const RunRequest& request, const show::LoopResult& result);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

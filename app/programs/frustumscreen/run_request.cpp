@@ -3,7 +3,7 @@
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/command_line.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequest& request) {
     bool everything = false;
@@ -49,8 +49,8 @@ std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequ
                  "load also what this scene does not need, to compare; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
     const std::optional<int> end = app.end_of_arguments(argc, argv);
-    request.show.cull_kinds = everything ? 0U : AllCullKinds;
+    request.show.cull_kinds = everything ? 0U : scene::AllCullKinds;
     return end;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct RunRequest {
     RunPlaces places;
@@ -19,9 +19,9 @@ struct RunRequest {
     std::filesystem::path staff_socket;
     std::filesystem::path calibrate_file;
     std::filesystem::path record;
-    ArtifactShowOptions show;
-    Trust trust = Trust::Newest; ///< in the installed sets
-    double seconds = 0.0;        ///< 0: until stopped
+    show::ArtifactShowOptions show;
+    show::Trust trust = show::Trust::Newest; ///< in the installed sets
+    double seconds = 0.0;                    ///< 0: until stopped
     int stills = 8;
     int changes = 0;
     bool headless = false;
@@ -34,4 +34,4 @@ struct RunRequest {
 /// Reads the arguments after 'run'. Returns the exit status if the program ends there, as CommandLine.
 [[nodiscard]] std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

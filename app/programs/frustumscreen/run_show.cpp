@@ -11,15 +11,15 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Settings& settings,
-                                        const DevicePlan& devices, const Display& display,
-                                        MonotonicTime start) {
+Result<std::unique_ptr<show::Show>> make_show(const RunRequest& request, const settings::Settings& settings,
+                                              const scene::DevicePlan& devices,
+                                              const display::Display& display, MonotonicTime start) {
     if (request.pattern) {
-        return PatternShow::create(settings);
+        return show::PatternShow::create(settings);
     }
-    ArtifactShowOptions options = request.show;
+    show::ArtifactShowOptions options = request.show;
     options.waits = request.fast;
     const bool from_library = options.packs.empty();
     if (from_library) {
@@ -27,40 +27,41 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
         options.packs_key = settings.exhibit.packs_key;
     }
     // Only a run in real time takes other sets, so that a run in simulated time is repeatable.
-    const bool watches = from_library && !request.fast && library_is_there(settings);
+    const bool watches = from_library && !request.fast && show::library_is_there(settings);
     options.other_sets = watches;
-    const auto create = [&](const ArtifactShowOptions& each) {
-        return ArtifactShow::create(settings, devices, each, {display.framebuffer(), 0});
+    const auto create = [&](const show::ArtifactShowOptions& each) {
+        return show::ArtifactShow::create(settings, devices, each, {display.framebuffer(), 0});
     };
-    InstalledShow installed;
+    show::InstalledShow installed;
     if (from_library) {
-        installed = show_installed_set(settings, options, request.trust, create);
+        installed = show::show_installed_set(settings, options, request.trust, create);
     }
-    TRY(std::unique_ptr<ArtifactShow> artifacts,
+    TRY(std::unique_ptr<show::ArtifactShow> artifacts,
         installed.show ? std::move(installed.show) : create(options));
     for (const std::string& note : artifacts->notes()) {
         say_line("frustumscreen", note);
     }
-    Exhibit exhibit = make_exhibit(settings, *artifacts, start);
-    exhibit.set_louder_db(read_kept_volume(request.places.volume_file(), settings.sound.gain_db));
-    ArtifactShow& stage = *artifacts;
-    auto live = std::make_unique<LiveExhibit>(
+    exhibit::Exhibit exhibit = show::make_exhibit(settings, *artifacts, start);
+    exhibit.set_louder_db(show::read_kept_volume(request.places.volume_file(), settings.sound.gain_db));
+    show::ArtifactShow& stage = *artifacts;
+    auto live = std::make_unique<show::LiveExhibit>(
         settings, std::move(artifacts), std::move(exhibit), display.name(),
-        request.fast ? PromptReader::Answer::Always : PromptReader::Answer::WhenReady);
+        request.fast ? residency::PromptReader::Answer::Always : residency::PromptReader::Answer::WhenReady);
     if (watches) {
-        live->watch(stage,
-                    std::make_unique<LibraryWatch>(
-                        settings, LibraryWatch::SetUp{settings.exhibit.library, stage.set_options(),
-                                                      stage.expected_frames(), std::move(installed.start),
-                                                      stage.set().number}));
+        live->watch(stage, std::make_unique<show::LibraryWatch>(
+                               settings, show::LibraryWatch::SetUp{.library = settings.exhibit.library,
+                                                                   .options = stage.set_options(),
+                                                                   .frames = stage.expected_frames(),
+                                                                   .start = std::move(installed.start),
+                                                                   .shown = stage.set().number}));
     }
     return live;
 }
 
-Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings, const Journal& journal,
-                                                const Error& why) {
-    journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
-    Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
+Result<std::unique_ptr<show::Show>> make_error_screen(const settings::Settings& settings,
+                                                      const service::Journal& journal, const Error& why) {
+    journal.note(service::LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
+    Result<std::unique_ptr<show::PatternShow>> pattern = show::PatternShow::create(settings);
     if (!pattern) {
         return tl::unexpected<Error>(why);
     }
@@ -69,4 +70,4 @@ Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings, const 
     return std::move(*pattern);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -15,16 +15,16 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// `start`: the run's start, on its own clock.
-[[nodiscard]] Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Settings& settings,
-                                                      const DevicePlan& devices, const Display& display,
-                                                      MonotonicTime start);
+[[nodiscard]] Result<std::unique_ptr<show::Show>>
+make_show(const RunRequest& request, const settings::Settings& settings, const scene::DevicePlan& devices,
+          const display::Display& display, MonotonicTime start);
 
 /// Shows the error to the staff on the table, because a service's standard error is not read. Returns `why` if that
 /// fails.
-[[nodiscard]] Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings,
-                                                              const Journal& journal, const Error& why);
+[[nodiscard]] Result<std::unique_ptr<show::Show>>
+make_error_screen(const settings::Settings& settings, const service::Journal& journal, const Error& why);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

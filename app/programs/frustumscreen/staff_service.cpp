@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -14,29 +14,30 @@ constexpr Nanoseconds longest_wait = std::chrono::seconds(10);
 
 } // namespace
 
-std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path, Screenshot& screenshot,
-                                               const Journal& journal) {
+std::unique_ptr<service::StaffSocket> open_staff_socket(const std::filesystem::path& path,
+                                                        show::Screenshot& screenshot,
+                                                        const service::Journal& journal) {
     if (path.empty()) {
         return nullptr;
     }
-    Result<std::unique_ptr<StaffSocket>> socket = StaffSocket::open(
+    Result<std::unique_ptr<service::StaffSocket>> socket = service::StaffSocket::open(
         path, [&screenshot](std::string_view question, const std::stop_token& stop) -> Result<Bytes> {
             if (question != screenshot_question) {
                 return bad_input("staff.no_question", "unknown question '{}'; ask '{}'",
                                  printable(question, 64), screenshot_question);
             }
-            TRY(const Image8* const picture, screenshot.take(stop));
-            return encode_png(*picture);
+            TRY(const image::Image8* const picture, screenshot.take(stop));
+            return image::encode_png(*picture);
         });
     if (!socket) {
-        journal.note(LogPriority::Warning, socket.error().message, {{"DEVICE", "staff"}});
+        journal.note(service::LogPriority::Warning, socket.error().message, {{"DEVICE", "staff"}});
         return nullptr;
     }
     return std::move(*socket);
 }
 
 Result<Bytes> ask_for_screenshot(const std::filesystem::path& path) {
-    return ask_staff_socket(path, screenshot_question, max_picture_bytes, longest_wait);
+    return service::ask_staff_socket(path, screenshot_question, max_picture_bytes, longest_wait);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

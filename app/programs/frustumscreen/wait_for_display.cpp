@@ -2,7 +2,7 @@
 
 #include "firmware_host/base/sentence.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -10,14 +10,15 @@ constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
 
 } // namespace
 
-Result<std::unique_ptr<Display>> wait_for_display(const DisplaySearch& search,
-                                                  const StopSignals& stop_signals, ServiceManager& manager,
-                                                  const Journal& journal) {
-    std::unique_ptr<Hotplug> hotplug; // made when it has to wait
+Result<std::unique_ptr<display::Display>> wait_for_display(const DisplaySearch& search,
+                                                           const service::StopSignals& stop_signals,
+                                                           service::ServiceManager& manager,
+                                                           const service::Journal& journal) {
+    std::unique_ptr<display::Hotplug> hotplug; // made when it has to wait
     Sentence noted;
     const MonotonicTime begin = search.now();
     while (true) {
-        Result<std::unique_ptr<Display>> display = search.make();
+        Result<std::unique_ptr<display::Display>> display = search.make();
         if (display || !manager.listens()) {
             return display;
         }
@@ -31,13 +32,13 @@ Result<std::unique_ptr<Display>> wait_for_display(const DisplaySearch& search,
         const Sentence why(display.error().message);
         if (why != noted) {
             noted = why;
-            journal.note(LogPriority::Warning, why.view(), {{"DEVICE", "display"}});
+            journal.note(service::LogPriority::Warning, why.view(), {{"DEVICE", "display"}});
         }
         manager.status(why);
         manager.still_starting(10 * between_looks_for_card);
-        const StopSignals::AtOnce at_once(stop_signals); // nothing to close yet
+        const service::StopSignals::AtOnce at_once(stop_signals); // nothing to close yet
         static_cast<void>(hotplug->wait(between_looks_for_card));
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,23 +16,22 @@
 #include <functional>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// While the machine boots, udev may not have given the card to the exhibit's user yet.
 inline constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
 
 /// The ways to look for a display.
 struct DisplaySearch {
-    std::function<Result<std::unique_ptr<Display>>()> make;
-    std::function<std::unique_ptr<Hotplug>()> make_hotplug =
-        make_udev_hotplug; ///< called when it has to wait
+    std::function<Result<std::unique_ptr<display::Display>>()> make;
+    std::function<std::unique_ptr<display::Hotplug>()> make_hotplug =
+        display::make_udev_hotplug; ///< called when it has to wait
     std::function<MonotonicTime()> now = monotonic_now;
 };
 
 /// During the wait, a stop signal ends the process at once, because nothing is open yet.
-[[nodiscard]] Result<std::unique_ptr<Display>> wait_for_display(const DisplaySearch& search,
-                                                                const StopSignals& stop_signals,
-                                                                ServiceManager& manager,
-                                                                const Journal& journal);
+[[nodiscard]] Result<std::unique_ptr<display::Display>>
+wait_for_display(const DisplaySearch& search, const service::StopSignals& stop_signals,
+                 service::ServiceManager& manager, const service::Journal& journal);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

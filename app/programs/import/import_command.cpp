@@ -31,7 +31,7 @@
 #include <thread>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -81,17 +81,17 @@ std::string import_id(const ImportArguments& arguments) {
                        ::getpid());
 }
 
-Result<void> read_trust(const ImportArguments& arguments, ImportRequest& request) {
+Result<void> read_trust(const ImportArguments& arguments, library::ImportRequest& request) {
     if (!arguments.config.empty()) {
-        TRY(const CheckedSettings settings, load_settings(arguments.config));
+        TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
         request.keys = settings->exhibit.keys;
         request.unsigned_packs = settings->exhibit.unsigned_packs;
     }
     if (!arguments.keys.empty()) {
-        TRY(request.keys, read_key_folder(arguments.keys));
+        TRY(request.keys, pack::read_key_folder(arguments.keys));
     }
     if (arguments.allow_unsigned) {
-        request.unsigned_packs = UnsignedPacks::Allow;
+        request.unsigned_packs = pack::UnsignedPacks::Allow;
     }
     return {};
 }
@@ -106,21 +106,22 @@ Result<void> make_folder(const std::filesystem::path& folder) {
 
 /// The contents of set.txt, and the set that an exhibit started now would show.
 struct Installed {
-    SetFile file;
-    InstalledSet set;
+    library::SetFile file;
+    library::InstalledSet set;
 };
 
 Result<Installed> installed(const std::filesystem::path& folder) {
     TRY(const std::unique_ptr<WritableTree> library, open_tree(folder));
-    const tl::expected<SetFile, ImportFailure> file = read_set_file(*library);
+    const tl::expected<library::SetFile, library::ImportFailure> file = library::read_set_file(*library);
     if (!file) {
         return bad_input("import.set_file", folder.string() + ": " + file.error().reason);
     }
-    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(*library);
+    const tl::expected<std::optional<library::SetVerdict>, library::ImportFailure> verdict =
+        library::read_verdict(*library);
     if (!verdict) {
         return bad_input("import.verdict_file", folder.string() + ": " + verdict.error().reason);
     }
-    return Installed{*file, set_to_show(file->choice, *verdict)};
+    return Installed{*file, library::set_to_show(file->choice, *verdict)};
 }
 
 /// Number of the installed set; 0 if it is not known.
@@ -129,16 +130,17 @@ std::uint64_t set_number(const ImportArguments& arguments) {
 }
 
 /// Takes the stick's settings before the keys are read from them, because the stick may bring other keys.
-std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
-                                             const ImportArguments& arguments, std::chrono::sys_days clock) {
+std::optional<library::ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
+                                                      const ImportArguments& arguments,
+                                                      std::chrono::sys_days clock) {
     const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
     if (!folder) {
         return std::nullopt; // this kiosk has no settings to replace
     }
-    const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
-    std::optional<ImportedPack> told =
-        take_settings(stick, **folder, day_here(clock, set ? set->latest_day : ""));
-    if (told && told->outcome == ImportOutcome::Taken && !arguments.report.empty()) {
+    const tl::expected<library::SetFile, library::ImportFailure> set = library::read_set_file(library);
+    std::optional<library::ImportedPack> told =
+        library::take_settings(stick, **folder, library::day_here(clock, set ? set->latest_day : ""));
+    if (told && told->outcome == library::ImportOutcome::Taken && !arguments.report.empty()) {
         const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
         if (const Result<void> marked = write_file(mark, {}); !marked) {
             complain("frustumscreen-import", marked.error());
@@ -148,20 +150,22 @@ std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& libr
 }
 
 /// The lines on the report that was written to the stick. The file of its outcome is read once.
-std::vector<ImportedPack> stick_report_of(FileTree& stick, const ImportArguments& arguments) {
-    const std::optional<ImportReport> written = read_import_report(arguments.stick_report);
+std::vector<library::ImportedPack> stick_report_of(FileTree& stick, const ImportArguments& arguments) {
+    const std::optional<library::ImportReport> written = library::read_import_report(arguments.stick_report);
     std::error_code ignored;
     std::filesystem::remove(arguments.stick_report, ignored);
-    return lines_of_stick_report(stick, written ? written->packs : std::vector<ImportedPack>());
+    return library::lines_of_stick_report(stick,
+                                          written ? written->packs : std::vector<library::ImportedPack>());
 }
 
 /// Reports that nothing of the stick was read except what `request` tells of.
-ImportReport tell_failed(const ImportArguments& arguments, const std::string& id, ImportRefusal refusal,
-                         const std::string& reason, const ImportRequest& request = {}) {
-    ImportReport report;
+library::ImportReport tell_failed(const ImportArguments& arguments, const std::string& id,
+                                  library::ImportRefusal refusal, const std::string& reason,
+                                  const library::ImportRequest& request = {}) {
+    library::ImportReport report;
     report.import_id = id;
     report.stick = printable(arguments.label);
-    report.stage = ImportStage::Failed;
+    report.stage = library::ImportStage::Failed;
     report.refusal = refusal;
     report.reason = reason;
     report.set_number = set_number(arguments);
@@ -175,8 +179,8 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
 
 } // namespace
 
-ImportReport import_from(const ImportArguments& arguments) {
-    ImportRequest request;
+library::ImportReport import_from(const ImportArguments& arguments) {
+    library::ImportRequest request;
     request.import_id = import_id(arguments);
     request.stick = arguments.label;
     request.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
@@ -193,57 +197,60 @@ ImportReport import_from(const ImportArguments& arguments) {
         request.stick_report = stick_report_of(**stick, arguments);
     }
     const Result<void> trusted = read_trust(arguments, request);
-    wait_for_readers(arguments.report, request.import_id, arguments.report_stands_s);
+    library::wait_for_readers(arguments.report, request.import_id, arguments.report_stands_s);
     if (!stick) {
-        return tell_failed(arguments, request.import_id, ImportRefusal::Unreadable, stick.error().message);
+        return tell_failed(arguments, request.import_id, library::ImportRefusal::Unreadable,
+                           stick.error().message);
     }
     const Result<void> ready = lock.map([](const FolderLock&) {})
                                    .and_then([&] { return library.map([](const auto&) {}); })
                                    .and_then([&] { return trusted; });
     if (!ready) {
-        return tell_failed(arguments, request.import_id, ImportRefusal::Unwritable, ready.error().message,
-                           request);
+        return tell_failed(arguments, request.import_id, library::ImportRefusal::Unwritable,
+                           ready.error().message, request);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
-    const ImportEnvironment outside{monotonic_now, processor_time, [&](const ImportReport& report) {
-                                        watcher.tell(report, monotonic_now());
-                                    }};
-    return import_stick(**stick, **library, request, outside);
+    const library::ImportEnvironment outside{
+        monotonic_now, processor_time,
+        [&](const library::ImportReport& report) { watcher.tell(report, monotonic_now()); }};
+    return library::import_stick(**stick, **library, request, outside);
 }
 
-std::optional<ImportReport> tell_unmounted(const ImportArguments& arguments) {
+std::optional<library::ImportReport> tell_unmounted(const ImportArguments& arguments) {
     // If the folder cannot be locked, no import runs either.
     const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
     const std::string id = import_id(arguments);
-    if (!is_to_be_told_unmounted(read_import_report(arguments.report), id)) {
+    if (!library::is_to_be_told_unmounted(library::read_import_report(arguments.report), id)) {
         return std::nullopt;
     }
-    wait_for_readers(arguments.report, id, arguments.report_stands_s);
-    return tell_failed(arguments, id, ImportRefusal::Unreadable,
+    library::wait_for_readers(arguments.report, id, arguments.report_stands_s);
+    return tell_failed(arguments, id, library::ImportRefusal::Unreadable,
                        "the stick cannot be read or was pulled out; put it in again, and if this is said "
                        "again, format it as FAT32 or exFAT and copy the packs onto it");
 }
 
 Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
-    const std::optional<ImportReport> word = last_word(
-        read_import_report(arguments.report), import_id(arguments), service_result, set_number(arguments));
-    return word ? write_file(arguments.report, as_bytes(write_import_report(*word))) : Result<void>();
+    const std::optional<library::ImportReport> word =
+        library::last_word(library::read_import_report(arguments.report), import_id(arguments),
+                           service_result, set_number(arguments));
+    return word ? write_file(arguments.report, as_bytes(library::write_import_report(*word)))
+                : Result<void>();
 }
 
 Result<std::string> list_installed(const ImportArguments& arguments) {
     TRY(const Installed found, installed(arguments.into));
-    ImportRequest request; // its keys are empty if no settings are named
+    library::ImportRequest request; // its keys are empty if no settings are named
     TRY_VOID(read_trust(arguments, request));
-    const InstalledSet* set = &found.set;
+    const library::InstalledSet* set = &found.set;
     const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
     const std::vector<ListedKey> listed = list_keys(request.keys, found.file.keys);
-    const SignerList signers(arguments.into, listed, knows_settings,
-                             trusted_keys(request.keys, found.file.keys),
-                             day_here(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()),
-                                      found.file.latest_day));
+    const SignerList signers(
+        arguments.into, listed, knows_settings, library::trusted_keys(request.keys, found.file.keys),
+        library::day_here(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()),
+                          found.file.latest_day));
     auto packs = nlohmann::ordered_json::array();
     std::string text;
-    for (const InstalledPack& pack : set->packs) {
+    for (const library::InstalledPack& pack : set->packs) {
         const ListedSigner signer = signers.of(pack);
         packs.push_back({{"file", pack.file},
                          {"title", pack.title},
@@ -266,4 +273,4 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
     return arguments.json ? json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

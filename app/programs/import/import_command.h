@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ImportArguments {
     std::filesystem::path from;   ///< the stick's folder
@@ -35,10 +35,10 @@ struct ImportArguments {
 };
 
 /// Waits until no other import uses the folder.
-[[nodiscard]] ImportReport import_from(const ImportArguments& arguments);
+[[nodiscard]] library::ImportReport import_from(const ImportArguments& arguments);
 /// Reports that a stick could not be mounted. Nothing if the stick, or another partition of it, was read after all: its
 /// report stays. Waits as import_from.
-[[nodiscard]] std::optional<ImportReport> tell_unmounted(const ImportArguments& arguments);
+[[nodiscard]] std::optional<library::ImportReport> tell_unmounted(const ImportArguments& arguments);
 /// Writes the final report of the import `id` if that ended without one; else the report stays. `service_result`:
 /// reason for the end, in systemd's words.
 [[nodiscard]] Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result);
@@ -46,4 +46,4 @@ struct ImportArguments {
 /// if settings are named.
 [[nodiscard]] Result<std::string> list_installed(const ImportArguments& arguments);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,10 +14,10 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
-std::string line_of(const ImportedPack& pack) {
+std::string line_of(const library::ImportedPack& pack) {
     const std::string name =
         pack.title.empty() ? pack.file : fmt::format("{} (\"{}\")", pack.file, pack.title);
     return fmt::format("{}: {}{}{}", name, words_of(pack.outcome), pack.reason.empty() ? "" : ": ",
@@ -26,27 +26,29 @@ std::string line_of(const ImportedPack& pack) {
 
 /// Prints a line for each pack, refused ones on standard error. The exit status is about the stick, not about each
 /// pack.
-int say(const ImportReport& report, const ImportArguments& arguments) {
-    for (const ImportedPack& pack : report.packs) {
-        if (pack.outcome == ImportOutcome::Refused || pack.outcome == ImportOutcome::NotWritten) {
+int say(const library::ImportReport& report, const ImportArguments& arguments) {
+    for (const library::ImportedPack& pack : report.packs) {
+        if (pack.outcome == library::ImportOutcome::Refused ||
+            pack.outcome == library::ImportOutcome::NotWritten) {
             fmt::print(stderr, "frustumscreen-import: {}\n", line_of(pack));
         } else if (!arguments.json) {
             fmt::print("{}\n", line_of(pack));
         }
     }
     if (arguments.json) {
-        fmt::print("{}", write_import_report(report));
+        fmt::print("{}", library::write_import_report(report));
     }
-    if (report.stage != ImportStage::Failed) {
+    if (report.stage != library::ImportStage::Failed) {
         if (report.packs.empty() && !arguments.json) {
             fmt::print("no pack (*.fspack) was found; put packs into the stick's root, or one folder down\n");
         }
         return 0;
     }
-    const bool is_said = std::any_of(report.packs.begin(), report.packs.end(), [&](const ImportedPack& pack) {
-        return pack.reason.ends_with(report.reason) ||
-               (!pack.reason.empty() && report.reason.ends_with(pack.reason));
-    });
+    const bool is_said =
+        std::any_of(report.packs.begin(), report.packs.end(), [&](const library::ImportedPack& pack) {
+            return pack.reason.ends_with(report.reason) ||
+                   (!pack.reason.empty() && report.reason.ends_with(pack.reason));
+        });
     if (!is_said) {
         fmt::print(stderr, "frustumscreen-import: {}\n", report.reason);
     }
@@ -134,15 +136,16 @@ int run(int argc, char** argv) {
     }
     arguments.allow_unsigned = unsigned_packs == "allow";
     if (is_unmounted) {
-        const std::optional<ImportReport> unmounted = tell_unmounted(arguments);
+        const std::optional<library::ImportReport> unmounted = tell_unmounted(arguments);
         return unmounted ? say(*unmounted, arguments) : 0;
     }
     return to_list ? list(arguments) : say(import_from(arguments), arguments);
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-import", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-import", frustumscreen::programs::run, argc,
+                                                 argv);
 }

@@ -9,49 +9,50 @@
 #include <array>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 constexpr Nanoseconds between_reports = std::chrono::milliseconds(300);
 constexpr double bytes_per_mb = 1e6;
 
-double share_of(const ImportReport& report) {
+double share_of(const library::ImportReport& report) {
     return static_cast<double>(report.done_bytes) /
            static_cast<double>(std::max<std::uint64_t>(report.total_bytes, 1));
 }
 
-std::string line_of(const ImportReport& report) {
+std::string line_of(const library::ImportReport& report) {
     switch (report.stage) {
-    case ImportStage::Found:
+    case library::ImportStage::Found:
         return "a stick is looked through";
-    case ImportStage::Copying: // each byte is copied, then checked
+    case library::ImportStage::Copying: // each byte is copied, then checked
         return fmt::format("{:.1f} MB are copied and checked",
                            static_cast<double>(report.total_bytes) / 2.0 / bytes_per_mb);
-    case ImportStage::MayTakeOut:
+    case library::ImportStage::MayTakeOut:
         return fmt::format("the stick may be taken out; set {} is installed", report.set_number);
-    case ImportStage::Done:
+    case library::ImportStage::Done:
         return "done";
-    case ImportStage::Failed:
+    case library::ImportStage::Failed:
         break;
     }
     const bool has_taken =
-        std::any_of(report.packs.begin(), report.packs.end(),
-                    [](const ImportedPack& pack) { return pack.outcome == ImportOutcome::Taken; });
+        std::any_of(report.packs.begin(), report.packs.end(), [](const library::ImportedPack& pack) {
+            return pack.outcome == library::ImportOutcome::Taken;
+        });
     return has_taken ? "taken, and something is wrong" : "nothing was taken";
 }
 
 } // namespace
 
-std::string_view words_of(ImportOutcome outcome) {
+std::string_view words_of(library::ImportOutcome outcome) {
     constexpr std::array<std::string_view, 7> words{"pending", "taken",   "already there", "refused",
                                                     "removed", "written", "not written"};
     return words[static_cast<std::size_t>(outcome)];
 }
 
-void ImportWatcher::tell(const ImportReport& report, MonotonicTime now) {
+void ImportWatcher::tell(const library::ImportReport& report, MonotonicTime now) {
     const bool is_new_stage = stage_ != report.stage;
-    if (report.stage == ImportStage::Copying) {
+    if (report.stage == library::ImportStage::Copying) {
         progress_.show_share("copying and checking", share_of(report));
     }
     if (!is_new_stage && now - written_ < between_reports) {
@@ -68,15 +69,15 @@ void ImportWatcher::tell(const ImportReport& report, MonotonicTime now) {
 }
 
 /// A report that cannot be written causes one message and does not stop the import.
-void ImportWatcher::write(const ImportReport& report) {
+void ImportWatcher::write(const library::ImportReport& report) {
     if (file_.empty()) {
         return;
     }
-    const Result<void> written = write_file(file_, as_bytes(write_import_report(report)));
+    const Result<void> written = write_file(file_, as_bytes(library::write_import_report(report)));
     if (!written && !complained_) {
         complained_ = true;
         complain("frustumscreen-import", written.error());
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,26 +10,26 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class ImportWatcher {
 public:
     /// `file`: empty: no file. `lines`: a line for each stage on standard output.
     ImportWatcher(std::filesystem::path file, bool lines) : file_(std::move(file)), lines_(lines) {}
     /// Reports a new stage at once, and copying a few times a second.
-    void tell(const ImportReport& report, MonotonicTime now);
+    void tell(const library::ImportReport& report, MonotonicTime now);
 
 private:
-    void write(const ImportReport& report);
+    void write(const library::ImportReport& report);
     std::filesystem::path file_;
     bool lines_;
     bool complained_ = false;
     ProgressLine progress_;
-    std::optional<ImportStage> stage_;
+    std::optional<library::ImportStage> stage_;
     MonotonicTime written_{};
 };
 
 /// The outcome of a pack in a word or two.
-[[nodiscard]] std::string_view words_of(ImportOutcome outcome);
+[[nodiscard]] std::string_view words_of(library::ImportOutcome outcome);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,30 +9,40 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 std::string id_of(const std::string& line) {
-    const Result<PublicKey> key = parse_public_key(line);
-    return key ? text_of_key_id(key->id) : std::string();
+    const Result<pack::PublicKey> key = pack::parse_public_key(line);
+    return key ? pack::text_of_key_id(key->id) : std::string();
 }
 
 } // namespace
 
-std::vector<ListedKey> list_keys(std::span<const TrustedKey> settings, std::span<const CarriedKey> carried) {
+std::vector<ListedKey> list_keys(std::span<const pack::TrustedKey> settings,
+                                 std::span<const library::CarriedKey> carried) {
     std::vector<ListedKey> listed;
-    for (const TrustedKey& key : settings) {
-        listed.push_back(
-            {key.name, text_of_key_id(key.key.id), key.until ? text_of_day(*key.until) : "", "", "", true});
+    for (const pack::TrustedKey& key : settings) {
+        listed.push_back({.name = key.name,
+                          .id = pack::text_of_key_id(key.key.id),
+                          .until = key.until ? text_of_day(*key.until) : "",
+                          .from = "",
+                          .since = "",
+                          .counts = true});
     }
-    const std::vector<TrustedKey> counting = trusted_keys(settings, carried);
-    const std::span<const TrustedKey> behind = std::span(counting).subspan(settings.size());
-    for (const CarriedKey& key : carried) {
-        const bool counts = std::any_of(behind.begin(), behind.end(), [&](const TrustedKey& each) {
-            return public_key_line(each.key) == key.public_key;
+    const std::vector<pack::TrustedKey> counting = library::trusted_keys(settings, carried);
+    const std::span<const pack::TrustedKey> behind = std::span(counting).subspan(settings.size());
+    for (const library::CarriedKey& key : carried) {
+        const bool counts = std::any_of(behind.begin(), behind.end(), [&](const pack::TrustedKey& each) {
+            return pack::public_key_line(each.key) == key.public_key;
         });
-        listed.push_back({key.name, id_of(key.public_key), key.until, id_of(key.signer), key.since, counts});
+        listed.push_back({.name = key.name,
+                          .id = id_of(key.public_key),
+                          .until = key.until,
+                          .from = id_of(key.signer),
+                          .since = key.since,
+                          .counts = counts});
     }
     return listed;
 }
@@ -54,4 +64,4 @@ std::string text_of(const ListedKey& key, bool knows_settings) {
                        key.until.empty() ? "no end" : "until " + key.until, from);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ListedKey {
     std::string name, id;
@@ -23,12 +23,12 @@ struct ListedKey {
 };
 
 /// The settings' keys, then all keys that sets brought.
-[[nodiscard]] std::vector<ListedKey> list_keys(std::span<const TrustedKey> settings,
-                                               std::span<const CarriedKey> carried);
+[[nodiscard]] std::vector<ListedKey> list_keys(std::span<const pack::TrustedKey> settings,
+                                               std::span<const library::CarriedKey> carried);
 
 /// `knows_settings`: false: it is not known which keys count.
 [[nodiscard]] nlohmann::ordered_json json_of(const ListedKey& key, bool knows_settings);
 /// One line.
 [[nodiscard]] std::string text_of(const ListedKey& key, bool knows_settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 SignerList::SignerList(const std::filesystem::path& library, const std::vector<ListedKey>& keys,
-                       bool knows_settings, std::vector<TrustedKey> counting,
+                       bool knows_settings, std::vector<pack::TrustedKey> counting,
                        std::optional<std::chrono::sys_days> today)
     : keys_(keys), knows_settings_(knows_settings), counting_(std::move(counting)), today_(today) {
     if (Result<std::unique_ptr<WritableTree>> tree = open_tree(library)) {
@@ -21,10 +21,10 @@ SignerList::SignerList(const std::filesystem::path& library, const std::vector<L
     }
 }
 
-ListedSigner SignerList::of(const InstalledPack& pack) const {
+ListedSigner SignerList::of(const library::InstalledPack& pack) const {
     ListedSigner signer;
     signer.is_signed = pack.serial > 0;
-    signer.id = library_ != nullptr ? signing_key(*library_, pack) : std::nullopt;
+    signer.id = library_ != nullptr ? library::signing_key(*library_, pack) : std::nullopt;
     if (!signer.id) {
         return signer;
     }
@@ -35,7 +35,7 @@ ListedSigner SignerList::of(const InstalledPack& pack) const {
         signer.until = known->until;
     }
     if (knows_settings_) {
-        signer.counts = counts_today(counting_, *signer.id, today_);
+        signer.counts = library::counts_today(counting_, *signer.id, today_);
     }
     return signer;
 }
@@ -62,4 +62,4 @@ std::string text_of(const ListedSigner& signer) {
                        signer.until.empty() ? "" : fmt::format(" (until {})", signer.until));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ListedSigner {
     bool is_signed = false;
@@ -27,14 +27,14 @@ class SignerList {
 public:
     /// `counting`: as trusted_keys.h.
     SignerList(const std::filesystem::path& library, const std::vector<ListedKey>& keys, bool knows_settings,
-               std::vector<TrustedKey> counting, std::optional<std::chrono::sys_days> today);
-    [[nodiscard]] ListedSigner of(const InstalledPack& pack) const;
+               std::vector<pack::TrustedKey> counting, std::optional<std::chrono::sys_days> today);
+    [[nodiscard]] ListedSigner of(const library::InstalledPack& pack) const;
 
 private:
     std::unique_ptr<FileTree> library_; ///< none: it cannot be opened
     const std::vector<ListedKey>& keys_;
     bool knows_settings_;
-    std::vector<TrustedKey> counting_;
+    std::vector<pack::TrustedKey> counting_;
     std::optional<std::chrono::sys_days> today_;
 };
 
@@ -43,4 +43,4 @@ private:
 /// "signed by second, which is no longer trusted"
 [[nodiscard]] std::string text_of(const ListedSigner& signer);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 std::string unescaped_label(std::string_view escaped) {
     constexpr std::string_view mark = "\\x";
@@ -37,4 +37,4 @@ std::string label_in(const std::filesystem::path& folder) {
     return {};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,11 +11,11 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Replaces each \xNN by its byte; other text is kept.
 [[nodiscard]] std::string unescaped_label(std::string_view escaped);
 /// The label in the name of the folder's first link that begins with `label=`.
 [[nodiscard]] std::string label_in(const std::filesystem::path& folder);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

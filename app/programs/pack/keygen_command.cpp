@@ -12,7 +12,7 @@
 #include <cstring>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -54,10 +54,10 @@ Result<std::optional<Password>> password_for_new_key() {
 }
 
 Result<void> write_keys(const std::string& name, std::optional<std::string_view> password) {
-    const SecretKey key = SecretKey::make();
-    TRY(const std::string secret, write_secret_key(key, password));
+    const pack::SecretKey key = pack::SecretKey::make();
+    TRY(const std::string secret, pack::write_secret_key(key, password));
     TRY_VOID(write_new_file(name + ".key", 0600, secret));
-    if (Result<void> written = write_new_file(name + ".pub", 0644, write_public_key(key.public_key()));
+    if (Result<void> written = write_new_file(name + ".pub", 0644, pack::write_public_key(key.public_key()));
         !written) {
         ::unlink((name + ".key").c_str()); // half a pair is useless
         return written;
@@ -68,7 +68,7 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
                name,
                password ? ", encrypted with your password"
                         : " WITHOUT A PASSWORD: who has the file can sign (mode 0600)",
-               public_key_line(key.public_key()));
+               pack::public_key_line(key.public_key()));
     return {};
 }
 
@@ -82,4 +82,4 @@ Result<void> make_keys(const std::string& name) {
     return write_keys(name, password ? std::optional(password->view()) : std::nullopt);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

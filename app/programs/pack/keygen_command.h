@@ -8,9 +8,9 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Writes NAME.key (mode 0600) and NAME.pub, and prints their use.
 [[nodiscard]] Result<void> make_keys(const std::string& name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 struct Request {
@@ -39,8 +39,9 @@ void print_json(const nlohmann::ordered_json& json) {
 }
 
 /// A prop of usual size, of the kind that the pack was baked for.
-PropSettings usual_prop(const Pack& pack) {
-    return pack.prop_kind == name_of(PropKind::Cube) ? cube_settings() : PropSettings{};
+settings::PropSettings usual_prop(const pack::Pack& pack) {
+    return pack.prop_kind == settings::name_of(settings::PropKind::Cube) ? settings::cube_settings()
+                                                                         : settings::PropSettings{};
 }
 
 int list(const Request& request) {
@@ -57,9 +58,9 @@ int list(const Request& request) {
 }
 
 int explain(const Request& request) {
-    std::optional<PropSettings> configured;
+    std::optional<settings::PropSettings> configured;
     if (!request.config.empty()) {
-        const Result<CheckedSettings> settings = load_settings(request.config);
+        const Result<settings::CheckedSettings> settings = settings::load_settings(request.config);
         if (!settings) {
             return exit_status("frustumscreen-pack", tl::unexpected<Error>(settings.error()));
         }
@@ -69,7 +70,7 @@ int explain(const Request& request) {
     if (!opened) {
         return exit_status("frustumscreen-pack", tl::unexpected<Error>(opened.error()));
     }
-    const PropSettings prop = configured.value_or(usual_prop(*opened->pack));
+    const settings::PropSettings prop = configured.value_or(usual_prop(*opened->pack));
     if (request.json) {
         print_json(explain_json(*opened, prop));
     } else {
@@ -78,8 +79,8 @@ int explain(const Request& request) {
     return 0;
 }
 
-Result<Image8> table_picture_of(const std::filesystem::path& file) {
-    TRY(PackCard card, load_pack_card(file));
+Result<image::Image8> table_picture_of(const std::filesystem::path& file) {
+    TRY(pack::PackCard card, pack::load_pack_card(file));
     if (card.table_picture.texels.empty()) {
         return bad_input("pack.no_table_picture",
                          file.string() + ": it has no picture for the table; bake it again");
@@ -90,8 +91,9 @@ Result<Image8> table_picture_of(const std::filesystem::path& file) {
 Result<void> write_preview(const Request& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.pack}}));
     TRY_VOID(check_output_place(request.output));
-    TRY(const Image8 picture, request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack));
-    return write_file(request.output, encode_png(picture));
+    TRY(const image::Image8 picture,
+        request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack));
+    return write_file(request.output, image::encode_png(picture));
 }
 
 int preview(const Request& request) {
@@ -172,8 +174,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-pack", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-pack", frustumscreen::programs::run, argc,
+                                                 argv);
 }

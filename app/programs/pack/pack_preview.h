@@ -12,9 +12,9 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Front, right, back and left, from left to right.
-[[nodiscard]] Result<Image8> preview_of_pack(const std::filesystem::path& file);
+[[nodiscard]] Result<image::Image8> preview_of_pack(const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double mm_per_m = 1000.0;
 
-std::string_view name_of(LevelTechnique technique) {
-    return technique == LevelTechnique::Relief ? "relief" : "mesh";
+std::string_view name_of(pack::LevelTechnique technique) {
+    return technique == pack::LevelTechnique::Relief ? "relief" : "mesh";
 }
 
 std::string in_units(std::uint64_t bytes) {
@@ -33,7 +33,7 @@ std::string in_units(std::uint64_t bytes) {
 }
 
 /// The caption's further fields; empty ones are left out.
-std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& caption) {
+std::vector<std::pair<std::string, std::string>> details_of(const pack::PackCaption& caption) {
     std::vector<std::pair<std::string, std::string>> details{{"period", caption.period},
                                                              {"place", caption.place},
                                                              {"maker", caption.maker},
@@ -44,9 +44,9 @@ std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& c
 }
 
 /// Keys of the texts that are spoken in a language.
-std::vector<std::string> spoken_keys(const Pack& pack, const std::string& language) {
+std::vector<std::string> spoken_keys(const pack::Pack& pack, const std::string& language) {
     std::vector<std::string> keys;
-    for (SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
+    for (pack::SpokenText& spoken : pack::list_sounds(pack).value_or(std::vector<pack::SpokenText>())) {
         if (spoken.language == language) {
             keys.push_back(std::move(spoken.key));
         }
@@ -54,13 +54,13 @@ std::vector<std::string> spoken_keys(const Pack& pack, const std::string& langua
     return keys;
 }
 
-double mm_per_box(const Pack& pack, const PropSettings& prop) {
-    return place(pack, make_prop(prop)).metres_per_box * mm_per_m;
+double mm_per_box(const pack::Pack& pack, const settings::PropSettings& prop) {
+    return pack::place(pack, settings::make_prop(prop)).metres_per_box * mm_per_m;
 }
 
-Json levels_json(const Pack& pack, double mm) {
+Json levels_json(const pack::Pack& pack, double mm) {
     Json levels = Json::array();
-    for (const PackLevel& level : pack.levels) {
+    for (const pack::PackLevel& level : pack.levels) {
         levels.push_back({{"technique", name_of(level.technique)},
                           {"triangles", level.indices.size() / 3},
                           {"vertices", level.vertices.size()},
@@ -76,13 +76,13 @@ Json levels_json(const Pack& pack, double mm) {
 }
 
 /// The pack's reliefs; empty if their section is damaged (`verify` reports the reason).
-std::vector<ReliefOutline> known_reliefs(const Pack& pack) {
-    return reliefs_of(pack).value_or(std::vector<ReliefOutline>());
+std::vector<pack::ReliefOutline> known_reliefs(const pack::Pack& pack) {
+    return pack::reliefs_of(pack).value_or(std::vector<pack::ReliefOutline>());
 }
 
-Json reliefs_json(const Pack& pack, double mm) {
+Json reliefs_json(const pack::Pack& pack, double mm) {
     Json reliefs = Json::array();
-    for (const ReliefOutline& relief : known_reliefs(pack)) {
+    for (const pack::ReliefOutline& relief : known_reliefs(pack)) {
         reliefs.push_back({{"texels", relief.texels},
                            {"blocks", relief.blocks},
                            {"bytes", relief.bytes},
@@ -95,9 +95,9 @@ Json reliefs_json(const Pack& pack, double mm) {
     return reliefs;
 }
 
-Json parts_json(const std::vector<PackPart>& parts) {
+Json parts_json(const std::vector<pack::PackPart>& parts) {
     Json result = Json::array();
-    for (const PackPart& part : parts) {
+    for (const pack::PackPart& part : parts) {
         result.push_back({{"name", part.name},
                           {"bytes", part.bytes},
                           {"stored_bytes", part.stored_bytes},
@@ -106,9 +106,9 @@ Json parts_json(const std::vector<PackPart>& parts) {
     return result;
 }
 
-Json captions_json(const Pack& pack) {
+Json captions_json(const pack::Pack& pack) {
     Json captions = Json::array();
-    for (const PackCaption& caption : pack.captions) {
+    for (const pack::PackCaption& caption : pack.captions) {
         Json made{{"language", caption.language}, {"title", caption.title}, {"text", caption.text}};
         for (const auto& [name, text] : details_of(caption)) {
             made[name] = text;
@@ -119,11 +119,11 @@ Json captions_json(const Pack& pack) {
     return captions;
 }
 
-Json hotspots_json(const Pack& pack) {
+Json hotspots_json(const pack::Pack& pack) {
     Json hotspots = Json::array();
-    for (const PackHotspot& hotspot : pack.hotspots) {
+    for (const pack::PackHotspot& hotspot : pack.hotspots) {
         Json labels = Json::array();
-        for (const PackLabel& label : hotspot.labels) {
+        for (const pack::PackLabel& label : hotspot.labels) {
             labels.push_back({{"language", label.language}, {"text", label.text}});
         }
         hotspots.push_back({{"point_box", {hotspot.point.x, hotspot.point.y, hotspot.point.z}},
@@ -134,17 +134,17 @@ Json hotspots_json(const Pack& pack) {
 }
 
 /// Sections that this program copies without reading them.
-Json sections_json(const Pack& pack) {
+Json sections_json(const pack::Pack& pack) {
     Json sections = Json::array();
-    for (const PackSection& section : pack.sections) {
+    for (const pack::PackSection& section : pack.sections) {
         sections.push_back(
             {{"name", section.name}, {"parts", section.parts}, {"data", Json::parse(section.data)}});
     }
     return sections;
 }
 
-void add_description(Json& json, const Pack& pack) {
-    json["format_version"] = pack_format_version;
+void add_description(Json& json, const pack::Pack& pack) {
+    json["format_version"] = pack::pack_format_version;
     json["captions"] = captions_json(pack);
     json["hotspots"] = hotspots_json(pack);
     json["table_picture"] = nullptr;
@@ -152,7 +152,7 @@ void add_description(Json& json, const Pack& pack) {
         json["table_picture"] = {{"width", pack.table_picture.width}, {"height", pack.table_picture.height}};
     }
     json["sections"] = sections_json(pack);
-    const ScanRights rights = scan_rights(pack).value_or(ScanRights());
+    const pack::ScanRights rights = pack::scan_rights(pack).value_or(pack::ScanRights());
     json["provenance"] = {{"source_name", pack.provenance.source_name},
                           {"source_sha256", pack.provenance.source_sha256},
                           {"licence", pack.provenance.licence},
@@ -165,7 +165,7 @@ void add_description(Json& json, const Pack& pack) {
     json["relief_size"] = pack.relief_size;
     json["box_size"] = {pack.box_size.x, pack.box_size.y, pack.box_size.z};
     json["textures"] = Json::array();
-    for (const Image8& texture : pack.textures) {
+    for (const image::Image8& texture : pack.textures) {
         json["textures"].push_back({{"width", texture.width}, {"height", texture.height}});
     }
     json["relief"] = nullptr;
@@ -177,10 +177,10 @@ void add_description(Json& json, const Pack& pack) {
     }
 }
 
-void add_placement(Json& json, const Pack& pack, const PropSettings& prop) {
-    const Placement placement = place(pack, make_prop(prop));
+void add_placement(Json& json, const pack::Pack& pack, const settings::PropSettings& prop) {
+    const pack::Placement placement = pack::place(pack, settings::make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box;
-    json["prop"] = {{"kind", frustumscreen::name_of(prop.kind)},
+    json["prop"] = {{"kind", frustumscreen::settings::name_of(prop.kind)},
                     {"base_m", prop.base_m},
                     {"top_m", prop.top_m},
                     {"height_m", prop.height_m}};
@@ -192,12 +192,12 @@ void add_placement(Json& json, const Pack& pack, const PropSettings& prop) {
     }
 }
 
-std::string levels_text(const Pack& pack, double mm) {
+std::string levels_text(const pack::Pack& pack, double mm) {
     std::string text = fmt::format("  {:<7}{:<10}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}\n", "level", "technique",
                                    "triangles", "texture", "mean mm", "p95 mm", "max mm", "colour");
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
-        const PackLevel& level = pack.levels[k];
-        const Image8& texture = pack.textures[level.texture];
+        const pack::PackLevel& level = pack.levels[k];
+        const image::Image8& texture = pack.textures[level.texture];
         text += fmt::format("  {:<7}{:<10}{:>10}{:>10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}\n",
                             fmt::format("{}{}", k, k == pack.default_level ? " *" : ""),
                             name_of(level.technique), level.indices.size() / 3,
@@ -207,13 +207,13 @@ std::string levels_text(const Pack& pack, double mm) {
     return text;
 }
 
-std::string reliefs_text(const Pack& pack, double mm) {
-    const std::vector<ReliefOutline> reliefs = known_reliefs(pack);
+std::string reliefs_text(const pack::Pack& pack, double mm) {
+    const std::vector<pack::ReliefOutline> reliefs = known_reliefs(pack);
     std::string text = reliefs.empty()
                            ? ""
                            : fmt::format("  {:<17}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}\n", "relief texels",
                                          "blocks", "bytes", "mean mm", "p95 mm", "max mm", "colour");
-    for (const ReliefOutline& relief : reliefs) {
+    for (const pack::ReliefOutline& relief : reliefs) {
         text += fmt::format("  {:<17}{:>10}{:>10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}\n", relief.texels,
                             relief.blocks, in_units(relief.bytes), relief.error.mean_box * mm,
                             relief.error.p95_box * mm, relief.error.max_box * mm, relief.error.colour_rmse);
@@ -231,7 +231,7 @@ std::string matrix_text(const glm::dmat4& matrix) {
 }
 
 std::string title_line(const OpenedPack& opened) {
-    const Pack& pack = *opened.pack;
+    const pack::Pack& pack = *opened.pack;
     const std::string signature = opened.claim ? fmt::format("signed with the key {}, serial {}, not checked",
                                                              opened.claim->key_id, opened.claim->serial)
                                                : "unsigned";
@@ -240,15 +240,15 @@ std::string title_line(const OpenedPack& opened) {
                        in_units(opened.file_bytes), signature);
 }
 
-bool is_passed_over(const PackSection& section) {
+bool is_passed_over(const pack::PackSection& section) {
     constexpr std::array<std::string_view, 6> known{"attribution",   "texts",       "sounds",
                                                     "relief_blocks", "seen_errors", "seen_reliefs"};
     return std::find(known.begin(), known.end(), section.name) == known.end();
 }
 
-std::string sections_text(const Pack& pack) {
+std::string sections_text(const pack::Pack& pack) {
     std::string text;
-    for (const PackSection& section : pack.sections) {
+    for (const pack::PackSection& section : pack.sections) {
         if (!is_passed_over(section)) {
             continue;
         }
@@ -258,12 +258,12 @@ std::string sections_text(const Pack& pack) {
     return text;
 }
 
-std::string hotspots_text(const Pack& pack, double mm) {
+std::string hotspots_text(const pack::Pack& pack, double mm) {
     std::string text;
-    for (const PackHotspot& hotspot : pack.hotspots) {
+    for (const pack::PackHotspot& hotspot : pack.hotspots) {
         const glm::dvec3 at = hotspot.point * mm;
         std::vector<std::string> labels;
-        for (const PackLabel& label : hotspot.labels) {
+        for (const pack::PackLabel& label : hotspot.labels) {
             labels.push_back(label.language + ": " + label.text);
         }
         text += fmt::format("  hotspot {:.1f} mm to the right, {:.1f} back, {:.1f} up; {}\n", at.x, at.y,
@@ -273,7 +273,7 @@ std::string hotspots_text(const Pack& pack, double mm) {
 }
 
 /// Describes a caption's speech; empty if there is no text to speak.
-std::string speech_text(const Pack& pack, const PackCaption& caption) {
+std::string speech_text(const pack::Pack& pack, const pack::PackCaption& caption) {
     const std::vector<std::string> keys = spoken_keys(pack, caption.language);
     if (!keys.empty()) {
         return fmt::format("          spoken: {}\n", fmt::join(keys, ", "));
@@ -288,9 +288,9 @@ std::string on_one_line(std::string text) {
     return text;
 }
 
-std::string description_text(const Pack& pack, double mm) {
+std::string description_text(const pack::Pack& pack, double mm) {
     std::string text;
-    for (const PackCaption& caption : pack.captions) {
+    for (const pack::PackCaption& caption : pack.captions) {
         text += fmt::format("  caption {}: {}{}{}\n", caption.language, caption.title,
                             caption.text.empty() ? "" : " - ", caption.text);
         for (const auto& [name, detail] : details_of(caption)) {
@@ -303,11 +303,11 @@ std::string description_text(const Pack& pack, double mm) {
         text += fmt::format("  picture for the table: {} x {} texels\n", pack.table_picture.width,
                             pack.table_picture.height);
     }
-    const PackProvenance& source = pack.provenance;
+    const pack::PackProvenance& source = pack.provenance;
     text += fmt::format("  source: {}, {} triangles, licence {}\n          sha256 {}\n", source.source_name,
                         source.source_triangles, source.licence.empty() ? "not stated" : source.licence,
                         source.source_sha256.empty() ? "not stated" : source.source_sha256);
-    const ScanRights rights = scan_rights(pack).value_or(ScanRights());
+    const pack::ScanRights rights = pack::scan_rights(pack).value_or(pack::ScanRights());
     if (!rights.author.empty() || !rights.source.empty()) {
         text += fmt::format("          by {}, from {}\n",
                             rights.author.empty() ? "no name stated" : printable(rights.author, 200),
@@ -326,16 +326,20 @@ std::string description_text(const Pack& pack, double mm) {
 
 Result<OpenedPack> open_pack(const std::filesystem::path& file) {
     TRY(const Bytes bytes, read_file(file));
-    TRY(VerifiedPack pack, at(file.string(), verify_pack(bytes)));
-    TRY(std::vector<PackPart> parts, at(file.string(), list_pack_parts(bytes)));
-    TRY(std::optional<SignatureClaim> claim,
-        at(file.string(), pack_format::PackReader::open(bytes).and_then(
-                              [](pack_format::PackReader&& reader) { return claim_of(reader); })));
-    return OpenedPack{file, bytes.size(), std::move(pack), std::move(parts), std::move(claim)};
+    TRY(pack::VerifiedPack pack, at(file.string(), pack::verify_pack(bytes)));
+    TRY(std::vector<pack::PackPart> parts, at(file.string(), pack::list_pack_parts(bytes)));
+    TRY(std::optional<pack::SignatureClaim> claim,
+        at(file.string(), pack::PackReader::open(bytes).and_then(
+                              [](pack::PackReader&& reader) { return pack::claim_of(reader); })));
+    return OpenedPack{.file = file,
+                      .file_bytes = bytes.size(),
+                      .pack = std::move(pack),
+                      .parts = std::move(parts),
+                      .claim = std::move(claim)};
 }
 
-Json list_json(const OpenedPack& opened, const PropSettings& prop) {
-    const Pack& pack = *opened.pack;
+Json list_json(const OpenedPack& opened, const settings::PropSettings& prop) {
+    const pack::Pack& pack = *opened.pack;
     return {{"file", opened.file.string()},
             {"bytes", opened.file_bytes},
             {"signed", opened.claim.has_value()},
@@ -349,34 +353,34 @@ Json list_json(const OpenedPack& opened, const PropSettings& prop) {
             {"parts", parts_json(opened.parts)}};
 }
 
-Json explain_json(const OpenedPack& opened, const PropSettings& prop) {
+Json explain_json(const OpenedPack& opened, const settings::PropSettings& prop) {
     Json json = list_json(opened, prop);
     add_description(json, *opened.pack);
     add_placement(json, *opened.pack, prop);
     return json;
 }
 
-std::string list_text(const OpenedPack& opened, const PropSettings& prop) {
-    const Pack& pack = *opened.pack;
+std::string list_text(const OpenedPack& opened, const settings::PropSettings& prop) {
+    const pack::Pack& pack = *opened.pack;
     const double mm = mm_per_box(pack, prop);
     std::string text = title_line(opened) + levels_text(pack, mm) + reliefs_text(pack, mm);
-    for (const PackPart& part : opened.parts) {
+    for (const pack::PackPart& part : opened.parts) {
         text += fmt::format("  {:<24}{:>12}{:>12} stored\n", part.name, in_units(part.bytes),
                             in_units(part.stored_bytes));
     }
     return text + sections_text(pack);
 }
 
-std::string explain_text(const OpenedPack& opened, const PropSettings& prop) {
-    const Pack& pack = *opened.pack;
-    const Placement placement = place(pack, make_prop(prop));
+std::string explain_text(const OpenedPack& opened, const settings::PropSettings& prop) {
+    const pack::Pack& pack = *opened.pack;
+    const pack::Placement placement = pack::place(pack, settings::make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box * mm_per_m;
     return list_text(opened, prop) + description_text(pack, placement.metres_per_box * mm_per_m) +
            fmt::format("  in a {} of base {} m, height {} m the artifact is {:.1f} x {:.1f} x {:.1f} mm\n"
                        "  prop_from_artifact, from the file's coordinates to the prop's, metres:\n",
-                       frustumscreen::name_of(prop.kind), prop.base_m, prop.height_m, size.x, size.y,
-                       size.z) +
+                       frustumscreen::settings::name_of(prop.kind), prop.base_m, prop.height_m, size.x,
+                       size.y, size.z) +
            matrix_text(placement.prop_from_artifact);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,28 +16,29 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A valid pack and its container's contents.
 struct OpenedPack {
     std::filesystem::path file;
     std::uint64_t file_bytes = 0;
-    VerifiedPack pack;
-    std::vector<PackPart> parts;
-    std::optional<SignatureClaim> claim; ///< its signature, not verified; none: unsigned
+    pack::VerifiedPack pack;
+    std::vector<pack::PackPart> parts;
+    std::optional<pack::SignatureClaim> claim; ///< its signature, not verified; none: unsigned
 };
 [[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
 
 /// {file, bytes, signed, serial (if signed; not verified), id, title, languages, levels with errors in mm on this prop,
 /// default_level, parts}
-[[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
+[[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const settings::PropSettings& prop);
 /// list_json and {format_version, captions with their details and the keys of their spoken texts, hotspots,
 /// table_picture, sections, provenance, prop_kind, unlit, relief_size, box_size, textures, relief, prop,
 /// metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
-[[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);
+[[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened,
+                                                  const settings::PropSettings& prop);
 
 /// Both reports as text; each ends with a line break.
-[[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSettings& prop);
-[[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSettings& prop);
+[[nodiscard]] std::string list_text(const OpenedPack& opened, const settings::PropSettings& prop);
+[[nodiscard]] std::string explain_text(const OpenedPack& opened, const settings::PropSettings& prop);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -92,4 +92,4 @@ Result<Password> ask_new_password() {
     return first;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

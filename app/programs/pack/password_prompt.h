@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A password that is wiped when it is destroyed.
 class Password {
@@ -29,4 +29,4 @@ private:
 /// Asks twice, so that a typing error does not lock the person out.
 [[nodiscard]] Result<Password> ask_new_password();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

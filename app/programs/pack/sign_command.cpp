@@ -24,22 +24,22 @@
 
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 constexpr std::uintmax_t max_key_bytes = 4096;
 
-Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
+Result<pack::SecretKey> read_secret_key(const std::filesystem::path& file) {
     TRY(const Bytes bytes, read_file(file, max_key_bytes));
-    TRY(const bool encrypted, at(file.string(), needs_password(as_text(bytes))));
+    TRY(const bool encrypted, at(file.string(), pack::needs_password(as_text(bytes))));
     std::optional<Password> password;
     if (encrypted) {
         TRY(Password typed, ask_password("Password of " + file.string()));
         password.emplace(std::move(typed));
     }
-    return at(file.string(),
-              parse_secret_key(as_text(bytes), password ? std::optional(password->view()) : std::nullopt));
+    return at(file.string(), pack::parse_secret_key(as_text(bytes), password ? std::optional(password->view())
+                                                                             : std::nullopt));
 }
 
 /// `before`: the signature that is replaced; ignored if it cannot be parsed.
@@ -48,7 +48,7 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
         return *request.serial;
     }
     if (before) {
-        const Result<SignatureClaim> claim = read_signature_claim(*before);
+        const Result<pack::SignatureClaim> claim = pack::read_signature_claim(*before);
         if (claim && claim->serial > request.now_s) {
             return bad_input("sign.serial",
                              "its signature has the serial {} already, and this computer's clock gives "
@@ -63,7 +63,7 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
 }
 
 /// Tabs separate the fields of a trusted comment; `printable` removes control characters from the file's name.
-std::string signature_of(const SecretKey& key, std::span<const std::byte> bytes, std::uint64_t serial,
+std::string signature_of(const pack::SecretKey& key, std::span<const std::byte> bytes, std::uint64_t serial,
                          const std::filesystem::path& file) {
     return key.sign(bytes,
                     fmt::format("serial:{}\tfile:{}\thashed", serial, printable(file.filename().string())));
@@ -82,23 +82,23 @@ struct Signed {
 
 /// Refuses packs that the kiosk would refuse despite a signature.
 Result<Signable> read_sound(OpenFile file) {
-    TRY(auto zip, pack_format::ZipReader::open(std::move(file)));
-    TRY(Bytes manifest, pack_format::read_manifest_bytes(zip));
-    TRY(pack_format::PackReader reader, pack_format::PackReader::open(std::move(zip), manifest));
+    TRY(auto zip, pack::ZipReader::open(std::move(file)));
+    TRY(Bytes manifest, pack::read_manifest_bytes(zip));
+    TRY(pack::PackReader reader, pack::PackReader::open(std::move(zip), manifest));
     TRY(std::optional<std::string> before, reader.signature());
-    TRY(const VerifiedPack pack, read_pack(reader));
-    TRY_VOID(check_set_and_spoken(*pack));
-    TRY_VOID(check_reliefs(*pack));
-    TRY(const ScanRights rights, scan_rights(*pack));
-    return Signable{std::move(manifest), std::move(before), missing_in(*pack, rights)};
+    TRY(const pack::VerifiedPack pack, pack::read_pack(reader));
+    TRY_VOID(pack::check_set_and_spoken(*pack));
+    TRY_VOID(pack::check_reliefs(*pack));
+    TRY(const pack::ScanRights rights, pack::scan_rights(*pack));
+    return Signable{std::move(manifest), std::move(before), pack::missing_in(*pack, rights)};
 }
 
-Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    TRY(OpenFile checked, OpenFile::open(file, pack_format::max_pack_bytes));
-    TRY(OpenFile copied, OpenFile::open(file, pack_format::max_pack_bytes));
+Result<Signed> sign_pack(const SignRequest& request, const pack::SecretKey& key, const std::string& file) {
+    TRY(OpenFile checked, OpenFile::open(file, pack::max_pack_bytes));
+    TRY(OpenFile copied, OpenFile::open(file, pack::max_pack_bytes));
     TRY(const Signable pack, at(file, read_sound(std::move(checked))));
     TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
-    return write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
+    return pack::write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
         .map([&] {
             return Signed{serial, pack.missing};
         });
@@ -106,27 +106,27 @@ Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const
 
 /// Replaces the name on the stick, with which messages of the set file's parser begin, by the file's name.
 Error named(const std::string& file, Error error) {
-    if (error.message.starts_with(exhibit_file_name)) {
-        error.message.replace(0, exhibit_file_name.size(), file);
+    if (error.message.starts_with(library::exhibit_file_name)) {
+        error.message.replace(0, library::exhibit_file_name.size(), file);
     }
     return error;
 }
 
 /// Checks a kiosk's settings, known by the file name that the stick requires; any other *.toml must be a set file.
 Result<void> check_sound(std::string_view text, const std::string& file) {
-    if (std::filesystem::path(file).filename() == settings_file_name) {
-        return parse_settings(text, file).map([](const CheckedSettings&) {});
+    if (std::filesystem::path(file).filename() == library::settings_file_name) {
+        return settings::parse_settings(text, file).map([](const settings::CheckedSettings&) {});
     }
-    const Result<ExhibitFile> sound = parse_exhibit_file(text);
+    const Result<library::ExhibitFile> sound = library::parse_exhibit_file(text);
     return sound ? Result<void>() : tl::unexpected<Error>(named(file, sound.error()));
 }
 
-Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    static_assert(max_stick_settings_bytes == max_exhibit_file_bytes);
-    TRY(const Bytes text, read_file(file, max_exhibit_file_bytes));
+Result<Signed> sign_text(const SignRequest& request, const pack::SecretKey& key, const std::string& file) {
+    static_assert(library::max_stick_settings_bytes == library::max_exhibit_file_bytes);
+    TRY(const Bytes text, read_file(file, library::max_exhibit_file_bytes));
     TRY_VOID(check_sound(as_text(text), file));
     const std::string beside = file + ".minisig";
-    const Result<Bytes> before = read_file(beside, pack_format::max_signature_bytes);
+    const Result<Bytes> before = read_file(beside, pack::max_signature_bytes);
     TRY(const std::uint64_t serial,
         at(file, serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt)));
     return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] {
@@ -134,18 +134,18 @@ Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const
     });
 }
 
-Result<Signed> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {
+Result<Signed> sign_file(const SignRequest& request, const pack::SecretKey& key, const std::string& file) {
     return file.ends_with(".toml") ? sign_text(request, key, file) : sign_pack(request, key, file);
 }
 
 } // namespace
 
 int sign_files(const SignRequest& request) {
-    const Result<SecretKey> key = read_secret_key(request.key);
+    const Result<pack::SecretKey> key = read_secret_key(request.key);
     if (!key) {
         return exit_status("frustumscreen-pack", tl::unexpected<Error>(key.error()));
     }
-    const std::string id = text_of_key_id(key->public_key().id);
+    const std::string id = pack::text_of_key_id(key->public_key().id);
     auto report = nlohmann::ordered_json::array();
     int status = 0;
     for (const std::string& file : request.files) {
@@ -176,4 +176,4 @@ int sign_files(const SignRequest& request) {
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

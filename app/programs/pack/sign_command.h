@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct SignRequest {
     std::vector<std::string> files; ///< packs; set files (*.toml); a kiosk's settings (kiosk.toml)
@@ -24,4 +24,4 @@ struct SignRequest {
 /// Returns the program's exit status.
 [[nodiscard]] int sign_files(const SignRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -24,48 +24,48 @@ using Json = nlohmann::ordered_json;
 
 /// A pack that passed all requested checks.
 struct SoundPack {
-    VerifiedPack pack;
-    std::optional<SignatureClaim> claim; ///< none: unsigned
-    std::string signer;                  ///< empty: the signature was not checked
+    pack::VerifiedPack pack;
+    std::optional<pack::SignatureClaim> claim; ///< none: unsigned
+    std::string signer;                        ///< empty: the signature was not checked
 };
 
-Result<std::vector<TrustedKey>> read_keys(const std::vector<std::filesystem::path>& files) {
-    std::vector<TrustedKey> keys;
+Result<std::vector<pack::TrustedKey>> read_keys(const std::vector<std::filesystem::path>& files) {
+    std::vector<pack::TrustedKey> keys;
     for (const std::filesystem::path& file : files) {
-        TRY(const PublicKey key, read_public_key(file));
+        TRY(const pack::PublicKey key, pack::read_public_key(file));
         keys.push_back({file.stem().string(), key, std::nullopt});
     }
     return keys;
 }
 
 /// With keys, verifies the signature before anything else of the pack is parsed.
-Result<std::pair<pack_format::PackReader, std::string>> open_checked(OpenFile file,
-                                                                     std::span<const TrustedKey> keys) {
+Result<std::pair<pack::PackReader, std::string>> open_checked(OpenFile file,
+                                                              std::span<const pack::TrustedKey> keys) {
     if (keys.empty()) {
-        return pack_format::PackReader::open(std::move(file)).map([](pack_format::PackReader&& reader) {
+        return pack::PackReader::open(std::move(file)).map([](pack::PackReader&& reader) {
             return std::pair(std::move(reader), std::string());
         });
     }
-    tl::expected<SignedPack, PackRefusal> opened =
-        open_signed_pack(std::move(file), {keys, std::nullopt, UnsignedPacks::Refuse});
+    tl::expected<pack::SignedPack, pack::PackRefusal> opened =
+        pack::open_signed_pack(std::move(file), {keys, std::nullopt, pack::UnsignedPacks::Refuse});
     if (!opened) {
         return tl::unexpected<Error>(std::move(opened.error().error));
     }
     return std::pair(std::move(opened->reader), std::move(opened->signer->key));
 }
 
-Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> keys) {
+Result<SoundPack> check(const std::string& file, std::span<const pack::TrustedKey> keys) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input("verify.folder", file + ": this is a folder; name the *.fspack files in it");
     }
-    TRY(OpenFile opened, OpenFile::open(file, pack_format::max_pack_bytes));
+    TRY(OpenFile opened, OpenFile::open(file, pack::max_pack_bytes));
     TRY(auto reader, at(file, open_checked(std::move(opened), keys)));
-    TRY(std::optional<SignatureClaim> claim, at(file, claim_of(reader.first)));
-    Result<VerifiedPack> pack = read_pack(reader.first);
-    const Result<void> good = pack.and_then([](const VerifiedPack& read) {
-        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); }).and_then([&] {
-            return without_value(scan_rights(*read));
-        });
+    TRY(std::optional<pack::SignatureClaim> claim, at(file, pack::claim_of(reader.first)));
+    Result<pack::VerifiedPack> pack = pack::read_pack(reader.first);
+    const Result<void> good = pack.and_then([](const pack::VerifiedPack& read) {
+        return pack::check_set_and_spoken(*read)
+            .and_then([&] { return pack::check_reliefs(*read); })
+            .and_then([&] { return without_value(pack::scan_rights(*read)); });
     });
     TRY_VOID(at(file, good));
     return SoundPack{*std::move(pack), std::move(claim), std::move(reader.second)};
@@ -96,7 +96,7 @@ Json report_of(const std::string& file, const SoundPack& sound) {
 } // namespace
 
 int verify_packs(const VerifyRequest& request) {
-    const Result<std::vector<TrustedKey>> keys = read_keys(request.keys);
+    const Result<std::vector<pack::TrustedKey>> keys = read_keys(request.keys);
     if (!keys) {
         return exit_status("frustumscreen-pack", tl::unexpected<Error>(keys.error()));
     }
@@ -125,4 +125,4 @@ int verify_packs(const VerifyRequest& request) {
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct VerifyRequest {
     std::vector<std::string> packs;
@@ -21,4 +21,4 @@ struct VerifyRequest {
 /// serial, trusted_comment}. With keys, `signed` is true only for valid signatures.
 [[nodiscard]] int verify_packs(const VerifyRequest& request);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -19,7 +19,7 @@
 #include <cstdio>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 constexpr std::size_t largest_text_bytes = std::size_t{1} << 30;
@@ -28,7 +28,7 @@ struct ConvertRequest {
     std::string input;
     std::string output;
     std::string settings; ///< for packets: the settings with the registration
-    RecordingOptions recording;
+    tracker::RecordingOptions recording;
 };
 
 struct PathRequest {
@@ -46,24 +46,25 @@ struct SimulateRequest {
 };
 
 Result<void> write_pose_file(const std::string& path, const std::string& comment,
-                             const std::vector<PoseSample>& samples) {
+                             const std::vector<tracker::PoseSample>& samples) {
     // The header stays the first line, for readers that expect no comments before it.
-    std::string text = write_poses(samples);
+    std::string text = tracker::write_poses(samples);
     text.insert(text.find('\n') + 1, "# " + comment + "\n");
     return write_file(path, as_bytes(text));
 }
 
 /// Converts packets of `frustumscreen record --raw` to the poses that the exhibit received.
 Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
-    TRY(PacketReplay replay, PacketReplay::open(std::move(bytes), request.input));
-    std::vector<PoseSample> samples;
+    TRY(tracker::PacketReplay replay, tracker::PacketReplay::open(std::move(bytes), request.input));
+    std::vector<tracker::PoseSample> samples;
     replay.play(replay.end(), samples);
     if (!request.settings.empty() && !replay.reports_table_frame()) {
-        TRY(const auto settings, load_settings(request.settings));
-        place_on_table(samples, settings->tracker.registration);
+        TRY(const auto settings, settings::load_settings(request.settings));
+        tracking::place_on_table(samples, settings->tracker.registration);
     }
-    std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
-    for (PoseSample& sample : samples) {
+    std::erase_if(samples,
+                  [](const tracker::PoseSample& sample) { return sample.station > tracker::torch_station; });
+    for (tracker::PoseSample& sample : samples) {
         sample.time = MonotonicTime(sample.time - replay.begin());
     }
     const std::string comment =
@@ -81,14 +82,14 @@ Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
 Result<void> convert(const ConvertRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.input, request.settings}}));
     TRY(Bytes bytes, read_file(request.input));
-    if (is_packet_recording(bytes)) {
+    if (tracker::is_packet_recording(bytes)) {
         return convert_packets(request, std::move(bytes));
     }
     if (bytes.size() > largest_text_bytes) {
         return bad_input("poses.too_long", "{}: {} bytes; at most {} are allowed", request.input,
                          bytes.size(), largest_text_bytes);
     }
-    TRY(const auto converted, convert_recording(as_text(bytes), request.input, request.recording));
+    TRY(const auto converted, tracker::convert_recording(as_text(bytes), request.input, request.recording));
     const std::string comment =
         fmt::format("{} poses; left out {} rows that did not step forward in time; "
                     "mended {} changes of sign; scale {:.4g}",
@@ -101,10 +102,10 @@ Result<void> convert(const ConvertRequest& request) {
 }
 
 /// The prop stays where every face is lit at every yaw, for any eye.
-Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
-    TRY(const auto settings, load_settings(request.settings));
-    const Rectangle places = lit_rectangle(*settings);
-    SimulatedVisitor visitor;
+Result<tracker::SimulatedVisitor> visitor_for(const SimulateRequest& request) {
+    TRY(const auto settings, settings::load_settings(request.settings));
+    const settings::Rectangle places = settings::lit_rectangle(*settings);
+    tracker::SimulatedVisitor visitor;
     visitor.seed = request.seed;
     visitor.centre_m = places.centre_m;
     visitor.half_extent_m = places.half_m;
@@ -115,11 +116,11 @@ Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
 
 Result<void> simulate(const SimulateRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.settings}}));
-    TRY(const SimulatedVisitor visitor, visitor_for(request));
-    std::vector<PoseSample> samples;
+    TRY(const tracker::SimulatedVisitor visitor, visitor_for(request));
+    std::vector<tracker::PoseSample> samples;
     // The last pose is one period before the end: S seconds at H hertz give S x H poses of each station.
     const auto last_ns = static_cast<std::int64_t>((request.seconds - 0.5 / request.rate_hz) * 1e9);
-    SimulatedTracker tracker(visitor, MonotonicTime{});
+    tracker::SimulatedTracker tracker(visitor, MonotonicTime{});
     TRY_VOID(tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples));
     return write_pose_file(request.output,
                            fmt::format("a simulated visitor; seed {}, {} s at {} Hz", request.seed,
@@ -130,9 +131,10 @@ Result<void> simulate(const SimulateRequest& request) {
 Result<void> follow_path(const PathRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.input}}));
     TRY(const Bytes bytes, read_file(request.input));
-    TRY(const auto keys, parse_poses(as_text(bytes), request.input, PoseOrder::PropAscends));
+    TRY(const auto keys,
+        tracker::parse_poses(as_text(bytes), request.input, tracker::PoseOrder::PropAscends));
     const Nanoseconds period(static_cast<Nanoseconds::rep>(1e9 / request.rate_hz));
-    TRY(const std::vector<PoseSample> path, at(request.input, pose_path(keys, period)));
+    TRY(const std::vector<tracker::PoseSample> path, at(request.input, tracker::pose_path(keys, period)));
     return write_pose_file(
         request.output, fmt::format("a path through {} poses at {} Hz", keys.size(), request.rate_hz), path);
 }
@@ -206,8 +208,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-poses", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-poses", frustumscreen::programs::run, argc,
+                                                 argv);
 }

@@ -10,7 +10,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 std::string base64(std::span<const std::byte> bytes) {
     static constexpr std::string_view digits =
@@ -48,7 +48,7 @@ std::string html_lines(std::string_view text) {
 }
 
 std::string policy_hash(std::string_view content) {
-    const std::string hex = sha256_hex(as_bytes(content));
+    const std::string hex = pack::sha256_hex(as_bytes(content));
     Bytes hash(hex.size() / 2);
     for (std::size_t k = 0; k < hash.size(); ++k) {
         unsigned value = 0;
@@ -63,4 +63,4 @@ std::string bytes_in_words(std::size_t bytes) {
                              : fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

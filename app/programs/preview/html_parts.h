@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
@@ -25,4 +25,4 @@ namespace frustumscreen {
 /// A size in units for people.
 [[nodiscard]] std::string bytes_in_words(std::size_t bytes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -3,10 +3,10 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 [[nodiscard]] std::string_view page_style();
 [[nodiscard]] std::string_view page_script();
 [[nodiscard]] std::string_view page_reload_script();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

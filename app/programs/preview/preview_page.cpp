@@ -12,7 +12,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -35,7 +35,7 @@ std::string style_of(const TurnPictures& turn) {
         frame_s * turn.frames, 100 * turn.columns, 100 * turn.rows, 100 * turn.columns, 100 * turn.rows);
 }
 
-std::string head(const PackDescription& pack, const std::string& style, PageKind kind) {
+std::string head(const pack::PackDescription& pack, const std::string& style, PageKind kind) {
     const bool reloads = kind == PageKind::Reloading;
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -63,7 +63,7 @@ std::string marks_of(const TurnPictures& turn) {
     return fmt::format("[{}]", fmt::join(hotspots, ","));
 }
 
-std::string turn_of(const PackDescription& pack, const TurnPictures& turn) {
+std::string turn_of(const pack::PackDescription& pack, const TurnPictures& turn) {
     std::string marks;
     for (std::size_t k = 0; k < turn.marks.size(); ++k) {
         marks += fmt::format("<span class=\"mark\" hidden>{}</span>", k + 1);
@@ -76,7 +76,8 @@ std::string turn_of(const PackDescription& pack, const TurnPictures& turn) {
         "<input id=\"angle\" type=\"range\" min=\"0\" max=\"{}\" value=\"0\" aria-label=\"turn of the prop\">"
         "<span id=\"degrees\"></span></div></div>\n",
         turn.frames, turn.columns, marks_of(turn), xml_text(pack.title),
-        data_address("image/webp", encode_lossy_webp(turn.sheet, turn_quality)), marks, turn.frames - 1);
+        data_address("image/webp", image::encode_lossy_webp(turn.sheet, turn_quality)), marks,
+        turn.frames - 1);
 }
 
 /// A row of a list of facts; empty if `words` is.
@@ -85,18 +86,20 @@ std::string fact(std::string_view name, std::string_view words) {
 }
 
 /// The small picture by which visitors choose; empty if the pack has none.
-std::string table_picture_of(const Image8& picture) {
+std::string table_picture_of(const image::Image8& picture) {
     return picture.texels.empty()
                ? std::string()
                : fmt::format("<figure class=\"card\"><img alt=\"\" width=\"{}\" height=\"{}\" src=\"{}\">"
                              "<figcaption>as it lies on the table among others</figcaption></figure>\n",
-                             picture.width, picture.height, data_address("image/webp", encode_webp(picture)));
+                             picture.width, picture.height,
+                             data_address("image/webp", image::encode_webp(picture)));
 }
 
-std::string beginning(const PackDescription& pack, const PreviewFacts& facts, const PreviewMedia& media) {
+std::string beginning(const pack::PackDescription& pack, const PreviewFacts& facts,
+                      const PreviewMedia& media) {
     std::string lines;
-    const PackCaption none;
-    const PackCaption& first = pack.captions.empty() ? none : pack.captions.front();
+    const pack::PackCaption none;
+    const pack::PackCaption& first = pack.captions.empty() ? none : pack.captions.front();
     for (const std::string* line : {&first.period, &first.place, &first.maker}) {
         if (!line->empty()) {
             lines += fmt::format("<p lang=\"{}\" dir=\"auto\">{}</p>\n", xml_text(first.language),
@@ -159,7 +162,7 @@ std::string figure(const ProjectedText& text, const std::string& what) {
     return fmt::format("<figure class=\"projected\">{}{}</figure>\n", picture, said);
 }
 
-std::string words_of(const PackCaption& caption) {
+std::string words_of(const pack::PackCaption& caption) {
     std::string words = fmt::format("<p class=\"title\">{}</p>\n", xml_text(caption.title));
     for (const std::string* line : {&caption.period, &caption.place, &caption.maker, &caption.credit}) {
         words += line->empty() ? std::string() : fmt::format("<p class=\"soft\">{}</p>\n", xml_text(*line));
@@ -172,7 +175,7 @@ std::string words_of(const PackCaption& caption) {
 }
 
 std::string language_part(const ProjectedLanguage& language) {
-    const PackCaption& caption = language.caption;
+    const pack::PackCaption& caption = language.caption;
     const std::size_t last = language.ends_with_attribution ? 1 : 0;
     const std::size_t portions = language.portions.size() - last;
     std::string left =
@@ -198,7 +201,8 @@ std::string language_part(const ProjectedLanguage& language) {
                        xml_text(caption.language), left, words_of(caption), sound);
 }
 
-std::string hotspots_part(const PackDescription& pack, const std::vector<ProjectedLanguage>& languages) {
+std::string hotspots_part(const pack::PackDescription& pack,
+                          const std::vector<ProjectedLanguage>& languages) {
     if (pack.hotspots.empty()) {
         return {};
     }
@@ -224,7 +228,7 @@ std::string hotspots_part(const PackDescription& pack, const std::vector<Project
         rows);
 }
 
-std::string levels_part(const PackDescription& pack, const PreviewFacts& facts) {
+std::string levels_part(const pack::PackDescription& pack, const PreviewFacts& facts) {
     std::string rows;
     for (std::size_t k = 0; k < facts.levels.size(); ++k) {
         const PreviewLevel& level = facts.levels[k];
@@ -246,8 +250,8 @@ std::string levels_part(const PackDescription& pack, const PreviewFacts& facts) 
                        xml_text(pack.prop_kind), rows);
 }
 
-std::string source_part(const PackDescription& pack, const PreviewFacts& facts) {
-    const PackProvenance& from = pack.provenance;
+std::string source_part(const pack::PackDescription& pack, const PreviewFacts& facts) {
+    const pack::PackProvenance& from = pack.provenance;
     return fmt::format(
         "<h2>Where it comes from</h2>\n<dl>\n{}{}{}{}{}{}{}</dl>\n", fact("scan", from.source_name),
         fact("triangles", std::to_string(from.source_triangles)), fact("SHA-256", from.source_sha256),
@@ -257,8 +261,8 @@ std::string source_part(const PackDescription& pack, const PreviewFacts& facts) 
 
 } // namespace
 
-std::string preview_page(const PackDescription& pack, const PreviewFacts& facts, const PreviewMedia& media,
-                         PageKind kind) {
+std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& facts,
+                         const PreviewMedia& media, PageKind kind) {
     std::string texts;
     for (const ProjectedLanguage& language : media.languages) {
         texts += language_part(language);
@@ -286,4 +290,4 @@ std::string without_reloading(std::string page) {
     return page;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

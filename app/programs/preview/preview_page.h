@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// One level of detail, on a prop of usual size.
 struct PreviewLevel {
@@ -36,22 +36,22 @@ struct PreviewFacts {
     std::string program; ///< name and version
     std::vector<PreviewLevel> levels;
     std::vector<std::string> lost, silent, guessed, taken, missing; ///< a sentence each
-    ScanRights rights;
+    pack::ScanRights rights;
 };
 
 struct PreviewMedia {
     TurnPictures turn;
-    Image8 table_picture; ///< empty: none
+    image::Image8 table_picture; ///< empty: none
     std::vector<ProjectedLanguage> languages;
 };
 
 /// A page of a bake that is being watched reloads itself every two seconds.
 enum class PageKind : std::uint8_t { Final, Reloading };
 
-[[nodiscard]] std::string preview_page(const PackDescription& pack, const PreviewFacts& facts,
+[[nodiscard]] std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& facts,
                                        const PreviewMedia& media, PageKind kind = PageKind::Final);
 
 /// The page as it remains after the watching: it does not reload itself.
 [[nodiscard]] std::string without_reloading(std::string page);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A text and its picture as on the table.
 struct ProjectedText {
@@ -26,7 +26,7 @@ struct ProjectedText {
 };
 
 struct ProjectedLanguage {
-    PackCaption caption;
+    pack::PackCaption caption;
     ProjectedText title;                 ///< the title over the short text, the attribution below
     std::vector<ProjectedText> portions; ///< of the description, then the attribution
     bool ends_with_attribution = false;
@@ -38,7 +38,8 @@ struct ProjectedLanguage {
 [[nodiscard]] double widest_text_px();
 
 /// Returns one for each caption of the pack.
-[[nodiscard]] Result<std::vector<ProjectedLanguage>>
-projected_texts(const std::filesystem::path& pack_file, const PackDescription& pack, double metres_per_box);
+[[nodiscard]] Result<std::vector<ProjectedLanguage>> projected_texts(const std::filesystem::path& pack_file,
+                                                                     const pack::PackDescription& pack,
+                                                                     double metres_per_box);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

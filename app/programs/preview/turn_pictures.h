@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// A hotspot's place in a picture; `seen` is false while its surface faces away from the visitor.
 struct MarkPlace {
@@ -32,7 +32,7 @@ struct TurnPictures {
     int columns = 1, rows = 1; ///< in the sheet
     int frames = 1;
     glm::ivec2 size{0};                        ///< size of one picture
-    Image8 sheet;                              ///< row by row
+    image::Image8 sheet;                       ///< row by row
     std::vector<std::vector<MarkPlace>> marks; ///< by hotspot, by frame
 };
 
@@ -46,4 +46,4 @@ struct TurnOptions {
 [[nodiscard]] Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file,
                                                  const TurnOptions& options = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 constexpr int min_side = 320, max_side = 8192;
@@ -39,15 +39,15 @@ std::string read_size(const std::string& text, Size& size) {
 }
 
 Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {
-    const SafeText text{read_reason(arguments.reason), {}};
-    const SafePage page = lay_out_safe_page(size.width, size.height, text, arguments.languages);
+    const safe::SafeText text{read_reason(arguments.reason), {}};
+    const safe::SafePage page = safe::lay_out_safe_page(size.width, size.height, text, arguments.languages);
     std::vector<std::uint8_t> greys(static_cast<std::size_t>(size.width) *
                                     static_cast<std::size_t>(size.height));
-    draw_safe_rows(page, 0, greys);
-    Image8 picture(size.width, size.height);
+    safe::draw_safe_rows(page, 0, greys);
+    image::Image8 picture(size.width, size.height);
     std::transform(greys.begin(), greys.end(), picture.texels.begin(),
                    [](std::uint8_t grey) { return glm::u8vec4(grey, grey, grey, 255); });
-    return write_file(file, encode_png(picture));
+    return write_file(file, image::encode_png(picture));
 }
 
 int run(int argc, char** argv) {
@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
         "frustumscreen-safe");
     app.set_version_flag("--version", name_and_version("frustumscreen-safe"));
     SafeArguments arguments;
-    arguments.languages = safe_languages();
+    arguments.languages = safe::safe_languages();
     std::string png;
     Size size;
     std::string size_text;
@@ -87,8 +87,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-safe", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-safe", frustumscreen::programs::run, argc,
+                                                 argv);
 }

@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 constexpr int rows_at_once = 32; ///< limits the memory for grey values
 
 /// Writes pixels from `x` on in row `y`; the alpha byte is unused.
-void write_row(const DumbBuffer& buffer, int y, std::span<const std::uint8_t> greys,
+void write_row(const display::DumbBuffer& buffer, int y, std::span<const std::uint8_t> greys,
                std::vector<std::uint32_t>& row) {
     row.resize(greys.size());
     std::transform(greys.begin(), greys.end(), row.begin(),
@@ -30,20 +30,21 @@ void write_row(const DumbBuffer& buffer, int y, std::span<const std::uint8_t> gr
 
 } // namespace
 
-Result<std::unique_ptr<ScanoutPair>> SafeScanout::make(int card, PixelSize size, const SafePicture& picture) {
-    std::optional<DumbBuffer> first = DumbBuffer::create(card, size);
-    std::optional<DumbBuffer> second = DumbBuffer::create(card, size);
+Result<std::unique_ptr<display::ScanoutPair>> SafeScanout::make(int card, PixelSize size,
+                                                                const SafePicture& picture) {
+    std::optional<display::DumbBuffer> first = display::DumbBuffer::create(card, size);
+    std::optional<display::DumbBuffer> second = display::DumbBuffer::create(card, size);
     if (!first || !second) {
         return fail(ErrorKind::BadConfiguration, "safe.no_memory",
                     "the graphics card has no memory for {} x {} pixels", size.width, size.height);
     }
-    return std::unique_ptr<ScanoutPair>(
+    return std::unique_ptr<display::ScanoutPair>(
         new SafeScanout(size, picture, *std::move(first), *std::move(second)));
 }
 
-FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
+display::FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
     Framebuffer& framebuffer = framebuffers_.at(static_cast<std::size_t>(which));
-    DumbBuffer& buffer = framebuffer.buffer;
+    display::DumbBuffer& buffer = framebuffer.buffer;
     if (framebuffer.drawn != picture_.text && draw(buffer)) {
         framebuffer.drawn = picture_.text;
     }
@@ -59,15 +60,16 @@ FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
     return buffer.shown();
 }
 
-bool SafeScanout::draw(DumbBuffer& buffer) const {
-    const SafePage page = lay_out_safe_page(size_.width, size_.height, picture_.text, picture_.languages);
+bool SafeScanout::draw(display::DumbBuffer& buffer) const {
+    const safe::SafePage page =
+        safe::lay_out_safe_page(size_.width, size_.height, picture_.text, picture_.languages);
     const auto width = static_cast<std::size_t>(size_.width);
     std::vector<std::uint8_t> greys;
     std::vector<std::uint32_t> row;
     for (int y = 0; y < size_.height; y += rows_at_once) {
         const auto rows = static_cast<std::size_t>(std::min(rows_at_once, size_.height - y));
         greys.resize(rows * width);
-        draw_safe_rows(page, y, greys);
+        safe::draw_safe_rows(page, y, greys);
         if (!buffer.map()) {
             return false;
         }
@@ -79,4 +81,4 @@ bool SafeScanout::draw(DumbBuffer& buffer) const {
     return true;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,37 +14,38 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The content of the safe picture.
 struct SafePicture {
     std::vector<std::string_view> languages;
-    SafeText text;
+    safe::SafeText text;
     std::uint8_t code = 0; ///< base/probe_code.h
 };
 
-class SafeScanout final : public ScanoutPair {
+class SafeScanout final : public display::ScanoutPair {
 public:
     /// Each `fill` reads `picture`, which must outlive the result.
-    [[nodiscard]] static Result<std::unique_ptr<ScanoutPair>> make(int card, PixelSize size,
-                                                                   const SafePicture& picture);
+    [[nodiscard]] static Result<std::unique_ptr<display::ScanoutPair>> make(int card, PixelSize size,
+                                                                            const SafePicture& picture);
 
     [[nodiscard]] PixelSize size() const override { return size_; }
     /// Draws the whole picture if its text has changed, otherwise only its code.
-    [[nodiscard]] FramebufferId fill(int which, const PixelRectangle& part) override;
+    [[nodiscard]] display::FramebufferId fill(int which, const PixelRectangle& part) override;
 
 private:
     struct Framebuffer {
-        DumbBuffer buffer;
-        std::optional<SafeText> drawn;
+        display::DumbBuffer buffer;
+        std::optional<safe::SafeText> drawn;
     };
-    SafeScanout(PixelSize size, const SafePicture& picture, DumbBuffer first, DumbBuffer second)
+    SafeScanout(PixelSize size, const SafePicture& picture, display::DumbBuffer first,
+                display::DumbBuffer second)
         : size_(size), picture_(picture), framebuffers_{{{std::move(first), {}}, {std::move(second), {}}}} {}
-    [[nodiscard]] bool draw(DumbBuffer& buffer) const;
+    [[nodiscard]] bool draw(display::DumbBuffer& buffer) const;
 
     PixelSize size_;
     const SafePicture& picture_;
     std::array<Framebuffer, 2> framebuffers_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 constexpr int pictures_between_asking = 10;
@@ -12,8 +12,8 @@ constexpr int pictures_between_asking = 10;
 
 Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
                                                      std::vector<std::string_view> languages) {
-    TRY(KmsCard card, KmsCard::open(name, {}));
-    if (!take_screen(card.file())) {
+    TRY(display::KmsCard card, display::KmsCard::open(name, {}));
+    if (!display::take_screen(card.file())) {
         return fail(ErrorKind::DeviceLost, "safe.screen_held",
                     "another program holds the screen of {}; end it, or wait until it has ended",
                     card.path());
@@ -21,20 +21,22 @@ Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
     return std::unique_ptr<SafeScreen>(new SafeScreen(std::move(card), name.empty(), std::move(languages)));
 }
 
-SafeScreen::SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view> languages)
+SafeScreen::SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages)
     : card_(std::move(card)),
-      other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), {})) : std::nullopt),
-      picture_{std::move(languages), {}, 0}, kms_(make_kms_device(card_)),
+      other_cards_(any_card ? std::optional<display::OtherCards>(display::OtherCards(card_.path(), {}))
+                            : std::nullopt),
+      picture_{std::move(languages), {}, 0}, kms_(display::make_kms_device(card_)),
       presenter_(*kms_, [this](PixelSize size) { return SafeScanout::make(card_.file(), size, picture_); },
                  {}) {}
 
-Result<bool> SafeScreen::show(const SafeText& text) {
+Result<bool> SafeScreen::show(const safe::SafeText& text) {
     // The kernel notices an unplugged projector by itself, but another mode only when the projector is
     // probed, which disturbs some projectors. Without udev no event triggers the probe.
     const bool thoroughly = !presenter_.lit() || ++pictures_since_asked_ >= pictures_between_asking;
     pictures_since_asked_ = thoroughly ? 0 : pictures_since_asked_;
-    CardSeen seen = look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, thoroughly);
-    add_usual_modes(seen);
+    display::CardSeen seen =
+        display::look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, thoroughly);
+    display::add_usual_modes(seen);
     if (seen != seen_) {
         presenter_.connected(seen);
         seen_ = std::move(seen);
@@ -45,4 +47,4 @@ Result<bool> SafeScreen::show(const SafeText& text) {
     return presenter_.wait_until_shown();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

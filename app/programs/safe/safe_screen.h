@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class SafeScreen {
 public:
@@ -24,21 +24,21 @@ public:
                                                                   std::vector<std::string_view> languages);
 
     /// Checks the connectors and shows the picture with the next code. Returns true if it is on the screen.
-    [[nodiscard]] Result<bool> show(const SafeText& text);
+    [[nodiscard]] Result<bool> show(const safe::SafeText& text);
     [[nodiscard]] bool lit() const { return presenter_.lit(); }
     /// A sentence about the projector.
     [[nodiscard]] std::string_view state() const { return presenter_.state(); }
 
 private:
-    SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view> languages);
+    SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages);
 
-    KmsCard card_;
-    std::optional<OtherCards> other_cards_; ///< none: the card was named
+    display::KmsCard card_;
+    std::optional<display::OtherCards> other_cards_; ///< none: the card was named
     SafePicture picture_;
-    std::unique_ptr<KmsDevice> kms_;
-    Presenter presenter_;
-    std::optional<CardSeen> seen_;
+    std::unique_ptr<display::KmsDevice> kms_;
+    display::Presenter presenter_;
+    std::optional<display::CardSeen> seen_;
     int pictures_since_asked_ = 0; ///< since the connectors were last probed
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,7 +16,7 @@
 #include <array>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -43,7 +43,7 @@ public:
     void feed_watchdog() { manager_.feed_watchdog(); }
 
 private:
-    ServiceManager manager_;
+    service::ServiceManager manager_;
     Sentence last_;
 };
 
@@ -90,4 +90,4 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

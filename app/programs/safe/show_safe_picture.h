@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct SafeArguments {
     std::string card;             ///< as KmsCard::open
@@ -30,4 +30,4 @@ struct SafeArguments {
 /// The beginning of the file; empty if it is unreadable.
 [[nodiscard]] std::string read_reason(const std::filesystem::path& file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

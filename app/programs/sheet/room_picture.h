@@ -10,9 +10,9 @@
 #include "app/typography/text_image.h"
 #include "firmware_host/base/result.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame,
-                                          const Typesetter& typesetter);
+[[nodiscard]] Result<image::Image8> room_picture(const settings::Settings& settings, const SheetFrame& frame,
+                                                 const typography::Typesetter& typesetter);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

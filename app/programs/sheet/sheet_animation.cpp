@@ -9,7 +9,7 @@
 #include <cmath>
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -21,28 +21,29 @@ constexpr int min_frame_ms = 20; ///< browsers slow down shorter frames
 constexpr int longest_frame_ms = 500;
 
 /// One camera for each frame: at its eye; all look at one place with one focal length.
-std::vector<VisitorCamera> cameras_for(const Settings& settings, const std::vector<SheetFrame>& frames,
-                                       const AnimationOptions& options) {
-    const PropShape prop = make_prop(settings.prop);
-    RigidTransform middle;
+std::vector<simulation::VisitorCamera> cameras_for(const settings::Settings& settings,
+                                                   const std::vector<SheetFrame>& frames,
+                                                   const AnimationOptions& options) {
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    geometry::RigidTransform middle;
     for (const SheetFrame& frame : frames) {
         middle.translation +=
             frame.tracked_state.table_from_prop.translation / static_cast<double>(frames.size());
     }
-    std::vector<VisitorCamera> cameras;
+    std::vector<simulation::VisitorCamera> cameras;
     double reach = 0.0; // distance of the farthest corner from the centre, in half pictures
     double focal_px = 1e30;
     for (const SheetFrame& frame : frames) {
-        cameras.push_back(
-            visitor_camera(prop, middle, frame.tracked_state.eye_m, options.width, options.height));
+        cameras.push_back(simulation::visitor_camera(prop, middle, frame.tracked_state.eye_m, options.width,
+                                                     options.height));
         focal_px = std::min(focal_px, cameras.back().pinhole.fx);
     }
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        Pinhole& pinhole = cameras[k].pinhole;
+        geometry::Pinhole& pinhole = cameras[k].pinhole;
         pinhole.fx = pinhole.fy = focal_px;
-        const RigidTransform camera_from_prop =
+        const geometry::RigidTransform camera_from_prop =
             cameras[k].table_from_camera.inverse() * frames[k].tracked_state.table_from_prop;
-        for (const PropFace& face : prop.faces) {
+        for (const geometry::PropFace& face : prop.faces) {
             for (const glm::dvec3& corner : face.corners) {
                 if (const auto pixel = pinhole.pixel(camera_from_prop.point(corner))) {
                     reach = std::max({reach, std::abs(pixel->x - pinhole.cx) / pinhole.cx,
@@ -51,7 +52,7 @@ std::vector<VisitorCamera> cameras_for(const Settings& settings, const std::vect
             }
         }
     }
-    for (VisitorCamera& camera : cameras) {
+    for (simulation::VisitorCamera& camera : cameras) {
         camera.pinhole.fx = camera.pinhole.fy = reach > 0.0 ? focal_px * used_share / reach : focal_px;
     }
     return cameras;
@@ -68,7 +69,7 @@ public:
     ~Picture() { WebPPictureFree(&picture_); }
     Picture(const Picture&) = delete;
     Picture& operator=(const Picture&) = delete;
-    [[nodiscard]] bool import(const Image8& image) {
+    [[nodiscard]] bool import(const image::Image8& image) {
         picture_.use_argb = 1;
         picture_.width = image.width;
         picture_.height = image.height;
@@ -96,7 +97,7 @@ public:
         encoder_.reset(valid_ ? WebPAnimEncoderNew(options.width, options.height, &encoder_options)
                               : nullptr);
     }
-    [[nodiscard]] bool add(const Image8& image, int at_ms) {
+    [[nodiscard]] bool add(const image::Image8& image, int at_ms) {
         Picture picture;
         return encoder_ && picture.import(image) &&
                WebPAnimEncoderAdd(encoder_.get(), picture.get(), at_ms, &config_) != 0;
@@ -130,16 +131,16 @@ int duration_ms(const std::vector<SheetFrame>& frames, std::size_t from, std::si
 
 } // namespace
 
-Result<Bytes> visitor_animation(const Settings& settings, const std::vector<SheetFrame>& frames,
+Result<Bytes> visitor_animation(const settings::Settings& settings, const std::vector<SheetFrame>& frames,
                                 const AnimationOptions& options,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
-    const std::vector<VisitorCamera> cameras = cameras_for(settings, frames, options);
-    std::vector<Image8> views;
+    const std::vector<simulation::VisitorCamera> cameras = cameras_for(settings, frames, options);
+    std::vector<image::Image8> views;
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        TRY(const Image8 picture, read_picture(frames[k], settings.projector.pinhole));
-        const VisitorScene scene =
+        TRY(const image::Image8 picture, read_picture(frames[k], settings.projector.pinhole));
+        const simulation::VisitorScene scene =
             visitor_scene(settings, frames[k].tracked_state, picture.width, picture.height);
-        views.push_back(visitor_view(scene, picture, cameras[k], {true, 2, false}));
+        views.push_back(simulation::visitor_view(scene, picture, cameras[k], {true, 2, false}));
         progress(k + 1, frames.size());
     }
     Encoder encoder(options);
@@ -161,4 +162,4 @@ Result<Bytes> visitor_animation(const Settings& settings, const std::vector<Shee
     return encoder.finish(at_ms);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

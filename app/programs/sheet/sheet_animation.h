@@ -16,7 +16,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct AnimationOptions {
     int width = 560;
@@ -26,8 +26,9 @@ struct AnimationOptions {
     bool closed = false; ///< the last frame leads to the first: play forwards only
 };
 
-[[nodiscard]] Result<Bytes> visitor_animation(const Settings& settings, const std::vector<SheetFrame>& frames,
+[[nodiscard]] Result<Bytes> visitor_animation(const settings::Settings& settings,
+                                              const std::vector<SheetFrame>& frames,
                                               const AnimationOptions& options,
                                               const std::function<void(std::size_t, std::size_t)>& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

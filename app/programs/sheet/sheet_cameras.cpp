@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -14,8 +14,8 @@ constexpr double behind_the_visitor = 4.5; ///< times the eye's distance from th
 constexpr double seen_share = 0.92;        ///< of the picture, filled from the table's legs to the projector
 
 /// Turns and zooms until the points fill at most `share` of the picture and are centred.
-void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm::dvec2& share) {
-    const RigidTransform camera_from_table = camera.table_from_camera.inverse();
+void frame(simulation::VisitorCamera& camera, std::span<const glm::dvec3> points, const glm::dvec2& share) {
+    const geometry::RigidTransform camera_from_table = camera.table_from_camera.inverse();
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (const glm::dvec3& point : points) {
@@ -24,7 +24,7 @@ void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm:
             high = glm::max(high, *pixel);
         }
     }
-    Pinhole& pinhole = camera.pinhole;
+    geometry::Pinhole& pinhole = camera.pinhole;
     const glm::dvec2 size(pinhole.width, pinhole.height);
     const glm::dvec2 room = share * size / glm::max(high - low, glm::dvec2(1.0));
     const double zoom = std::min(room.x, room.y);
@@ -35,7 +35,7 @@ void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm:
     pinhole.cy = centre.y;
 }
 
-std::vector<glm::dvec3> prop_corners(const VisitorScene& scene) {
+std::vector<glm::dvec3> prop_corners(const simulation::VisitorScene& scene) {
     std::vector<glm::dvec3> corners;
     for (const glm::dvec3& corner : scene.prop.corners) {
         corners.push_back(scene.table_from_prop.point(corner));
@@ -45,15 +45,17 @@ std::vector<glm::dvec3> prop_corners(const VisitorScene& scene) {
 
 } // namespace
 
-VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size) {
-    VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, size.x, size.y);
+simulation::VisitorCamera framed_camera(const simulation::VisitorScene& scene, const glm::ivec2& size) {
+    simulation::VisitorCamera camera =
+        simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, size.x, size.y);
     frame(camera, prop_corners(scene), {1.0, prop_share_of_height});
     return camera;
 }
 
-VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size) {
+simulation::VisitorCamera table_camera(const simulation::VisitorScene& scene, const glm::ivec2& size) {
     // For a prop in the table's middle, so the table stays still in the picture while the prop slides.
-    VisitorCamera camera = visitor_camera(scene.prop, RigidTransform{}, scene.eye_m, size.x, size.y);
+    simulation::VisitorCamera camera =
+        simulation::visitor_camera(scene.prop, geometry::RigidTransform{}, scene.eye_m, size.x, size.y);
     std::vector<glm::dvec3> points = prop_corners(scene);
     for (const glm::dvec3& corner : lit_corners(scene)) {
         points.push_back(corner);
@@ -62,10 +64,10 @@ VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size) {
     return camera;
 }
 
-VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size) {
+simulation::VisitorCamera room_camera(const simulation::VisitorScene& scene, const glm::ivec2& size) {
     const glm::dvec3 prop = scene.table_from_prop.point(scene.prop.middle);
-    VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop,
-                                          glm::mix(prop, scene.eye_m, behind_the_visitor), size.x, size.y);
+    simulation::VisitorCamera camera = simulation::visitor_camera(
+        scene.prop, scene.table_from_prop, glm::mix(prop, scene.eye_m, behind_the_visitor), size.x, size.y);
     std::vector<glm::dvec3> points{scene.table_from_projector.translation + glm::dvec3(0.0, 0.0, 0.12)};
     for (const double side : {-0.5, 0.5}) {
         points.emplace_back(side * scene.table_size_m.x, -0.5 * scene.table_size_m.y, -0.2);
@@ -75,21 +77,23 @@ VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size) {
     return camera;
 }
 
-std::vector<glm::dvec3> lit_corners(const VisitorScene& scene) {
+std::vector<glm::dvec3> lit_corners(const simulation::VisitorScene& scene) {
     const glm::dvec2 size(scene.projector.width, scene.projector.height);
     std::vector<glm::dvec3> corners;
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-        if (const auto lit = lights_table(scene.projector, scene.table_from_projector, corner * size)) {
+        if (const auto lit =
+                geometry::lights_table(scene.projector, scene.table_from_projector, corner * size)) {
             corners.emplace_back(*lit, 0.0);
         }
     }
     return corners;
 }
 
-std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) {
-    const RigidTransform projector_from_prop = scene.table_from_projector.inverse() * scene.table_from_prop;
+std::vector<std::array<glm::dvec2, 4>> face_outlines(const simulation::VisitorScene& scene) {
+    const geometry::RigidTransform projector_from_prop =
+        scene.table_from_projector.inverse() * scene.table_from_prop;
     std::vector<std::array<glm::dvec2, 4>> outlines;
-    for (const PropFace& face : scene.prop.faces) {
+    for (const geometry::PropFace& face : scene.prop.faces) {
         std::array<glm::dvec2, 4> outline{};
         bool visible = true;
         for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -105,4 +109,4 @@ std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene) 
     return outlines;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,26 +9,29 @@
 #include <array>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The share of a picture's height that the prop fills.
 inline constexpr double prop_share_of_height = 0.85;
 
 /// The visitor's camera, turned slightly and zoomed until the prop fills its share of the height, or less if
 /// it would be wider than the picture.
-[[nodiscard]] VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size);
+[[nodiscard]] simulation::VisitorCamera framed_camera(const simulation::VisitorScene& scene,
+                                                      const glm::ivec2& size);
 
 /// The visitor's camera, turned and zoomed to show the prop and the whole lit part of the table.
-[[nodiscard]] VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size);
+[[nodiscard]] simulation::VisitorCamera table_camera(const simulation::VisitorScene& scene,
+                                                     const glm::ivec2& size);
 
 /// A camera behind the visitor's shoulder, on the line of sight, so the artifact looks as the visitor sees
 /// it; table and projector are in its picture.
-[[nodiscard]] VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size);
+[[nodiscard]] simulation::VisitorCamera room_camera(const simulation::VisitorScene& scene,
+                                                    const glm::ivec2& size);
 
 /// The corners of the projector's picture on the table, as far as its light reaches the table.
-[[nodiscard]] std::vector<glm::dvec3> lit_corners(const VisitorScene& scene);
+[[nodiscard]] std::vector<glm::dvec3> lit_corners(const simulation::VisitorScene& scene);
 
 /// Corners of the prop's faces in the projector's picture; only faces in front of the lens.
-[[nodiscard]] std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene);
+[[nodiscard]] std::vector<std::array<glm::dvec2, 4>> face_outlines(const simulation::VisitorScene& scene);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

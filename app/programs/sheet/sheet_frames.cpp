@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -83,18 +83,18 @@ bool looks_like(const SheetFrame& a, const SheetFrame& b) {
     constexpr double near_m = 0.02;
     constexpr double near_eye_m = 0.05;
     constexpr double near_deg = 8.0;
-    const RigidTransform& pose_a = a.tracked_state.table_from_prop;
-    const RigidTransform& pose_b = b.tracked_state.table_from_prop;
+    const geometry::RigidTransform& pose_a = a.tracked_state.table_from_prop;
+    const geometry::RigidTransform& pose_b = b.tracked_state.table_from_prop;
     return a.label == b.label && glm::distance(pose_a.translation, pose_b.translation) < near_m &&
            glm::distance(a.tracked_state.eye_m, b.tracked_state.eye_m) < near_eye_m &&
-           glm::degrees(rotation_angle(pose_a.rotation, pose_b.rotation)) < near_deg;
+           glm::degrees(geometry::rotation_angle(pose_a.rotation, pose_b.rotation)) < near_deg;
 }
 
 Result<void> check_folder(const std::filesystem::path& folder, const std::filesystem::path& pose_file) {
     if (!std::filesystem::is_directory(folder)) {
         return bad_input("sheet.no_folder", folder.string() + ": there is no such folder");
     }
-    if (const auto cameras = folder / visitor_cameras_name; std::filesystem::exists(cameras)) {
+    if (const auto cameras = folder / simulation::visitor_cameras_name; std::filesystem::exists(cameras)) {
         return bad_input("sheet.visitors_pictures",
                          "{}: these pictures show what the visitor sees; a sheet needs the projector's "
                          "pictures, from render without --view visitor",
@@ -138,11 +138,15 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         if (!t_us || !ms || std::abs(*t_us) > 1e15) {
             return bad_input("sheet.times", "{}:{}: t_us and ms must be numbers", name, line_number);
         }
-        records.push_back({static_cast<std::int64_t>(*t_us), *ms, columns->of(fields, "technique"),
-                           number(columns->of(fields, "estimated_error_mm")),
-                           columns->of(fields, "drawn") != "0", columns->of(fields, "artifact"),
-                           columns->of(fields, "state"), columns->of(fields, "told"),
-                           columns->of(fields, "language")});
+        records.push_back({.t_us = static_cast<std::int64_t>(*t_us),
+                           .ms = *ms,
+                           .technique = columns->of(fields, "technique"),
+                           .estimated_error_mm = number(columns->of(fields, "estimated_error_mm")),
+                           .drawn = columns->of(fields, "drawn") != "0",
+                           .artifact = columns->of(fields, "artifact"),
+                           .state = columns->of(fields, "state"),
+                           .told = columns->of(fields, "told"),
+                           .language = columns->of(fields, "language")});
     }
     return records;
 }
@@ -152,7 +156,8 @@ Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const
     const std::filesystem::path pose_file = poses.empty() ? folder / "poses.csv" : poses;
     TRY_VOID(check_folder(folder, pose_file));
     TRY(const Bytes bytes, read_file(pose_file));
-    TRY(const std::vector<PoseSample> samples, parse_poses(as_text(bytes), pose_file.string()));
+    TRY(const std::vector<tracker::PoseSample> samples,
+        tracker::parse_poses(as_text(bytes), pose_file.string()));
     FrameFolder result;
     const std::filesystem::path list = folder / "frames.csv";
     if (std::filesystem::exists(list)) {
@@ -163,7 +168,7 @@ Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const
     for (FrameRecord& record : result.records) {
         record.artifact = !label.empty() ? label : record.artifact.empty() ? folder_name : record.artifact;
     }
-    for (const TrackedState& tracked_state : pose_frames(samples, default_eye_m)) {
+    for (const tracking::TrackedState& tracked_state : tracking::pose_frames(samples, default_eye_m)) {
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", result.frames.size());
         if (!std::filesystem::exists(file)) {
             break;
@@ -207,9 +212,9 @@ std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames) {
     return kept;
 }
 
-Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
+Result<image::Image8> read_picture(const SheetFrame& frame, const geometry::Pinhole& projector) {
     TRY(const Bytes bytes, read_file(frame.picture));
-    TRY(Image8 picture, at(frame.picture.string(), decode_png8(bytes)));
+    TRY(image::Image8 picture, at(frame.picture.string(), image::decode_png8(bytes)));
     if (std::abs(picture.width * projector.height - picture.height * projector.width) >
         std::max(projector.width, projector.height)) {
         return bad_input("sheet.frame_shape",
@@ -220,14 +225,15 @@ Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
     return picture;
 }
 
-VisitorScene visitor_scene(const Settings& settings, const TrackedState& tracked_state, int picture_width,
-                           int picture_height) {
-    return {settings.projector.pinhole.scaled_to(picture_width, picture_height),
-            settings.projector.table_from_projector,
-            make_prop(settings.prop),
-            tracked_state.table_from_prop,
-            tracked_state.eye_m,
-            {settings.table.width_m, settings.table.depth_m}};
+simulation::VisitorScene visitor_scene(const settings::Settings& settings,
+                                       const tracking::TrackedState& tracked_state, int picture_width,
+                                       int picture_height) {
+    return {.projector = settings.projector.pinhole.scaled_to(picture_width, picture_height),
+            .table_from_projector = settings.projector.table_from_projector,
+            .prop = settings::make_prop(settings.prop),
+            .table_from_prop = tracked_state.table_from_prop,
+            .eye_m = tracked_state.eye_m,
+            .table_size_m = {settings.table.width_m, settings.table.depth_m}};
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

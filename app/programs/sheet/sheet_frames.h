@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// One row of frames.csv.
 struct FrameRecord {
@@ -32,7 +32,7 @@ struct FrameRecord {
 
 struct SheetFrame {
     std::filesystem::path picture;
-    TrackedState tracked_state;
+    tracking::TrackedState tracked_state;
     std::string label;
 };
 
@@ -59,10 +59,11 @@ struct FrameFolder {
 [[nodiscard]] std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames);
 
 /// Errors: not a PNG; an aspect ratio other than the configured projector's.
-[[nodiscard]] Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector);
+[[nodiscard]] Result<image::Image8> read_picture(const SheetFrame& frame, const geometry::Pinhole& projector);
 
 /// The visitor's surroundings, for a picture of any size of the configured projector.
-[[nodiscard]] VisitorScene visitor_scene(const Settings& settings, const TrackedState& tracked_state,
-                                         int picture_width, int picture_height);
+[[nodiscard]] simulation::VisitorScene visitor_scene(const settings::Settings& settings,
+                                                     const tracking::TrackedState& tracked_state,
+                                                     int picture_width, int picture_height);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

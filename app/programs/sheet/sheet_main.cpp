@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 struct Request {
@@ -88,34 +88,35 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     });
 }
 
-Result<void> draw_sheet(const Request& request, const Settings& settings,
+Result<void> draw_sheet(const Request& request, const settings::Settings& settings,
                         const std::vector<FrameFolder>& folders) {
     if (request.sheet.empty()) {
         return {};
     }
-    TRY(const Typesetter typesetter, Typesetter::open());
+    TRY(const typography::Typesetter typesetter, typography::Typesetter::open());
     std::vector<SheetFrame> frames;
     for (const FrameFolder& folder : folders) {
         const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
         frames.insert(frames.end(), chosen.begin(), chosen.end());
     }
     ProgressLine progress("contact sheet");
-    TRY(const Image8 sheet,
+    TRY(const image::Image8 sheet,
         contact_sheet(settings, frames, request.sheet_options, typesetter,
                       [&](std::size_t done, std::size_t all) { progress.show(done, all); }));
-    return write_file(request.sheet, encode_png(sheet));
+    return write_file(request.sheet, image::encode_png(sheet));
 }
 
-Result<void> draw_room(const Request& request, const Settings& settings, const SheetFrame& frame) {
+Result<void> draw_room(const Request& request, const settings::Settings& settings, const SheetFrame& frame) {
     if (request.room.empty()) {
         return {};
     }
-    TRY(const Typesetter typesetter, Typesetter::open());
-    TRY(const Image8 picture, room_picture(settings, frame, typesetter));
-    return write_file(request.room, encode_png(picture));
+    TRY(const typography::Typesetter typesetter, typography::Typesetter::open());
+    TRY(const image::Image8 picture, room_picture(settings, frame, typesetter));
+    return write_file(request.room, image::encode_png(picture));
 }
 
-Result<void> draw_animation(const Request& request, const Settings& settings, const FrameFolder& folder) {
+Result<void> draw_animation(const Request& request, const settings::Settings& settings,
+                            const FrameFolder& folder) {
     if (request.animation.empty()) {
         return {};
     }
@@ -128,7 +129,7 @@ Result<void> draw_animation(const Request& request, const Settings& settings, co
 }
 
 Result<void> make(const Request& request) {
-    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     std::vector<FrameFolder> folders;
     for (std::size_t k = 0; k < request.folders.size(); ++k) {
         TRY(FrameFolder folder,
@@ -167,8 +168,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-sheet", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-sheet", frustumscreen::programs::run, argc,
+                                                 argv);
 }

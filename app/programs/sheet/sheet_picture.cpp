@@ -10,14 +10,14 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-constexpr Colour background{14, 15, 18};
-constexpr Colour bright{232, 232, 228};
-constexpr Colour quiet{138, 142, 150};
-constexpr Colour outline_colour{66, 96, 100};
+constexpr typography::Colour background{14, 15, 18};
+constexpr typography::Colour bright{232, 232, 228};
+constexpr typography::Colour quiet{138, 142, 150};
+constexpr typography::Colour outline_colour{66, 96, 100};
 
 constexpr int margin = 28;
 constexpr int gap = 22;
@@ -44,7 +44,7 @@ struct Crop {
 
 /// The part that a tile shows, in the tile's aspect ratio: the prop's outlines with a margin, or the whole
 /// picture.
-Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture,
+Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const image::Image8& picture,
              const glm::ivec2& tile) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
@@ -66,7 +66,7 @@ Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image
     return {(low + high) / 2.0 - size / 2.0, size};
 }
 
-std::string where(const TrackedState& tracked_state) {
+std::string where(const tracking::TrackedState& tracked_state) {
     const glm::dvec3& prop = tracked_state.table_from_prop.translation;
     const glm::dvec3 ahead = tracked_state.table_from_prop.direction({1.0, 0.0, 0.0});
     const glm::dvec3 sight = tracked_state.eye_m - prop;
@@ -78,14 +78,16 @@ std::string where(const TrackedState& tracked_state) {
                        std::lround(glm::length(sight) * 100.0), std::lround(glm::degrees(elevation)));
 }
 
-void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& frame, const Image8& picture,
-                bool whole, const glm::ivec2& corner, const Typesetter& typesetter) {
+void draw_frame(typography::Canvas& canvas, const settings::Settings& settings, const SheetFrame& frame,
+                const image::Image8& picture, bool whole, const glm::ivec2& corner,
+                const typography::Typesetter& typesetter) {
     const Tiles& tiles = whole ? whole_table : around_prop;
-    const VisitorScene scene = visitor_scene(settings, frame.tracked_state, picture.width, picture.height);
+    const simulation::VisitorScene scene =
+        visitor_scene(settings, frame.tracked_state, picture.width, picture.height);
     std::vector<std::array<glm::dvec2, 4>> outlines = face_outlines(scene);
     const Crop crop =
         crop_of(whole ? std::vector<std::array<glm::dvec2, 4>>() : outlines, picture, tiles.projector);
-    Canvas tile(tiles.projector.x, tiles.projector.y, Colour(0));
+    typography::Canvas tile(tiles.projector.x, tiles.projector.y, typography::Colour(0));
     tile.picture(picture, crop.low, crop.size, {0, 0}, tiles.projector);
     for (std::array<glm::dvec2, 4>& outline : outlines) {
         for (glm::dvec2& point : outline) {
@@ -95,10 +97,10 @@ void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& fram
     }
     canvas.picture(tile.image(), {0, 0}, glm::dvec2(tiles.projector), corner, tiles.projector);
 
-    const VisitorCamera camera =
+    const simulation::VisitorCamera camera =
         whole ? table_camera(scene, tiles.visitor) : framed_camera(scene, tiles.visitor);
     const glm::ivec2 right = corner + glm::ivec2(tiles.projector.x + between_tiles, 0);
-    canvas.picture(visitor_view(scene, picture, camera), {0, 0}, glm::dvec2(tiles.visitor), right,
+    canvas.picture(simulation::visitor_view(scene, picture, camera), {0, 0}, glm::dvec2(tiles.visitor), right,
                    tiles.visitor);
 
     const double baseline = corner.y + tiles.projector.y + 8.0;
@@ -109,16 +111,16 @@ void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& fram
 
 } // namespace
 
-Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFrame>& frames,
-                             const SheetOptions& options, const Typesetter& typesetter,
-                             const std::function<void(std::size_t, std::size_t)>& progress) {
+Result<image::Image8> contact_sheet(const settings::Settings& settings, const std::vector<SheetFrame>& frames,
+                                    const SheetOptions& options, const typography::Typesetter& typesetter,
+                                    const std::function<void(std::size_t, std::size_t)>& progress) {
     const int count = static_cast<int>(frames.size());
     const int columns =
         std::clamp(options.columns > 0 ? options.columns : (count > 3 ? 2 : 1), 1, std::max(count, 1));
     const int rows = (count + columns - 1) / columns;
     const glm::ivec2 cell = (options.whole_table ? whole_table : around_prop).cell();
-    Canvas canvas(2 * margin + columns * cell.x + (columns - 1) * gap,
-                  header_height + rows * cell.y + (rows - 1) * gap / 2 + margin / 2, background);
+    typography::Canvas canvas(2 * margin + columns * cell.x + (columns - 1) * gap,
+                              header_height + rows * cell.y + (rows - 1) * gap / 2 + margin / 2, background);
     canvas.text(typesetter, options.title, {margin, 20.0}, 26.0, bright, {}, true);
     canvas.text(typesetter,
                 fmt::format("left: the projector\u2019s picture{}    right: what the visitor\u2019s eye sees",
@@ -126,7 +128,7 @@ Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFr
                 {margin, 52.0}, 15.0, quiet);
     for (int k = 0; k < count; ++k) {
         const SheetFrame& frame = frames[static_cast<std::size_t>(k)];
-        TRY(const Image8 picture, read_picture(frame, settings.projector.pinhole));
+        TRY(const image::Image8 picture, read_picture(frame, settings.projector.pinhole));
         const glm::ivec2 corner(margin + (k % columns) * (cell.x + gap),
                                 header_height + (k / columns) * (cell.y + gap / 2));
         draw_frame(canvas, settings, frame, picture, options.whole_table, corner, typesetter);
@@ -135,4 +137,4 @@ Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFr
     return canvas.take();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

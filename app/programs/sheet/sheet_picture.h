@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct SheetOptions {
     std::string title = "FrustumScreen";
@@ -24,8 +24,9 @@ struct SheetOptions {
 };
 
 /// Calls `progress(done, all)` after each frame.
-[[nodiscard]] Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFrame>& frames,
-                                           const SheetOptions& options, const Typesetter& typesetter,
-                                           const std::function<void(std::size_t, std::size_t)>& progress);
+[[nodiscard]] Result<image::Image8>
+contact_sheet(const settings::Settings& settings, const std::vector<SheetFrame>& frames,
+              const SheetOptions& options, const typography::Typesetter& typesetter,
+              const std::function<void(std::size_t, std::size_t)>& progress);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,7 +9,7 @@
 #include <array>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -39,7 +39,13 @@ std::vector<TableLine> table_lines(const std::vector<FrameRecord>& records) {
             return l.artifact == record.artifact && l.technique == record.technique;
         });
         if (line == lines.end()) {
-            lines.push_back({record.artifact, record.technique, 0, 0, 0.0, 0.0, std::nullopt});
+            lines.push_back({.artifact = record.artifact,
+                             .technique = record.technique,
+                             .frames = 0,
+                             .unchanged = 0,
+                             .median_ms = 0.0,
+                             .p99_ms = 0.0,
+                             .estimated_error_mm = std::nullopt});
             times.emplace_back();
             errors_mm.emplace_back();
             line = lines.end() - 1;
@@ -98,4 +104,4 @@ std::string html_table(const std::vector<TableLine>& lines, const std::string& t
         xml_text(title), rows);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct TableLine {
     std::string artifact;
@@ -26,4 +26,4 @@ struct TableLine {
 /// One self-contained page.
 [[nodiscard]] std::string html_table(const std::vector<TableLine>& lines, const std::string& title);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -117,4 +117,4 @@ Result<bool> FolderWatch::take() {
     return changed;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

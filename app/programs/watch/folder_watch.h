@@ -15,7 +15,7 @@
 #include <set>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// True if a file of this name is temporary, from an editor or a copy: `.x`, `x~`, `#x#`, `x.part123`, `4913`
 /// and the like.
@@ -48,4 +48,4 @@ private:
     std::map<int, std::filesystem::path> watched_; ///< by the kernel's number
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

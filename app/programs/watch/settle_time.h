@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class SettleTime {
 public:
@@ -32,4 +32,4 @@ private:
     std::optional<MonotonicTime> last_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::optional<ExhibitStatus> read_exhibit_status(std::string_view json) {
     return is_whole && fields.has_health ? std::optional(fields.status) : std::nullopt;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,14 +10,14 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ExhibitStatus {
-    ExhibitSays says; ///< the caller sets `age`
+    watch::ExhibitSays says; ///< the caller sets `age`
     std::string boot_id;
     MonotonicTime written_at;
 };
 
 [[nodiscard]] std::optional<ExhibitStatus> read_exhibit_status(std::string_view json);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -8,15 +8,16 @@
 #include <charconv>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 std::string line_of(std::uint64_t number, const Fault& fault) {
-    std::string line = fmt::format("{} {} awake {} s: {} -> {}{}{}", number, fault.at,
-                                   std::chrono::duration_cast<std::chrono::seconds>(fault.awake).count(),
-                                   fault.cause ? word_of(*fault.cause) : "good_again", word_of(fault.step),
-                                   fault.detail.empty() ? "" : "; ", fault.detail);
+    std::string line =
+        fmt::format("{} {} awake {} s: {} -> {}{}{}", number, fault.at,
+                    std::chrono::duration_cast<std::chrono::seconds>(fault.awake).count(),
+                    fault.cause ? watch::word_of(*fault.cause) : "good_again", watch::word_of(fault.step),
+                    fault.detail.empty() ? "" : "; ", fault.detail);
     std::replace_if(
         line.begin(), line.end(), [](char each) { return static_cast<unsigned char>(each) < ' '; }, ' ');
     line.resize(FaultBook::line_bytes - 1, ' ');
@@ -88,4 +89,4 @@ void FaultBook::keep(MonotonicTime now, bool at_once) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

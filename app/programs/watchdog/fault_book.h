@@ -18,13 +18,13 @@
 #include <filesystem>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct Fault {
     std::string at; ///< UTC, by the wall clock of that moment
-    Awake awake{0};
-    std::optional<Cause> cause; ///< none: ten good minutes
-    Step step = Step::RestartExhibit;
+    watch::Awake awake{0};
+    std::optional<watch::Cause> cause; ///< none: ten good minutes
+    watch::Step step = watch::Step::RestartExhibit;
     std::string detail;         ///< further facts, a few words
     std::optional<bool> helped; ///< true: ten good minutes followed; false: another action did
 };
@@ -56,4 +56,4 @@ private:
     std::optional<MonotonicTime> written_at_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

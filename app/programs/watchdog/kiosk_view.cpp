@@ -14,7 +14,7 @@
 #include <iterator>
 #include <sstream>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -115,8 +115,8 @@ bool has_object(const fs::path& file, std::string_view key) {
     return false;
 }
 
-void look_at_disk(const fs::path& folder, Outcome& outcome) {
-    if (const std::optional<DiskSpace> disk = disk_space(folder)) {
+void look_at_disk(const fs::path& folder, watch::Outcome& outcome) {
+    if (const std::optional<watch::DiskSpace> disk = watch::disk_space(folder)) {
         outcome.disk_free = disk->free_share();
         outcome.disk_writable = disk->writable;
     }
@@ -127,14 +127,14 @@ void look_at_disk(const fs::path& folder, Outcome& outcome) {
 KioskView::KioskView(KioskPlaces places, std::string boot_id)
     : places_(std::move(places)), boot_id_(std::move(boot_id)) {}
 
-std::optional<ExhibitSays> KioskView::exhibit(MonotonicTime now) const {
+std::optional<watch::ExhibitSays> KioskView::exhibit(MonotonicTime now) const {
     const Result<Bytes> text = read_file(places_.root / places_.status, max_status_bytes);
     const std::optional<ExhibitStatus> status =
         text ? read_exhibit_status(as_text(*text)) : std::optional<ExhibitStatus>{};
     if (!status || status->boot_id != boot_id_) {
         return std::nullopt;
     }
-    ExhibitSays says = status->says;
+    watch::ExhibitSays says = status->says;
     says.age = std::max(now - status->written_at, Nanoseconds(0));
     return says;
 }
@@ -148,10 +148,11 @@ void KioskView::count_ends() {
     for (std::streamsize read = 0; read < max_ends_bytes && std::getline(stream, line) && !stream.eof();) {
         read += std::ssize(line) + 1;
         ends_read_ += line.size() + 1;
-        if (const std::optional<ServiceEnd> end = parse_service_end(line); end && is_failure(*end)) {
+        if (const std::optional<watch::ServiceEnd> end = watch::parse_service_end(line);
+            end && watch::is_failure(*end)) {
             ++failures_;
-            last_end_ =
-                fmt::format("{} {} {}", service_results.at(end->result).word, end->code, end->exit_status);
+            last_end_ = fmt::format("{} {} {}", watch::service_results.at(end->result).word, end->code,
+                                    end->exit_status);
             last_failure_ = end;
         }
     }
@@ -161,20 +162,20 @@ std::string KioskView::why_it_ended() const {
     if (!last_failure_) {
         return {};
     }
-    for (const Crash& crash : read_crashes(places_.root / places_.crashes)) {
+    for (const watch::Crash& crash : watch::read_crashes(places_.root / places_.crashes)) {
         const double before_s = last_failure_->monotonic_s - crash.monotonic_s;
         if (crash.boot == boot_id_ && before_s > -longest_end_s && before_s < longest_end_s) {
-            return sentence_of(crash);
+            return watch::sentence_of(crash);
         }
     }
-    return fmt::format("{} ({} {})", service_results.at(last_failure_->result).sentence, last_failure_->code,
-                       last_failure_->exit_status);
+    return fmt::format("{} ({} {})", watch::service_results.at(last_failure_->result).sentence,
+                       last_failure_->code, last_failure_->exit_status);
 }
 
-Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock) {
+watch::Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock) {
     const fs::path& root = places_.root;
     count_ends();
-    Outcome outcome;
+    watch::Outcome outcome;
     outcome.process = first_process(root / places_.group);
     outcome.failures = failures_;
     outcome.exhibit = exhibit(now);
@@ -186,13 +187,13 @@ Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point
     outcome.exhibit_memory = memory_of(root / places_.group);
     look_at_disk(root / places_.data, outcome);
     outcome.disk_worn = worn(root);
-    outcome.hottest_c = hottest_c(root);
+    outcome.hottest_c = watch::hottest_c(root);
     outcome.projector = projector(root);
     outcome.clock_plausible = wall_clock >= earliest_plausible_day;
     return outcome;
 }
 
-Capabilities KioskView::capabilities() {
+watch::Capabilities KioskView::capabilities() {
     const fs::path set = places_.root / places_.last_good;
     std::error_code missing;
     const fs::file_time_type changed = fs::last_write_time(set, missing);
@@ -207,7 +208,7 @@ Capabilities KioskView::capabilities() {
     return {has_last_good_, fs::exists(places_.root / places_.device, missing), false};
 }
 
-std::vector<std::string> notes_of(const Outcome& outcome) {
+std::vector<std::string> notes_of(const watch::Outcome& outcome) {
     std::vector<std::string> notes;
     if (outcome.projector == false) {
         notes.emplace_back("no projector is connected; check its cable, and switch it on");
@@ -232,4 +233,4 @@ std::vector<std::string> notes_of(const Outcome& outcome) {
     return notes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

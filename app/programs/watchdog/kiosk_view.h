@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct KioskPlaces {
     std::filesystem::path root = "/";
@@ -37,16 +37,16 @@ class KioskView {
 public:
     KioskView(KioskPlaces places, std::string boot_id);
 
-    [[nodiscard]] Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
+    [[nodiscard]] watch::Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
     /// All capabilities, except whether a reboot can be recorded.
-    [[nodiscard]] Capabilities capabilities();
+    [[nodiscard]] watch::Capabilities capabilities();
     /// The latest end of the exhibit's process: `watchdog killed KILL`; empty: there was none.
     [[nodiscard]] const std::string& last_end() const { return last_end_; }
     /// The latest end as a clause for the staff, with the place of a crash; empty: there was none.
     [[nodiscard]] std::string why_it_ended() const;
 
 private:
-    [[nodiscard]] std::optional<ExhibitSays> exhibit(MonotonicTime now) const;
+    [[nodiscard]] std::optional<watch::ExhibitSays> exhibit(MonotonicTime now) const;
     void count_ends();
 
     KioskPlaces places_;
@@ -54,13 +54,13 @@ private:
     std::uint64_t ends_read_ = 0; ///< bytes read of the file of ends
     std::uint32_t failures_ = 0;
     std::string last_end_;
-    std::optional<ServiceEnd> last_failure_;
+    std::optional<watch::ServiceEnd> last_failure_;
     std::filesystem::file_time_type set_changed_; ///< this and the next: the library's set at the last look
     std::uintmax_t set_bytes_ = 0;
     bool has_last_good_ = false;
 };
 
 /// Faults that no action remedies, each as a sentence for the staff.
-[[nodiscard]] std::vector<std::string> notes_of(const Outcome& outcome);
+[[nodiscard]] std::vector<std::string> notes_of(const watch::Outcome& outcome);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

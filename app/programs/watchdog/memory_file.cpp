@@ -5,11 +5,11 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-constexpr std::size_t file_bytes = slot_count * slot_bytes;
+constexpr std::size_t file_bytes = watch::slot_count * watch::slot_bytes;
 
 std::string content_of_file(int descriptor) {
     std::string content(file_bytes, '\0');
@@ -23,7 +23,7 @@ bool write_all(int descriptor, std::string_view bytes, std::size_t offset) {
     return written == std::ssize(bytes) && ::fdatasync(descriptor) == 0;
 }
 
-bool differ_in_more_than_time(LadderMemory a, const LadderMemory& b) {
+bool differ_in_more_than_time(watch::LadderMemory a, const watch::LadderMemory& b) {
     a.awake = b.awake;
     return !(a == b);
 }
@@ -36,23 +36,24 @@ MemoryFile::MemoryFile(const std::filesystem::path& file, std::uint64_t boot)
         return;
     }
     const std::string content = content_of_file(descriptor_.number());
-    kept_ = read_slots(content);
+    kept_ = watch::read_slots(content);
     if (content.size() < file_bytes) { // allocate its blocks now, while the disk has space
         write_all(descriptor_.number(), std::string(file_bytes - content.size(), ' '), content.size());
     }
 }
 
-LadderMemory MemoryFile::remembered(Awake since_boot) const {
-    LadderMemory fresh;
+watch::LadderMemory MemoryFile::remembered(watch::Awake since_boot) const {
+    watch::LadderMemory fresh;
     fresh.awake = since_boot;
-    return kept_ ? frustumscreen::remembered(*kept_, boot_, since_boot) : fresh;
+    return kept_ ? frustumscreen::watch::remembered(*kept_, boot_, since_boot) : fresh;
 }
 
 bool MemoryFile::can_write_now(MonotonicTime now) const {
     return descriptor_.number() >= 0 && !has_failed_ && (!tried_at_ || now - *tried_at_ >= between_writes);
 }
 
-bool MemoryFile::keep(MonotonicTime now, Awake since_boot, const LadderMemory& memory, bool at_once) {
+bool MemoryFile::keep(MonotonicTime now, watch::Awake since_boot, const watch::LadderMemory& memory,
+                      bool at_once) {
     const Nanoseconds since = tried_at_ ? now - *tried_at_ : longest_between_writes;
     const bool is_due =
         since >= longest_between_writes ||
@@ -61,12 +62,14 @@ bool MemoryFile::keep(MonotonicTime now, Awake since_boot, const LadderMemory& m
         return false;
     }
     tried_at_ = now;
-    const KeptMemory next{kept_ ? kept_->writes + 1 : 1, boot_, since_boot, memory};
-    has_failed_ = !write_all(descriptor_.number(), slot_of(next), next.writes % slot_count * slot_bytes);
+    const watch::KeptMemory next{
+        .writes = kept_ ? kept_->writes + 1 : 1, .boot = boot_, .since_boot = since_boot, .memory = memory};
+    has_failed_ = !write_all(descriptor_.number(), watch::slot_of(next),
+                             next.writes % watch::slot_count * watch::slot_bytes);
     if (!has_failed_) {
         kept_ = next;
     }
     return !has_failed_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -12,7 +12,7 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class MemoryFile {
 public:
@@ -23,19 +23,19 @@ public:
     MemoryFile(const std::filesystem::path& file, std::uint64_t boot);
 
     /// The stored memory; a new one if there is none.
-    [[nodiscard]] LadderMemory remembered(Awake since_boot) const;
+    [[nodiscard]] watch::LadderMemory remembered(watch::Awake since_boot) const;
     [[nodiscard]] bool is_of_this_boot() const { return kept_ && kept_->boot == boot_; }
 
     [[nodiscard]] bool can_write_now(MonotonicTime now) const;
     /// Writes if a write is due. `at_once`: before a reboot; returns false if it is not on the disk.
-    bool keep(MonotonicTime now, Awake since_boot, const LadderMemory& memory, bool at_once);
+    bool keep(MonotonicTime now, watch::Awake since_boot, const watch::LadderMemory& memory, bool at_once);
 
 private:
     Descriptor descriptor_;
     std::uint64_t boot_;
-    std::optional<KeptMemory> kept_;
+    std::optional<watch::KeptMemory> kept_;
     std::optional<MonotonicTime> tried_at_;
     bool has_failed_ = false;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

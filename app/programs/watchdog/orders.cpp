@@ -4,31 +4,31 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-std::string_view Orders::order_for(Step step) {
+std::string_view Orders::order_for(watch::Step step) {
     switch (step) {
-    case Step::ResetDevice:
+    case watch::Step::ResetDevice:
         return "reset-device";
-    case Step::SafePicture:
+    case watch::Step::SafePicture:
         return "safe-picture";
-    case Step::Reboot:
+    case watch::Step::Reboot:
         return "reboot";
-    case Step::RestartExhibit:
-    case Step::LastGoodSet:
-    case Step::DrawPlainly:
-    case Step::BuiltIn:
-    case Step::Return:
+    case watch::Step::RestartExhibit:
+    case watch::Step::LastGoodSet:
+    case watch::Step::DrawPlainly:
+    case watch::Step::BuiltIn:
+    case watch::Step::Return:
         break;
     }
     return "restart-exhibit"; // the mode changes with the restart
 }
 
-Result<void> Orders::set_mode(Mode mode) const {
-    return renew_file(folder_ / "mode", as_bytes(fmt::format("{}\n", word_of(mode))));
+Result<void> Orders::set_mode(watch::Mode mode) const {
+    return renew_file(folder_ / "mode", as_bytes(fmt::format("{}\n", watch::word_of(mode))));
 }
 
-Result<void> Orders::begin(Mode mode) const {
+Result<void> Orders::begin(watch::Mode mode) const {
     std::error_code failed; // `set_mode` reports it, because its folder is missing then
     std::filesystem::remove_all(folder_ / "steps", failed);
     std::filesystem::create_directories(folder_ / "steps", failed);
@@ -39,11 +39,11 @@ Result<void> Orders::begin(Mode mode) const {
     return set_mode(mode);
 }
 
-Result<void> Orders::give(Step step, Mode mode, std::string_view reason) const {
+Result<void> Orders::give(watch::Step step, watch::Mode mode, std::string_view reason) const {
     const Result<void> is_set = set_mode(mode);
     const Result<void> is_told = renew_file(folder_ / "reason", as_bytes(fmt::format("{}\n", reason)));
     const Result<void> is_given = write_file(folder_ / "steps" / order_for(step), {});
     return !is_set ? is_set : !is_told ? is_told : is_given;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

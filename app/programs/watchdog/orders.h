@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class Orders {
 public:
@@ -23,16 +23,16 @@ public:
 
     /// Prepares the folder, and sets the exhibit's mode from its next start on. Pending orders of an earlier
     /// watchdog are void.
-    [[nodiscard]] Result<void> begin(Mode mode) const;
-    [[nodiscard]] Result<void> give(Step step, Mode mode, std::string_view reason) const;
+    [[nodiscard]] Result<void> begin(watch::Mode mode) const;
+    [[nodiscard]] Result<void> give(watch::Step step, watch::Mode mode, std::string_view reason) const;
 
     /// The file's name under `steps`.
-    [[nodiscard]] static std::string_view order_for(Step step);
+    [[nodiscard]] static std::string_view order_for(watch::Step step);
 
 private:
-    [[nodiscard]] Result<void> set_mode(Mode mode) const;
+    [[nodiscard]] Result<void> set_mode(watch::Mode mode) const;
 
     std::filesystem::path folder_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

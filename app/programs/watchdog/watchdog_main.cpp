@@ -22,7 +22,7 @@
 
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 constexpr Nanoseconds between_looks = std::chrono::seconds(1);
@@ -35,8 +35,8 @@ struct Arguments {
     KioskPlaces places;
 };
 
-Patience patience_of(const Arguments& arguments) {
-    Patience patience;
+watch::Patience patience_of(const Arguments& arguments) {
+    watch::Patience patience;
     patience.start =
         std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.start_patience_s));
     return patience;
@@ -47,7 +47,7 @@ public:
     Watchdog(const Arguments& arguments, MonotonicTime now)
         : boot_id_(boot_id(arguments.places.root)), view_(arguments.places, boot_id_),
           judge_(patience_of(arguments), now),
-          memory_(arguments.state_folder / "memory", number_of_boot(boot_id_)),
+          memory_(arguments.state_folder / "memory", watch::number_of_boot(boot_id_)),
           faults_(arguments.state_folder / "faults"), orders_(arguments.run_folder),
           report_file_(arguments.run_folder / "status.json"),
           ladder_(memory_.remembered(since_boot()), !memory_.is_of_this_boot()) {}
@@ -56,13 +56,13 @@ public:
     void begin() { complain_of(orders_.begin(ladder_.memory().mode)); }
 
     void look(MonotonicTime now) {
-        const Outcome outcome = view_.look(now, std::chrono::system_clock::now());
-        const Observation seen = judge_.look(now, ladder_.memory().mode, outcome);
-        Capabilities capabilities = view_.capabilities();
+        const watch::Outcome outcome = view_.look(now, std::chrono::system_clock::now());
+        const watch::Observation seen = judge_.look(now, ladder_.memory().mode, outcome);
+        watch::Capabilities capabilities = view_.capabilities();
         capabilities.reboot = memory_.can_write_now(now);
-        const Awake awake = std::max(memory_.remembered(since_boot()).awake, ladder_.memory().awake);
+        const watch::Awake awake = std::max(memory_.remembered(since_boot()).awake, ladder_.memory().awake);
         const bool was_in_episode = ladder_.memory().cause.has_value();
-        const std::optional<LadderAction> act = ladder_.look(awake, seen, capabilities);
+        const std::optional<watch::LadderAction> act = ladder_.look(awake, seen, capabilities);
         if (was_in_episode && !ladder_.memory().cause && seen.lit && !seen.trouble) {
             faults_.note_good();
         }
@@ -76,23 +76,24 @@ public:
     }
 
 private:
-    void take(const LadderAction& act, MonotonicTime now) {
-        const std::string_view cause = sentence_of(act.cause);
-        faults_.enter({utc_text(std::chrono::system_clock::now()),
-                       ladder_.memory().awake,
-                       act.cause,
-                       act.step,
-                       view_.last_end(),
-                       {}});
-        const std::string why = act.cause == Cause::KeepsEnding ? view_.why_it_ended() : std::string();
+    void take(const watch::LadderAction& act, MonotonicTime now) {
+        const std::string_view cause = watch::sentence_of(act.cause);
+        faults_.enter({.at = utc_text(std::chrono::system_clock::now()),
+                       .awake = ladder_.memory().awake,
+                       .cause = act.cause,
+                       .step = act.step,
+                       .detail = view_.last_end(),
+                       .helped = {}});
+        const std::string why = act.cause == watch::Cause::KeepsEnding ? view_.why_it_ended() : std::string();
         const std::string reason =
-            fmt::format("{}{}{}; {}", cause, why.empty() ? "" : ": ", why, sentence_of(act.step));
-        journal_.note(act.cause ? LogPriority::Warning : LogPriority::Notice, reason,
-                      {{"STEP", word_of(act.step)}, {"CAUSE", act.cause ? word_of(*act.cause) : ""}});
-        if (act.step == Step::Reboot) {
+            fmt::format("{}{}{}; {}", cause, why.empty() ? "" : ": ", why, watch::sentence_of(act.step));
+        journal_.note(
+            act.cause ? service::LogPriority::Warning : service::LogPriority::Notice, reason,
+            {{"STEP", watch::word_of(act.step)}, {"CAUSE", act.cause ? watch::word_of(*act.cause) : ""}});
+        if (act.step == watch::Step::Reboot) {
             faults_.keep(now, true);
             if (!memory_.keep(now, since_boot(), ladder_.memory(), true)) {
-                journal_.note(LogPriority::Error,
+                journal_.note(service::LogPriority::Error,
                               "the reboot cannot be recorded, so the computer is not restarted");
                 return;
             }
@@ -101,17 +102,17 @@ private:
         judge_.step_taken(now);
     }
 
-    void report(MonotonicTime now, const Observation& seen, const Outcome& outcome) {
-        const WatchdogReport report{now,
-                                    utc_text(std::chrono::system_clock::now()),
-                                    boot_id_,
-                                    ladder_.memory(),
-                                    seen,
-                                    now - trouble_since_.value_or(now),
-                                    ladder_.reboots_within_day(),
-                                    outcome.failures,
-                                    view_.last_end(),
-                                    notes_of(outcome)};
+    void report(MonotonicTime now, const watch::Observation& seen, const watch::Outcome& outcome) {
+        const WatchdogReport report{.now = now,
+                                    .at = utc_text(std::chrono::system_clock::now()),
+                                    .boot_id = boot_id_,
+                                    .memory = ladder_.memory(),
+                                    .seen = seen,
+                                    .trouble_for = now - trouble_since_.value_or(now),
+                                    .reboots_within_day = ladder_.reboots_within_day(),
+                                    .failures = outcome.failures,
+                                    .last_end = view_.last_end(),
+                                    .notes = notes_of(outcome)};
         complain_of(renew_file(report_file_, as_bytes(watchdog_json(report, faults_.latest()))));
     }
 
@@ -119,26 +120,26 @@ private:
     void complain_of(const Result<void>& result) {
         if (!result && result.error().message != complaint_) {
             complaint_ = result.error().message;
-            journal_.note(LogPriority::Error, complaint_);
+            journal_.note(service::LogPriority::Error, complaint_);
         }
     }
 
-    Journal journal_{"frustumscreen-watchdog"};
+    service::Journal journal_{"frustumscreen-watchdog"};
     std::string boot_id_;
     KioskView view_;
-    Judge judge_;
+    watch::Judge judge_;
     MemoryFile memory_;
     FaultBook faults_;
     Orders orders_;
     std::filesystem::path report_file_;
-    Ladder ladder_;
+    watch::Ladder ladder_;
     std::optional<MonotonicTime> trouble_since_;
     std::string complaint_;
 };
 
 int watch(const Arguments& arguments) {
-    const StopSignals signals;
-    const ServiceManager manager;
+    const service::StopSignals signals;
+    const service::ServiceManager manager;
     const MonotonicTime begin = monotonic_now();
     Watchdog watchdog(arguments, begin);
     watchdog.begin();
@@ -187,8 +188,9 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-watchdog", frustumscreen::run, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-watchdog", frustumscreen::programs::run, argc,
+                                                 argv);
 }

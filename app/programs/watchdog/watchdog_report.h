@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct WatchdogReport {
     MonotonicTime now;
     std::string at; ///< by the wall clock, UTC
     std::string boot_id;
-    LadderMemory memory;
-    Observation seen;
+    watch::LadderMemory memory;
+    watch::Observation seen;
     Nanoseconds trouble_for{0}; ///< duration of the current fault, if any
     std::size_t reboots_within_day = 0;
     std::uint32_t failures = 0; ///< failures of the exhibit's process since the boot
@@ -27,4 +27,4 @@ struct WatchdogReport {
 
 [[nodiscard]] std::string watchdog_json(const WatchdogReport& report, const std::deque<Fault>& faults);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -25,25 +25,25 @@ constexpr int margin = 24;
 constexpr int pitch = 27;
 constexpr int second_column = 180;
 constexpr double em_px = 15.0;
-constexpr Colour background{20, 22, 26};
-constexpr Colour quiet{150, 196, 200};
-constexpr Colour bright{236, 236, 232};
+constexpr typography::Colour background{20, 22, 26};
+constexpr typography::Colour quiet{150, 196, 200};
+constexpr typography::Colour bright{236, 236, 232};
 
 } // namespace
 
-Result<WindowHelp> help_picture() {
-    TRY(const Typesetter typesetter, Typesetter::open());
-    Canvas canvas(width, 2 * margin + pitch * static_cast<int>(lines.size()), background);
+Result<window::WindowHelp> help_picture() {
+    TRY(const typography::Typesetter typesetter, typography::Typesetter::open());
+    typography::Canvas canvas(width, 2 * margin + pitch * static_cast<int>(lines.size()), background);
     double y = margin;
     for (const auto& [key, meaning] : lines) {
         canvas.text(typesetter, key, {margin, y}, em_px, quiet, {}, true);
         canvas.text(typesetter, meaning, {second_column, y}, em_px, bright);
         y += pitch;
     }
-    const Image8 image = canvas.take();
-    WindowHelp help{{image.width, image.height}, std::vector<std::uint8_t>(4 * image.texels.size())};
+    const image::Image8 image = canvas.take();
+    window::WindowHelp help{{image.width, image.height}, std::vector<std::uint8_t>(4 * image.texels.size())};
     std::memcpy(help.rgba.data(), image.texels.data(), help.rgba.size());
     return help;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

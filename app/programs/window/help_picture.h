@@ -6,8 +6,8 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/window/sdl_window.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] Result<WindowHelp> help_picture();
+[[nodiscard]] Result<window::WindowHelp> help_picture();
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

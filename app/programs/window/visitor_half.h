@@ -13,25 +13,26 @@
 
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 class VisitorHalf {
 public:
-    explicit VisitorHalf(const Settings& settings);
+    explicit VisitorHalf(const settings::Settings& settings);
 
     /// `visitor_camera` for a prop at the table's centre; constant while the prop slides about.
-    [[nodiscard]] VisitorCamera camera(const glm::dvec3& eye_m, PixelSize half) const;
+    [[nodiscard]] simulation::VisitorCamera camera(const glm::dvec3& eye_m, PixelSize half) const;
     /// Adds the table, the prop's shadow, its visible faces, and their edges.
-    void see(const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half, SeenSurfaces& seen) const;
+    void see(const tracker::PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
+             window::SeenSurfaces& seen) const;
     /// The point of the table at a pixel; nullopt above the horizon.
     [[nodiscard]] std::optional<glm::dvec2> on_table(const glm::dvec2& pixel, const glm::dvec3& eye_m,
                                                      PixelSize half) const;
 
 private:
-    ProjectorSettings projector_;
+    settings::ProjectorSettings projector_;
     glm::dvec2 half_table_m_;
-    PropShape prop_;
+    geometry::PropShape prop_;
     double exposure_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

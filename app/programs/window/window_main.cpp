@@ -27,12 +27,12 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 namespace {
 
 struct Request {
     std::filesystem::path config;
-    ArtifactShowOptions show;
+    show::ArtifactShowOptions show;
     double seconds = 0.0; ///< 0: until the window is closed
     bool pattern = false;
 };
@@ -57,39 +57,40 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 /// Maps a pixel of the projector's picture to the table.
-TableFromPicture table_from_picture(const ProjectorSettings& projector) {
+window::TableFromPicture table_from_picture(const settings::ProjectorSettings& projector) {
     return [projector](const glm::dvec2& pixel) {
-        return lights_table(projector.pinhole, projector.table_from_projector, pixel);
+        return geometry::lights_table(projector.pinhole, projector.table_from_projector, pixel);
     };
 }
 
-Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& settings,
-                                        const Display& display) {
+Result<std::unique_ptr<show::Show>> make_show(const Request& request, const settings::Settings& settings,
+                                              const display::Display& display) {
     if (request.pattern) {
-        return PatternShow::create(settings);
+        return show::PatternShow::create(settings);
     }
-    ArtifactShowOptions options = request.show;
+    show::ArtifactShowOptions options = request.show;
     options.program = "frustumscreen-window";
     if (options.packs.empty()) {
         options.packs = settings.exhibit.packs;
         options.packs_key = settings.exhibit.packs_key;
     }
-    DevicePlan devices;
-    devices.tracker = TrackerKind::Simulated;
+    scene::DevicePlan devices;
+    devices.tracker = settings::TrackerKind::Simulated;
     devices.panel = devices.other_packs = devices.language = true;
-    TRY(std::unique_ptr<ArtifactShow> show,
-        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}));
+    TRY(std::unique_ptr<show::ArtifactShow> show,
+        show::ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}));
     for (const std::string& note : show->notes()) {
         say_line(options.program, note);
     }
-    Exhibit exhibit = make_exhibit(settings, *show, monotonic_now());
-    return std::make_unique<LiveExhibit>(settings, std::move(show), std::move(exhibit), display.name());
+    exhibit::Exhibit exhibit = show::make_exhibit(settings, *show, monotonic_now());
+    return std::make_unique<show::LiveExhibit>(settings, std::move(show), std::move(exhibit), display.name());
 }
 
 /// `visitor` must outlive the window.
-WindowSetUp set_up_of(const Settings& settings, const VisitorHalf& visitor, WindowHelp help) {
+window::WindowSetUp set_up_of(const settings::Settings& settings, const VisitorHalf& visitor,
+                              window::WindowHelp help) {
     const glm::dvec2 table(settings.table.width_m, settings.table.depth_m);
-    WindowSetUp set_up;
+    window::WindowSetUp set_up;
     set_up.width = settings.projector.pinhole.width;
     set_up.height = settings.projector.pinhole.height;
     set_up.half_extent_m = 0.5 * (table - settings.prop.base_m);
@@ -98,42 +99,43 @@ WindowSetUp set_up_of(const Settings& settings, const VisitorHalf& visitor, Wind
     set_up.table_from_view = [&visitor](const glm::dvec2& pixel, const glm::dvec3& eye_m, PixelSize half) {
         return visitor.on_table(pixel, eye_m, half);
     };
-    set_up.see = [&visitor](const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
-                            SeenSurfaces& seen) { visitor.see(prop, eye_m, half, seen); };
+    set_up.see = [&visitor](const tracker::PoseSample& prop, const glm::dvec3& eye_m, PixelSize half,
+                            window::SeenSurfaces& seen) { visitor.see(prop, eye_m, half, seen); };
     set_up.help = std::move(help);
     return set_up;
 }
 
 Result<void> run(const Request& request) {
-    const StopSignals stop_signals;
-    const Journal journal("frustumscreen-window");
-    ServiceManager manager;
-    TRY(const CheckedSettings checked, load_settings(request.config));
-    Settings settings = *checked;
+    const service::StopSignals stop_signals;
+    const service::Journal journal("frustumscreen-window");
+    service::ServiceManager manager;
+    TRY(const settings::CheckedSettings checked, settings::load_settings(request.config));
+    settings::Settings settings = *checked;
     // The mouse moves the prop anywhere on the table, like a hand.
-    settings.tracker.kind = TrackerKind::Simulated;
+    settings.tracker.kind = settings::TrackerKind::Simulated;
     settings.tracker.display_latency_ms = 0.0;
     settings.eye.tracked = true;
-    TRY(WindowHelp help, help_picture());
+    TRY(window::WindowHelp help, help_picture());
     const VisitorHalf visitor(settings);
-    TRY(Window window, open_window(set_up_of(settings, visitor, std::move(help))));
-    const Result<std::unique_ptr<Show>> show = [&] {
-        const StopSignals::AtOnce at_once(stop_signals);
+    TRY(window::Window window, window::open_window(set_up_of(settings, visitor, std::move(help))));
+    const Result<std::unique_ptr<show::Show>> show = [&] {
+        const service::StopSignals::AtOnce at_once(stop_signals);
         return make_show(request, settings, *window.display);
     }();
     TRY_VOID(show);
-    Inputs inputs;
-    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window.tracker), Registration{});
+    show::Inputs inputs;
+    inputs.tracker =
+        std::make_unique<tracking::RegisteredTracker>(std::move(window.tracker), geometry::Registration{});
     inputs.panel = std::move(window.panel);
-    LoopOptions options;
+    show::LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(request.seconds * 1e9)));
     }
     options.stop = &stop_signals;
-    StatusFile status_file{{.status_file = {}}};
-    RunWatch watch(manager, journal);
-    return without_value(
-        run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now()));
+    show::StatusFile status_file{{.status_file = {}}};
+    show::RunWatch watch(manager, journal);
+    return without_value(show::run_loop(settings, *window.display, inputs, **show, options, status_file,
+                                        watch, monotonic_now()));
 }
 
 int window_main(int argc, char** argv) {
@@ -145,8 +147,9 @@ int window_main(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
 
 int main(int argc, char** argv) {
-    return frustumscreen::guarded_main("frustumscreen-window", frustumscreen::window_main, argc, argv);
+    return frustumscreen::programs::guarded_main("frustumscreen-window", frustumscreen::programs::window_main,
+                                                 argc, argv);
 }

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 using ByteView = std::span<const std::byte>;
 
@@ -31,4 +31,4 @@ template <typename T> [[nodiscard]] T load_little(ByteView bytes, std::size_t of
     return load<T>(bytes, offset, std::endian::little);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

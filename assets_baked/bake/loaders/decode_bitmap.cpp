@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -93,8 +93,9 @@ bool runs_reach_the_end(ByteView bytes, const Header& header) {
 }
 
 /// Decodes with the library into a picture whose size was checked before.
-Result<Image8> unpack(const char* kind, ByteView bytes, const Header& header, std::int64_t limit_texels) {
-    TRY(Image8 picture, blank_image(header.width, header.height, limit_texels));
+Result<image::Image8> unpack(const char* kind, ByteView bytes, const Header& header,
+                             std::int64_t limit_texels) {
+    TRY(image::Image8 picture, blank_image(header.width, header.height, limit_texels));
     if (bytes.size() > std::size_t{std::numeric_limits<int>::max()}) {
         return damaged(kind, "more than 2 GiB");
     }
@@ -119,7 +120,7 @@ bool is_bmp(ByteView bytes) {
     return as_text(bytes).starts_with("BM");
 }
 
-Result<Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels) {
     const std::optional<Header> header = bmp_header(bytes);
     if (!header) {
         return damaged("BMP", "it has no header");
@@ -149,7 +150,7 @@ bool is_tga(ByteView bytes) {
            (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
 }
 
-Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_tga(ByteView bytes, std::int64_t limit_texels) {
     const Header header = tga_header(bytes);
     TRY_VOID(without_value(blank_image(header.width, header.height, limit_texels)));
     const auto plain_bytes = static_cast<std::uint64_t>((header.bits + 7) / 8 * header.width * header.height);
@@ -162,4 +163,4 @@ Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels) {
     return unpack("TGA", bytes, header, limit_texels);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -14,12 +14,12 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] bool is_bmp(ByteView bytes);
-[[nodiscard]] Result<Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels);
+[[nodiscard]] Result<image::Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels);
 
 [[nodiscard]] bool is_tga(ByteView bytes);
-[[nodiscard]] Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels);
+[[nodiscard]] Result<image::Image8> decode_tga(ByteView bytes, std::int64_t limit_texels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

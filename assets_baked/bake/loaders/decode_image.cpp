@@ -14,7 +14,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -50,7 +50,7 @@ struct PngReader {
     png_image image{};
 };
 
-Result<Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
     if (bytes.size() < 8) {
         return bad_input("picture.png_truncated", "the PNG picture is truncated");
     }
@@ -61,7 +61,7 @@ Result<Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
     }
     reader.image.format = PNG_FORMAT_RGBA;
     reader.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-    TRY(Image8 picture, blank_image(reader.image.width, reader.image.height, limit_texels));
+    TRY(image::Image8 picture, blank_image(reader.image.width, reader.image.height, limit_texels));
     png_image_finish_read(&reader.image, nullptr, raw(picture), 0, nullptr);
     if (PNG_IMAGE_FAILED(reader.image) || reader.image.warning_or_error != 0) {
         return bad_input("picture.png_rows_damaged", "the PNG picture is damaged: {}", reader.image.message);
@@ -98,9 +98,10 @@ public:
     }
 
     /// The picture with each side divided by `divisor`, which is 1, 2, 4 or 8, and rounded up.
-    Result<Image8> read(const glm::ivec2& size, int divisor, std::int64_t limit_texels) {
+    Result<image::Image8> read(const glm::ivec2& size, int divisor, std::int64_t limit_texels) {
         const tjscalingfactor factor{1, divisor};
-        TRY(Image8 picture, blank_image(TJSCALED(size.x, factor), TJSCALED(size.y, factor), limit_texels));
+        TRY(image::Image8 picture,
+            blank_image(TJSCALED(size.x, factor), TJSCALED(size.y, factor), limit_texels));
         if (tjDecompress2(handle_.get(), raw(bytes_), length(), raw(picture), picture.width, 0,
                           picture.height, TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0 &&
             !is_harmless(tjGetErrorStr2(handle_.get()))) {
@@ -120,7 +121,7 @@ private:
     std::unique_ptr<void, JpegCloser> handle_;
 };
 
-Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
     JpegReader reader(bytes);
     TRY(const glm::ivec2 size, reader.read_size());
     return reader.read(size, 1, limit_texels);
@@ -139,7 +140,7 @@ Result<ShrunkImage> decode_jpeg_shrunk(ByteView bytes, std::int64_t kept_texels,
     while (divisor < 8 && texels > kept_texels * divisor * divisor) {
         divisor *= 2;
     }
-    TRY(Image8 image, reader.read(size, divisor, limit_texels));
+    TRY(image::Image8 image, reader.read(size, divisor, limit_texels));
     return ShrunkImage{std::move(image), size};
 }
 
@@ -147,7 +148,7 @@ bool is_jpeg(ByteView bytes) {
     return begins_with(bytes, "\xff\xd8");
 }
 
-Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(raw(bytes), bytes.size(), &features) != VP8_STATUS_OK) {
         return bad_input("picture.webp_damaged", "the WebP picture is damaged");
@@ -155,7 +156,7 @@ Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
     if (features.has_animation != 0) {
         return bad_input("picture.webp_animated", "the WebP picture is animated; save it as a still picture");
     }
-    TRY(Image8 picture, blank_image(features.width, features.height, limit_texels));
+    TRY(image::Image8 picture, blank_image(features.width, features.height, limit_texels));
     if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), raw(picture), picture.texels.size() * 4,
                            features.width * 4) == nullptr) {
         return bad_input("picture.webp_truncated", "the WebP picture is damaged or truncated");
@@ -165,7 +166,7 @@ Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
 
 } // namespace
 
-Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     if (begins_with(bytes, "\x89PNG\r\n")) {
         return decode_png(bytes, limit_texels);
     }
@@ -197,9 +198,9 @@ Result<ShrunkImage> decode_shrunk(ByteView bytes, std::int64_t kept_texels, std:
         shrunk.file_size = {shrunk.image.width, shrunk.image.height};
     }
     while (texels_of(shrunk.image) > std::max<std::int64_t>(kept_texels, 1)) {
-        shrunk.image = half_size(shrunk.image);
+        shrunk.image = image::half_size(shrunk.image);
     }
     return shrunk;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

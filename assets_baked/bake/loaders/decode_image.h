@@ -13,16 +13,17 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// A 16k texture; 1 GiB as RGBA.
 inline constexpr std::int64_t max_texture_texels = std::int64_t{1} << 28;
 
-[[nodiscard]] Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels = max_texture_texels);
+[[nodiscard]] Result<image::Image8> decode_image(ByteView bytes,
+                                                 std::int64_t limit_texels = max_texture_texels);
 
 /// A picture that may have been halved, several times.
 struct ShrunkImage {
-    Image8 image;
+    image::Image8 image;
     glm::ivec2 file_size{0}; ///< texels, as in the file
 };
 /// Decodes a texture and halves it until it has at most `kept_texels`. `limit_texels` is for what must be decoded whole;
@@ -30,4 +31,4 @@ struct ShrunkImage {
 [[nodiscard]] Result<ShrunkImage> decode_shrunk(ByteView bytes, std::int64_t kept_texels,
                                                 std::int64_t limit_texels = max_texture_texels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

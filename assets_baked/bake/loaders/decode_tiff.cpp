@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -121,7 +121,7 @@ bool keep_alpha_apart(TIFF* tiff) {
     return multiplied;
 }
 
-void take_alpha_out(Image8& picture) {
+void take_alpha_out(image::Image8& picture) {
     for (glm::u8vec4& texel : picture.texels) {
         for (int k = 0; k < 3 && texel.a > 0; ++k) {
             texel[k] = static_cast<std::uint8_t>(std::min(255, (texel[k] * 255 + texel.a / 2) / texel.a));
@@ -137,7 +137,7 @@ bool is_tiff(ByteView bytes) {
     return text == "II\x2a\0"sv || text == "MM\0\x2a"sv || text == "II\x2b\0"sv || text == "MM\0\x2b"sv;
 }
 
-Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
+Result<image::Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     Memory memory{bytes, 0, {}};
     const auto damaged = [&] {
         return bad_input("picture.tiff_damaged",
@@ -153,7 +153,7 @@ Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     std::uint32_t height = 0;
     TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-    TRY(Image8 picture, blank_image(width, height, limit_texels));
+    TRY(image::Image8 picture, blank_image(width, height, limit_texels));
     const bool multiplied = keep_alpha_apart(tiff.get());
     std::array<char, 1024> reason{}; // the length that libtiff requires
     if (TIFFRGBAImageOK(tiff.get(), reason.data()) != 1) {
@@ -171,4 +171,4 @@ Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     return picture;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

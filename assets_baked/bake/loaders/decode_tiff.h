@@ -13,9 +13,9 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] bool is_tiff(ByteView bytes);
-[[nodiscard]] Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels);
+[[nodiscard]] Result<image::Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -115,4 +115,4 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     return counts;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct DracoCounts {
     std::uint64_t faces = 0;
@@ -20,4 +20,4 @@ struct DracoCounts {
 /// Refuses anything that is not a triangle mesh of bitstream 2.2 with plausible counts.
 DracoCounts check_draco_stream(ByteView stream, const std::string& place);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::uint32_t GltfAttribute::whole(std::size_t element, std::size_t component) c
     return static_cast<std::uint32_t>(std::clamp(raw(element, component), 0.0, 4294967295.0));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class GltfAttribute {
 public:
@@ -55,4 +55,4 @@ private:
     std::shared_ptr<const std::vector<double>> numbers_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

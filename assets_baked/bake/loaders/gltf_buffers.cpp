@@ -4,7 +4,7 @@
 
 #include <meshoptimizer.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -232,4 +232,4 @@ Bytes GltfBuffers::unpacked(std::size_t view) {
     return out;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class GltfBuffers {
 public:
@@ -46,4 +46,4 @@ private:
 /// Bytes of a `data:` URI (RFC 2397, base64 only); nothing if the URI is of another kind.
 [[nodiscard]] std::optional<Bytes> bytes_of_data_uri(std::string_view uri, std::string_view place);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 
 #include <draco/compression/decode.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -107,4 +107,4 @@ DracoMesh decode_draco(ByteView stream, const GltfDraco& draco, const std::strin
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

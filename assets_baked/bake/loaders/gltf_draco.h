@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct DracoNumbers {
     std::shared_ptr<const std::vector<double>> numbers; ///< as stored: normalised integers stay integers
@@ -27,4 +27,4 @@ struct DracoMesh {
 
 [[nodiscard]] DracoMesh decode_draco(ByteView stream, const GltfDraco& draco, const std::string& place);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -73,4 +73,4 @@ void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn_materials, LoadNotes& notes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 std::uint32_t GltfMaterials::material(std::optional<std::size_t> index) {
     const auto known = materials_.find(index);
@@ -31,7 +31,8 @@ void GltfMaterials::cut_or_fill(SourceMaterial& material, std::size_t index) {
     constexpr double max_between = 0.1; // share of the texels, at cut edges
     std::size_t clear = 0;
     std::size_t between = 0;
-    const Image8* picture = material.texture < 0 ? nullptr : mesh_.texture(material.texture).image.get();
+    const image::Image8* picture =
+        material.texture < 0 ? nullptr : mesh_.texture(material.texture).image.get();
     for (std::size_t i = 0; picture != nullptr && i < picture->texels.size(); ++i) {
         const std::uint8_t alpha = picture->texels[i].a;
         clear += alpha < 8 ? 1 : 0;
@@ -64,8 +65,8 @@ int GltfMaterials::texture(std::size_t index) {
     return textures_[index] = mesh_.add_texture({image(*source.image), source.wrap_u, source.wrap_v});
 }
 
-std::shared_ptr<const Image8> GltfMaterials::image(std::size_t index) {
-    std::shared_ptr<const Image8>& known = images_[index];
+std::shared_ptr<const image::Image8> GltfMaterials::image(std::size_t index) {
+    std::shared_ptr<const image::Image8>& known = images_[index];
     if (known) {
         return known;
     }
@@ -82,4 +83,4 @@ std::shared_ptr<const Image8> GltfMaterials::image(std::size_t index) {
     return known;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

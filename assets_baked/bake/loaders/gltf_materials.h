@@ -14,7 +14,7 @@
 #include <memory>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class GltfMaterials {
 public:
@@ -28,7 +28,7 @@ public:
 private:
     void cut_or_fill(SourceMaterial& material, std::size_t index);
     [[nodiscard]] int texture(std::size_t index);
-    [[nodiscard]] std::shared_ptr<const Image8> image(std::size_t index);
+    [[nodiscard]] std::shared_ptr<const image::Image8> image(std::size_t index);
 
     const GltfModel& model_;
     GltfBuffers& buffers_;
@@ -37,7 +37,7 @@ private:
     MeshAssembly& mesh_;
     std::map<std::optional<std::size_t>, std::uint32_t> materials_;
     std::map<std::size_t, int> textures_;
-    std::map<std::size_t, std::shared_ptr<const Image8>> images_;
+    std::map<std::size_t, std::shared_ptr<const image::Image8>> images_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

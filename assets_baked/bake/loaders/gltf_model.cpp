@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -342,4 +342,4 @@ GltfModel gltf_model_from(const JsonPlace& document) {
     return model;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct GltfBuffer {
     std::optional<std::string> uri; ///< none: the GLB's binary chunk
@@ -182,4 +182,4 @@ void read_nodes(const JsonPlace& document, GltfModel& model);
 [[nodiscard]] std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name);
 [[nodiscard]] GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

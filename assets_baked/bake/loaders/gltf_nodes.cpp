@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -106,4 +106,4 @@ void read_nodes(const JsonPlace& document, GltfModel& model) {
     model.scene_roots = scene_roots_from(document, model);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -345,4 +345,4 @@ void GltfPrimitives::draw(const GltfPrimitive& primitive, const GltfPlacement& p
     draw_corners(streams, placement, material_of_(primitive.material));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

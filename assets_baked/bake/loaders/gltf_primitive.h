@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// The placement of one instance of a mesh.
 struct GltfPlacement {
@@ -68,4 +68,4 @@ private:
     std::uint32_t drawing_ = 0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

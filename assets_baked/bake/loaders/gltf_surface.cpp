@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -160,4 +160,4 @@ void read_surface(const JsonPlace& document, GltfModel& model) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

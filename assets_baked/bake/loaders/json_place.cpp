@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 void JsonPlace::refuse_type(const char* expected) const {
     const std::string_view place = path_.empty() ? std::string_view("the document") : std::string_view(path_);
@@ -147,4 +147,4 @@ std::size_t JsonPlace::size_of(std::string_view key) const {
     return member ? member->size() : 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class JsonPlace {
 public:
@@ -60,4 +60,4 @@ private:
     std::string path_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,10 +7,10 @@
 
 #include <filesystem>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// `path` names the model in messages; its side files are read from the disk.
 [[nodiscard]] Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
                                                  const LoadOptions& options = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -15,7 +15,7 @@
 #include <map>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -351,4 +351,4 @@ SourceMesh load_gltf(ByteView file, ModelFiles& files) {
     return SceneDrawer(model, buffers, files.pictures, files.notes).draw();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -13,7 +13,7 @@
 #include <new>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -169,4 +169,4 @@ Result<SourceMesh> load_mesh(const std::filesystem::path& path, const LoadOption
                 : Result<SourceMesh>(bad_input(file.error().id, one_line(file.error().message)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

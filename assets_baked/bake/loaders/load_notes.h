@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class LoadNotes {
 public:
@@ -44,4 +44,4 @@ private:
     return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

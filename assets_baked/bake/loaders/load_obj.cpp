@@ -15,7 +15,7 @@
 #include <set>
 #include <unordered_map>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -283,4 +283,4 @@ SourceMesh load_obj(ByteView file, ModelFiles& files) {
     return ObjReader(text, files).read();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

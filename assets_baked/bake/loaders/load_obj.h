@@ -13,8 +13,8 @@
 #include "assets_baked/bake/loaders/bytes.h"
 #include "assets_baked/bake/loaders/model_files.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] SourceMesh load_obj(ByteView file, ModelFiles& files);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -13,7 +13,7 @@
 #include <bit>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -321,4 +321,4 @@ SourceMesh load_ply(ByteView file, ModelFiles& files) {
     return PlyReader(file, files).read();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -105,4 +105,4 @@ SourceMesh load_stl(ByteView file, LoadNotes& notes) {
     return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file)) : load_binary(file, notes);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

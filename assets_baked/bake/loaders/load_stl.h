@@ -7,10 +7,10 @@
 #include "assets_baked/bake/loaders/bytes.h"
 #include "assets_baked/bake/loaders/load_notes.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// True if the length is 84 bytes plus 50 for each triangle that the header declares.
 [[nodiscard]] bool has_length_of_binary_stl(ByteView file);
 [[nodiscard]] SourceMesh load_stl(ByteView file, LoadNotes& notes);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -90,8 +90,8 @@ bool MeshAssembly::codes_to_linear() {
     const float largest = in_255 ? 255.0F : 1.0F;
     for (glm::vec4& colour : mesh_.colours) {
         for (int i = 0; i < 3; ++i) {
-            colour[i] =
-                static_cast<float>(linear_from_srgb(static_cast<double>(colour_factor(colour[i] / largest))));
+            colour[i] = static_cast<float>(
+                image::linear_from_srgb(static_cast<double>(colour_factor(colour[i] / largest))));
         }
         colour.a = colour_factor(colour.a / (colour.a > 1.0F ? largest : 1.0F));
     }
@@ -150,4 +150,4 @@ SourceMesh MeshAssembly::finish(bool has_points) {
     return std::move(mesh_);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

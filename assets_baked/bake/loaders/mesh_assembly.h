@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a small file
 /// that repeats its parts endlessly.
@@ -62,4 +62,4 @@ private:
     bool codes_are_whole_ = true;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -4,7 +4,7 @@
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/loaders/picture_store.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct ModelFiles {
     ModelFiles(const std::filesystem::path& folder, const LoadOptions& options)
@@ -19,4 +19,4 @@ struct ModelFiles {
     PictureStore pictures;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -94,4 +94,4 @@ MtlText mtl_text_from(std::string_view file) {
     return read;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct MtlText {
     /// Keywords in the library's spelling; no byte order mark. Each material begins with a white Kd, and a single
@@ -20,4 +20,4 @@ struct MtlText {
 
 [[nodiscard]] MtlText mtl_text_from(std::string_view file);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -144,8 +144,9 @@ const ObjMaterials::Material* ObjMaterials::find(const std::string& name) {
                              printable(known_.begin()->first));
         return &known_.begin()->second;
     }
-    const auto like = std::find_if(known_.begin(), known_.end(),
-                                   [&](const auto& each) { return is_same_file_name(each.first, name); });
+    const auto like = std::find_if(known_.begin(), known_.end(), [&](const auto& each) {
+        return names::is_same_file_name(each.first, name);
+    });
     return name.empty() || like == known_.end() ? nullptr : &like->second;
 }
 
@@ -234,7 +235,7 @@ SourceMaterial ObjMaterials::made_from(const Material& material) {
 int ObjMaterials::texture(const Material& material, const std::string& name,
                           const tinyobj::texture_option_t& options, std::string_view keyword) {
     const std::string found = picture_name(material, name);
-    std::shared_ptr<const Image8>& picture = pictures_by_name_[found];
+    std::shared_ptr<const image::Image8>& picture = pictures_by_name_[found];
     if (!picture) {
         picture = files_.pictures.named(found, fmt::format("{} {}", keyword, printable(name)));
     }
@@ -242,4 +243,4 @@ int ObjMaterials::texture(const Material& material, const std::string& name,
     return mesh_.add_texture({picture, wrap, wrap});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -18,7 +18,7 @@
 #include <string>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class ObjMaterials {
 public:
@@ -53,9 +53,9 @@ private:
     MeshAssembly& mesh_;
     bool has_library_ = false;
     bool missing_library_ = false;
-    std::map<std::string, std::shared_ptr<const Image8>> pictures_by_name_;
+    std::map<std::string, std::shared_ptr<const image::Image8>> pictures_by_name_;
     std::map<std::string, Material> known_;
     std::map<std::string, std::uint32_t> used_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -11,16 +11,16 @@
 
 #include <cstdint>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] inline const std::uint8_t* raw(ByteView bytes) {
     return reinterpret_cast<const std::uint8_t*>(bytes.data());
 }
-[[nodiscard]] inline std::uint8_t* raw(Image8& image) {
+[[nodiscard]] inline std::uint8_t* raw(image::Image8& image) {
     return reinterpret_cast<std::uint8_t*>(image.texels.data());
 }
 
-[[nodiscard]] inline std::int64_t texels_of(const Image8& image) {
+[[nodiscard]] inline std::int64_t texels_of(const image::Image8& image) {
     return static_cast<std::int64_t>(image.texels.size());
 }
 
@@ -34,12 +34,12 @@ namespace frustumscreen {
 }
 
 /// Errors   a side below 1, or more texels than allowed.
-[[nodiscard]] inline Result<Image8> blank_image(std::int64_t width, std::int64_t height,
-                                                std::int64_t limit_texels) {
+[[nodiscard]] inline Result<image::Image8> blank_image(std::int64_t width, std::int64_t height,
+                                                       std::int64_t limit_texels) {
     if (width < 1 || height < 1 || width > limit_texels / height) {
         return too_large(width, height, limit_texels);
     }
-    return Image8(static_cast<int>(width), static_cast<int>(height));
+    return image::Image8(static_cast<int>(width), static_cast<int>(height));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
-std::shared_ptr<const Image8> PictureStore::decode(ByteView bytes, std::string_view place) {
+std::shared_ptr<const image::Image8> PictureStore::decode(ByteView bytes, std::string_view place) {
     Result<ShrunkImage> picture = decode_shrunk(bytes, kept_texels_);
     if (!picture) {
         refuse({ErrorKind::BadInput, picture.error().id,
                 fmt::format("{} ({})", picture.error().message, place)});
     }
     file_sizes_.push_back(picture->file_size);
-    kept_.push_back(std::make_shared<Image8>(std::move(picture->image)));
-    const std::shared_ptr<const Image8> made = kept_.back();
+    kept_.push_back(std::make_shared<image::Image8>(std::move(picture->image)));
+    const std::shared_ptr<const image::Image8> made = kept_.back();
     keep_within_limit();
     return made;
 }
@@ -34,7 +34,7 @@ void PictureStore::keep_within_limit() {
         if ((*largest)->texels.size() <= 1) {
             return;
         }
-        **largest = half_size(**largest);
+        **largest = image::half_size(**largest);
     }
 }
 
@@ -54,7 +54,7 @@ void PictureStore::note_shrunk(LoadNotes& notes) const {
     }
 }
 
-std::shared_ptr<const Image8> PictureStore::named(std::string_view name, std::string_view place) {
+std::shared_ptr<const image::Image8> PictureStore::named(std::string_view name, std::string_view place) {
     if (sidecars_.exists(name)) {
         return decode(*sidecars_.read(name, place), place);
     }
@@ -68,7 +68,7 @@ std::shared_ptr<const Image8> PictureStore::named(std::string_view name, std::st
            printable(last_part(name)), like ? ", such as " + printable(*like) : std::string(), place);
 }
 
-std::shared_ptr<const Image8> PictureStore::curators() {
+std::shared_ptr<const image::Image8> PictureStore::curators() {
     if (!curators_) {
         const Result<Bytes> bytes = read_file(texture_);
         if (!bytes) {
@@ -80,4 +80,4 @@ std::shared_ptr<const Image8> PictureStore::curators() {
     return curators_;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

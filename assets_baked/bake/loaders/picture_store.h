@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class PictureStore {
 public:
@@ -22,13 +22,13 @@ public:
     PictureStore(Sidecars& sidecars, std::filesystem::path texture, std::int64_t kept_texels)
         : sidecars_(sidecars), texture_(std::move(texture)), kept_texels_(kept_texels) {}
 
-    [[nodiscard]] std::shared_ptr<const Image8> decode(ByteView bytes, std::string_view place);
+    [[nodiscard]] std::shared_ptr<const image::Image8> decode(ByteView bytes, std::string_view place);
     /// The picture in the file `name`; the curator's own if that is missing.
-    [[nodiscard]] std::shared_ptr<const Image8> named(std::string_view name, std::string_view place);
+    [[nodiscard]] std::shared_ptr<const image::Image8> named(std::string_view name, std::string_view place);
 
     [[nodiscard]] bool has_curators() const { return !texture_.empty(); }
     /// The curator's own picture.
-    [[nodiscard]] std::shared_ptr<const Image8> curators();
+    [[nodiscard]] std::shared_ptr<const image::Image8> curators();
     [[nodiscard]] bool used_curators() const { return curators_ != nullptr; }
 
     /// Sizes of the decoded pictures, as in their files.
@@ -41,10 +41,10 @@ private:
 
     Sidecars& sidecars_;
     std::filesystem::path texture_;
-    std::shared_ptr<const Image8> curators_;
+    std::shared_ptr<const image::Image8> curators_;
     std::int64_t kept_texels_;
-    std::vector<std::shared_ptr<Image8>> kept_;
+    std::vector<std::shared_ptr<image::Image8>> kept_;
     std::vector<glm::ivec2> file_sizes_; ///< one for each kept picture
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

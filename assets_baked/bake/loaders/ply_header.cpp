@@ -8,7 +8,7 @@
 #include <array>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -164,4 +164,4 @@ PlyHeader ply_header_from(ByteView file) {
     refuse_cut_short("the header has no \"end_header\"");
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

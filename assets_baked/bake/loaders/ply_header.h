@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 enum class PlyType { I8, U8, I16, U16, I32, U32, I64, U64, F32, F64 };
 
@@ -41,4 +41,4 @@ struct PlyHeader {
 [[nodiscard]] PlyHeader ply_header_from(ByteView file);
 [[nodiscard]] std::size_t size_of(PlyType type);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -147,4 +147,4 @@ bool is_known_at_faces(std::string_view name) {
     return place_in(names, plain) || is_measure(plain) || colour_role_of(plain) != PlyRole::None;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

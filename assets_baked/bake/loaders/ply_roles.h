@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 enum class PlyRole { None, X, Y, Z, Red, Green, Blue, Alpha, U, V, PackedColour, NormalX, NormalY, NormalZ };
 
@@ -27,4 +27,4 @@ struct PlyRoles {
 /// True for properties of faces without effect on the picture, and for those that the reader uses.
 [[nodiscard]] bool is_known_at_faces(std::string_view name);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -131,4 +131,4 @@ void PlySurface::split(std::size_t first_corner, std::span<std::uint32_t> corner
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -17,7 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class PlySurface {
 public:
@@ -67,4 +67,4 @@ private:
     std::unordered_map<CornerKey, std::uint32_t, CornerHash> vertices_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Reads them one by one, text or binary.
 class PlyValues {
@@ -83,4 +83,4 @@ private:
     WordReader words_;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -125,4 +125,4 @@ void triangulate_polygon(std::span<const glm::dvec3> corners,
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

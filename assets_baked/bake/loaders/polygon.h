@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Appends n - 2 triangles to `triangles`; none for fewer than three corners.
 void triangulate_polygon(std::span<const glm::dvec3> corners,
                          std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

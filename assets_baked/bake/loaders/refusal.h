@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 struct Refusal {
     Error error;
@@ -53,4 +53,4 @@ template <typename... Arguments>
            fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -44,7 +44,7 @@ bool is_picture_name(const std::string& name) {
     static constexpr std::array endings = {".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga"};
     const std::string ending = std::filesystem::path(name).extension().string();
     return std::any_of(endings.begin(), endings.end(),
-                       [&](const char* each) { return is_same_file_name(ending, each); });
+                       [&](const char* each) { return names::is_same_file_name(ending, each); });
 }
 
 int hexadecimal(char c) {
@@ -74,7 +74,7 @@ std::optional<std::string> first_in(const std::filesystem::path& folder, const F
 std::optional<std::filesystem::path> find_in_any_spelling(std::filesystem::path folder,
                                                           const std::filesystem::path& name) {
     for (const std::filesystem::path& part : name.lexically_normal()) {
-        const auto found = find_entry(folder, part.string());
+        const auto found = names::find_entry(folder, part.string());
         if (!found) {
             return std::nullopt;
         }
@@ -146,7 +146,7 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
 std::optional<std::string> Sidecars::like(std::string_view name) const {
     const std::string stem = std::filesystem::path(last_part(name)).stem().string();
     return first_in(folder_, [&](const std::string& each) {
-        return !stem.empty() && is_same_file_name(std::filesystem::path(each).stem().string(), stem) &&
+        return !stem.empty() && names::is_same_file_name(std::filesystem::path(each).stem().string(), stem) &&
                is_picture_name(each);
     });
 }
@@ -191,4 +191,4 @@ std::string percent_decoded(std::string_view uri, std::string_view place) {
     return plain;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 class Sidecars {
 public:
@@ -58,4 +58,4 @@ private:
 /// As percent_decoded; empty if a % is not followed by two hexadecimal digits.
 [[nodiscard]] std::string percent_decoded_if_valid(std::string_view uri);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

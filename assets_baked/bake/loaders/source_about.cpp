@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 namespace {
 
@@ -116,4 +116,4 @@ void take_comments(std::string_view text, SourceAbout& about) {
     }
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -12,7 +12,7 @@
 
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 [[nodiscard]] SourceAbout about_of_gltf(const nlohmann::json& document);
 
@@ -21,4 +21,4 @@ void take_comment(std::string_view comment, SourceAbout& about);
 /// Takes each line that begins with #.
 void take_comments(std::string_view text, SourceAbout& about);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
@@ -55,4 +55,4 @@ std::optional<std::int64_t> whole_from(std::string_view word) {
     return value;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace frustumscreen {
+namespace frustumscreen::bake {
 
 /// Reads words separated by blanks and line ends; keeps the line number for messages.
 class WordReader {
@@ -29,4 +29,4 @@ private:
 [[nodiscard]] std::optional<std::int64_t> whole_from(std::string_view word);
 [[nodiscard]] bool is_blank(char c);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bake

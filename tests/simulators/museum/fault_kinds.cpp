@@ -4,7 +4,7 @@
 #include <array>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -57,4 +57,4 @@ std::vector<FaultEvent> seeded_faults(std::uint64_t seed, int days, double times
     return fault_events;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

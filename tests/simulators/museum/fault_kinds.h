@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 /// Seconds since the first midnight.
 using MuseumTime = std::int64_t;
@@ -63,4 +63,4 @@ struct FaultEvent {
 /// Ascending in time; `times`: factor of the usual rates.
 [[nodiscard]] std::vector<FaultEvent> seeded_faults(std::uint64_t seed, int days, double times = 1.0);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

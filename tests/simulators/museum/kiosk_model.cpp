@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -75,21 +75,21 @@ void KioskModel::fault_event(const FaultEvent& fault_event, MuseumTime now) {
 }
 
 bool KioskModel::ends_soon_after_start() const {
-    return has(FaultKind::BadSet) && mode_ == Mode::Normal;
+    return has(FaultKind::BadSet) && mode_ == watch::Mode::Normal;
 }
 
 bool KioskModel::gives_no_picture() const {
-    return (has(FaultKind::GpuWedged) && mode_ != Mode::Plain) || has(FaultKind::MachineBroken);
+    return (has(FaultKind::GpuWedged) && mode_ != watch::Mode::Plain) || has(FaultKind::MachineBroken);
 }
 
 /// Advances the exhibit's process by a second.
 void KioskModel::live(MuseumTime now) {
     const MuseumTime age = now - *began_;
     memory_ += has(FaultKind::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
-    if (has(FaultKind::BadSettings) && mode_ != Mode::BuiltIn) {
+    if (has(FaultKind::BadSettings) && mode_ != watch::Mode::BuiltIn) {
         return end_process(now, true);
     }
-    if (has(FaultKind::DriverCrash) && mode_ != Mode::Plain) {
+    if (has(FaultKind::DriverCrash) && mode_ != watch::Mode::Plain) {
         return end_process(now, true);
     }
     if (memory_ >= 1.0) {
@@ -118,41 +118,41 @@ void KioskModel::live(MuseumTime now) {
     pictures_ += has(FaultKind::Freeze) ? 0 : 1;
 }
 
-std::optional<Outcome> KioskModel::pass(MuseumTime now) {
+std::optional<watch::Outcome> KioskModel::pass(MuseumTime now) {
     std::erase_if(fault_events_, [&](const FaultEvent& each) { return each.mended_at <= now; });
     if (is_booting(now)) {
         return std::nullopt;
     }
-    if (mode_ == Mode::Safe) {
+    if (mode_ == watch::Mode::Safe) {
         ++safe_pictures_;
     } else if (began_) {
         live(now);
     } else if (now >= begins_at_) {
         begin_process(now);
     }
-    Outcome outcome;
+    watch::Outcome outcome;
     outcome.process = began_ ? process_ : 0;
     outcome.failures = failures_;
     outcome.exhibit_memory = began_ ? memory_ : 0.0;
     outcome.safe_pictures = safe_pictures_;
     if (pictures_ > 0) {
         outcome.exhibit =
-            ExhibitSays{.age = std::chrono::seconds(now - heard_),
-                        .well = true,
-                        .pictures = pictures_,
-                        .artifacts = 1,
-                        .device_hangs = has(FaultKind::TrackerHung) || has(FaultKind::TrackerDead)};
+            watch::ExhibitSays{.age = std::chrono::seconds(now - heard_),
+                               .well = true,
+                               .pictures = pictures_,
+                               .artifacts = 1,
+                               .device_hangs = has(FaultKind::TrackerHung) || has(FaultKind::TrackerDead)};
     }
     return outcome;
 }
 
-void KioskModel::take(Step step, Mode mode, MuseumTime now) {
+void KioskModel::take(watch::Step step, watch::Mode mode, MuseumTime now) {
     mode_ = mode;
     switch (step) {
-    case Step::ResetDevice:
+    case watch::Step::ResetDevice:
         end_by(ByReset);
         break;
-    case Step::Reboot:
+    case watch::Step::Reboot:
         boot(now, 0);
         break;
     default:
@@ -162,7 +162,7 @@ void KioskModel::take(Step step, Mode mode, MuseumTime now) {
 }
 
 VisibleState KioskModel::shown() const {
-    if (mode_ == Mode::Safe) {
+    if (mode_ == watch::Mode::Safe) {
         return VisibleState::Words;
     }
     if (!is_lit_ || hangs_since_ || has(FaultKind::Freeze)) {
@@ -171,7 +171,7 @@ VisibleState KioskModel::shown() const {
     if (has(FaultKind::TrackerHung) || has(FaultKind::TrackerDead)) {
         return VisibleState::Untracked;
     }
-    return mode_ == Mode::BuiltIn ? VisibleState::BuiltIn : VisibleState::Whole;
+    return mode_ == watch::Mode::BuiltIn ? VisibleState::BuiltIn : VisibleState::Whole;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 /// The exhibit as the visitors see it.
 enum class VisibleState : std::uint8_t {
@@ -37,10 +37,10 @@ public:
 
     void fault_event(const FaultEvent& fault_event, MuseumTime now);
     /// Advances by a second. `Outcome` is the visible state afterwards; nullopt while the machine boots.
-    std::optional<Outcome> pass(MuseumTime now);
-    void take(Step step, Mode mode, MuseumTime now);
+    std::optional<watch::Outcome> pass(MuseumTime now);
+    void take(watch::Step step, watch::Mode mode, MuseumTime now);
     /// Sets the mode that a watchdog chooses after a boot.
-    void show(Mode mode) { mode_ = mode; }
+    void show(watch::Mode mode) { mode_ = mode; }
 
     [[nodiscard]] VisibleState shown() const;
     [[nodiscard]] bool is_booting(MuseumTime now) const { return now < boots_until_; }
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] bool gives_no_picture() const;
 
     std::vector<FaultEvent> fault_events_;
-    Mode mode_ = Mode::Normal;
+    watch::Mode mode_ = watch::Mode::Normal;
     MuseumTime boots_until_ = 0;
     std::optional<MuseumTime> began_; ///< start of the exhibit's process
     MuseumTime begins_at_ = 0;        ///< when systemd starts it
@@ -70,4 +70,4 @@ private:
     double memory_ = 0.2;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

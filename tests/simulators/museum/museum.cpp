@@ -6,7 +6,7 @@
 #include <optional>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr MuseumTime load_s = 600;
 MonotonicTime monotonic(MuseumTime time) {
     return MonotonicTime(std::chrono::seconds(time));
 }
-Awake awake(MuseumTime time) {
+watch::Awake awake(MuseumTime time) {
     return std::chrono::seconds(time);
 }
 
@@ -50,19 +50,19 @@ public:
     explicit Keeper(Policy policy) : policy_(policy) {}
 
     void boot(MuseumTime now) {
-        ladder_ = Ladder(ladder_.memory(), true);
-        judge_ = Judge(Patience{}, monotonic(now));
+        ladder_ = watch::Ladder(ladder_.memory(), true);
+        judge_ = watch::Judge(watch::Patience{}, monotonic(now));
     }
-    [[nodiscard]] Mode mode() const { return ladder_.memory().mode; }
+    [[nodiscard]] watch::Mode mode() const { return ladder_.memory().mode; }
 
-    std::optional<LadderAction> look(MuseumTime now, const Outcome& outcome) {
+    std::optional<watch::LadderAction> look(MuseumTime now, const watch::Outcome& outcome) {
         if (policy_ == Policy::SystemdAlone) {
             return std::nullopt;
         }
-        const Observation seen = judge_.look(monotonic(now), mode(), outcome);
-        const std::optional<LadderAction> act = policy_ == Policy::Ladder
-                                                    ? ladder_.look(awake(now), seen, {true, true, true})
-                                                    : reboot_at(now, seen);
+        const watch::Observation seen = judge_.look(monotonic(now), mode(), outcome);
+        const std::optional<watch::LadderAction> act =
+            policy_ == Policy::Ladder ? ladder_.look(awake(now), seen, {true, true, true})
+                                      : reboot_at(now, seen);
         if (act) {
             judge_.step_taken(monotonic(now));
         }
@@ -70,17 +70,17 @@ public:
     }
 
 private:
-    std::optional<LadderAction> reboot_at(MuseumTime now, const Observation& seen) {
+    std::optional<watch::LadderAction> reboot_at(MuseumTime now, const watch::Observation& seen) {
         if (!seen.trouble || now - rebooted_ < between_reboots_s) {
             return std::nullopt;
         }
         rebooted_ = now;
-        return LadderAction{Step::Reboot, seen.trouble};
+        return watch::LadderAction{watch::Step::Reboot, seen.trouble};
     }
 
     Policy policy_;
-    Ladder ladder_{LadderMemory{}, true};
-    Judge judge_{Patience{}, monotonic(0)};
+    watch::Ladder ladder_{watch::LadderMemory{}, true};
+    watch::Judge judge_{watch::Patience{}, monotonic(0)};
     MuseumTime rebooted_ = -between_reboots_s;
 };
 
@@ -99,7 +99,7 @@ public:
         if (now % museum_day == opens_s || now % museum_day == second_round_s) {
             make_the_round(now);
         }
-        std::optional<Outcome> outcome = kiosk_.pass(now);
+        std::optional<watch::Outcome> outcome = kiosk_.pass(now);
         if (outcome && was_booting_) {
             keeper_.boot(now);
             kiosk_.show(keeper_.mode());
@@ -136,19 +136,19 @@ private:
         well_since_ = is_well ? well_since_.value_or(now) : std::optional<MuseumTime>{};
     }
 
-    void look(MuseumTime now, Outcome& outcome) {
+    void look(MuseumTime now, watch::Outcome& outcome) {
         const MuseumTime hour_s = now % museum_day;
         if (outcome.exhibit) {
             outcome.exhibit->asleep = hour_s >= sleeps_s || hour_s < wakes_s;
             outcome.exhibit->age += load_.status_age();
         }
-        const std::optional<LadderAction> act = keeper_.look(now, outcome);
+        const std::optional<watch::LadderAction> act = keeper_.look(now, outcome);
         if (!act) {
             return;
         }
         const bool is_well = well_since_ && now - *well_since_ >= well_for_s;
-        run_.steps.push_back({now, *act, is_well && act->step != Step::Return});
-        if (act->step == Step::Reboot) {
+        run_.steps.push_back({now, *act, is_well && act->step != watch::Step::Return});
+        if (act->step == watch::Step::Reboot) {
             reboots_.push_back(now);
         }
         kiosk_.take(act->step, keeper_.mode(), now);
@@ -217,4 +217,4 @@ MuseumRun simulate(Policy policy, std::span<const FaultEvent> fault_events, int 
     return life.end();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

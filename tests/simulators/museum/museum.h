@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 enum class Policy : std::uint8_t { Ladder, SystemdAlone, RebootAtEveryTrouble };
 inline constexpr std::array all_policies{Policy::Ladder, Policy::SystemdAlone, Policy::RebootAtEveryTrouble};
@@ -31,7 +31,7 @@ inline constexpr MuseumTime sleeps_s = 20 * 3600, wakes_s = 8 * 3600;
 
 struct TakenStep {
     MuseumTime at = 0;
-    LadderAction act;
+    watch::LadderAction act;
     bool is_false_alarm = false;
 };
 struct MuseumRun {
@@ -48,4 +48,4 @@ struct MuseumRun {
 [[nodiscard]] MuseumRun simulate(Policy policy, std::span<const FaultEvent> fault_events, int days,
                                  std::uint64_t seed);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -39,7 +39,7 @@ std::size_t false_alarms(const MuseumRun& run) {
                                                   [](const TakenStep& step) { return step.is_false_alarm; }));
 }
 
-std::size_t count_of(const MuseumRun& run, Step step) {
+std::size_t count_of(const MuseumRun& run, watch::Step step) {
     return static_cast<std::size_t>(std::count_if(
         run.steps.begin(), run.steps.end(), [&](const TakenStep& taken) { return taken.act.step == step; }));
 }
@@ -54,7 +54,7 @@ std::string museum_table(std::span<const MuseumRun> runs, std::span<const FaultE
                        name_of(run.policy), 100.0 * share(run, VisibleState::Whole),
                        100.0 * share(run, VisibleState::Untracked), 100.0 * share(run, VisibleState::BuiltIn),
                        100.0 * share(run, VisibleState::Words), 100.0 * share(run, VisibleState::Dark),
-                       length_of(run.longest_dark_s), run.steps.size(), count_of(run, Step::Reboot),
+                       length_of(run.longest_dark_s), run.steps.size(), count_of(run, watch::Step::Reboot),
                        false_alarms(run));
     }
     fmt::format_to(out, "\n{:24} {:>6}", "longest dark after", "times");
@@ -80,7 +80,7 @@ std::string museum_csv(std::span<const MuseumRun> runs, int days) {
                        name_of(run.policy), days, share(run, VisibleState::Whole),
                        share(run, VisibleState::Untracked), share(run, VisibleState::BuiltIn),
                        share(run, VisibleState::Words), share(run, VisibleState::Dark), run.longest_dark_s,
-                       run.steps.size(), count_of(run, Step::Reboot), run.max_reboots_in_day,
+                       run.steps.size(), count_of(run, watch::Step::Reboot), run.max_reboots_in_day,
                        false_alarms(run));
     }
     return csv;
@@ -113,4 +113,4 @@ std::string faults_csv(std::span<const MuseumRun> runs, std::span<const FaultEve
     return csv;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 /// Policies next to each other.
 [[nodiscard]] std::string museum_table(std::span<const MuseumRun> runs,
@@ -21,6 +21,6 @@ namespace frustumscreen {
 [[nodiscard]] std::string faults_csv(std::span<const MuseumRun> runs,
                                      std::span<const FaultEvent> fault_events);
 [[nodiscard]] std::size_t false_alarms(const MuseumRun& run);
-[[nodiscard]] std::size_t count_of(const MuseumRun& run, Step step);
+[[nodiscard]] std::size_t count_of(const MuseumRun& run, watch::Step step);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -18,11 +18,11 @@ Eigen::Matrix3d dipole(const Eigen::Vector3d& at) {
 
 } // namespace
 
-RigidTransform Metal::reported(const RigidTransform& tracker_from_sensor) const {
-    const Eigen::Vector3d at = eigen(tracker_from_sensor.translation);
-    const Eigen::Vector3d metal = eigen(in_tracker_m);
+geometry::RigidTransform Metal::reported(const geometry::RigidTransform& tracker_from_sensor) const {
+    const Eigen::Vector3d at = calibration::eigen(tracker_from_sensor.translation);
+    const Eigen::Vector3d metal = calibration::eigen(in_tracker_m);
     const Eigen::Matrix3d sum = dipole(at) + strength_m3 * dipole(at - metal) * dipole(metal);
-    const Eigen::Matrix3d measured = eigen(tracker_from_sensor.rotation).transpose() * sum;
+    const Eigen::Matrix3d measured = calibration::eigen(tracker_from_sensor.rotation).transpose() * sum;
     // For the source's field alone, the square has the eigenvalues 4, 1, 1 divided by the sixth power of the
     // distance; the first eigenvector points along the position.
     const Eigen::Matrix3d square = measured.transpose() * measured;
@@ -33,14 +33,14 @@ RigidTransform Metal::reported(const RigidTransform& tracker_from_sensor) const 
                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Matrix3d tracker_from = turn.matrixV() * turn.matrixU().transpose();
     const Eigen::Quaterniond q(tracker_from);
-    return {glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z())), glm_vector(place)};
+    return {glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z())), calibration::glm_vector(place)};
 }
 
 BentTable bent_table(std::uint64_t seed, double bend_m) {
     SeededNumbers numbers(50000 + seed);
     BentTable bent;
     bent.table = some_table(seed);
-    RigidTransform& table_from_tracker = bent.table.truth.table_from_tracker;
+    geometry::RigidTransform& table_from_tracker = bent.table.truth.table_from_tracker;
     const double side = numbers.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
     table_from_tracker.translation = {numbers.between(-0.3, 0.3), side * numbers.between(0.6, 0.8),
                                       numbers.between(-0.1, 0.3)};
@@ -53,7 +53,7 @@ BentTable bent_table(std::uint64_t seed, double bend_m) {
             for (int k = 0; k < 35; ++k) {
                 const glm::dvec2 pixel(bent.table.truth.pinhole.width * (k % 7) / 6.0,
                                        bent.table.truth.pinhole.height * (k / 7) / 4.0);
-                RigidTransform pose;
+                geometry::RigidTransform pose;
                 pose.translation =
                     table_from_tracker.inverse().point(true_light(bent.table.truth, pixel, height));
                 largest = std::fmax(largest,
@@ -69,4 +69,4 @@ BentTable bent_table(std::uint64_t seed, double bend_m) {
     return bent;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -12,12 +12,13 @@
 
 #include "tests/simulators/table/simulated_table.h"
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct Metal {
     glm::dvec3 in_tracker_m{0.0};
     double strength_m3 = 0.0; ///< minus half the cube of a conducting sphere's radius
-    [[nodiscard]] RigidTransform reported(const RigidTransform& tracker_from_sensor) const;
+    [[nodiscard]] geometry::RigidTransform
+    reported(const geometry::RigidTransform& tracker_from_sensor) const;
 };
 
 /// A table near metal: the tracker's source stands next to the picture, the metal below the table, and places
@@ -28,4 +29,4 @@ struct BentTable {
 };
 [[nodiscard]] BentTable bent_table(std::uint64_t seed, double bend_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numeric>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
-StripeProfile::StripeProfile(const StripeSetup& stripes, const Pattern& pattern,
+StripeProfile::StripeProfile(const calibration::StripeSetup& stripes, const calibration::Pattern& pattern,
                              const CaptureFaults& faults) {
     const int length = pattern.rows ? stripes.height : stripes.width;
     const int reach = static_cast<int>(std::ceil(4.0 * faults.projector_blur)) + 1;
     std::vector<double> light;
     for (int k = 0; k < length; ++k) {
-        light.push_back(std::pow(pattern_value(stripes, pattern, k) / 255.0, faults.gamma));
+        light.push_back(std::pow(calibration::pattern_value(stripes, pattern, k) / 255.0, faults.gamma));
     }
     // A pixel's square convolved with a Gaussian: the difference of two error functions.
     const double width = std::sqrt(2.0) * faults.projector_blur;
@@ -73,4 +73,4 @@ std::uint8_t grey_of(double light, const CaptureFaults& faults, double normal) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(noisy, 0.0, 255.0)));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

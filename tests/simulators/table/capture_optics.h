@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct CaptureFaults {
     double ambient = 0.15;       ///< share of white light
@@ -25,7 +25,8 @@ struct CaptureFaults {
 /// The blurred light of a pattern along its axis.
 class StripeProfile {
 public:
-    StripeProfile(const StripeSetup& stripes, const Pattern& pattern, const CaptureFaults& faults);
+    StripeProfile(const calibration::StripeSetup& stripes, const calibration::Pattern& pattern,
+                  const CaptureFaults& faults);
     /// `place`: column or row. Full light is 1.
     [[nodiscard]] double at(double place) const;
 
@@ -39,4 +40,4 @@ void blur_picture(std::vector<double>& picture, int width, int height, double si
 /// `normal`: a standard normal random number.
 [[nodiscard]] std::uint8_t grey_of(double light, const CaptureFaults& faults, double normal);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

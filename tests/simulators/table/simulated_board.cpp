@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -26,11 +26,12 @@ struct Hit {
 /// The printed tag sheet, the prop as a solid on it, and the table.
 class BoardScene {
 public:
-    BoardScene(const Board& board, const std::set<int>& covered, const glm::dmat4& table_from_prop)
+    BoardScene(const calibration::Board& board, const std::set<int>& covered,
+               const glm::dmat4& table_from_prop)
         : board_(board), covered_(covered), table_from_prop_(table_from_prop),
           prop_from_table_(glm::inverse(table_from_prop)) {
-        for (const PropTag& tag : board.tags) {
-            modules_.emplace(tag.id, tag_modules_of(tag.id));
+        for (const tags::PropTag& tag : board.tags) {
+            modules_.emplace(tag.id, tags::tag_modules_of(tag.id));
         }
     }
     [[nodiscard]] Hit seen(const glm::dvec3& from, const glm::dvec3& along) const {
@@ -41,7 +42,8 @@ public:
             return {world(at), std::abs(at.z - board_.prop.height_m) < 1e-9 ? print(at) : white};
         }
         const glm::dvec3 at = o - d * (o.z / d.z);
-        if (std::abs(at.x) < 0.5 * Board::size_m.x && std::abs(at.y) < 0.5 * Board::size_m.y) {
+        if (std::abs(at.x) < 0.5 * calibration::Board::size_m.x &&
+            std::abs(at.y) < 0.5 * calibration::Board::size_m.y) {
             return {world(at), print(at)};
         }
         return {from - along * (from.z / along.z), table_albedo};
@@ -53,7 +55,7 @@ private:
     }
     /// The ray's first point in the solid between five planes and the tag sheet.
     [[nodiscard]] double enters_prop(const glm::dvec3& o, const glm::dvec3& d) const {
-        const FrustumSize& prop = board_.prop;
+        const geometry::FrustumSize& prop = board_.prop;
         const double slope = 0.5 * (prop.base_m - prop.top_m) / prop.height_m;
         // condition: normal . p <= offset
         const std::array<std::pair<glm::dvec3, double>, 6> planes{{{{1, 0, slope}, 0.5 * prop.base_m},
@@ -79,27 +81,27 @@ private:
     }
     /// Reflectance of the paper at z = 0, or of the prop's top.
     [[nodiscard]] double print(const glm::dvec3& p) const {
-        for (const PropTag& tag : board_.tags) {
+        for (const tags::PropTag& tag : board_.tags) {
             const glm::dvec3 off = p - tag.prop_from_tag.translation;
-            const double module = tag.size_m / static_cast<double>(black_modules);
-            const double half = 0.5 * static_cast<double>(tag_modules) * module;
+            const double module = tag.size_m / static_cast<double>(tags::black_modules);
+            const double half = 0.5 * static_cast<double>(tags::tag_modules) * module;
             if (std::abs(off.z) < 1e-6 && std::abs(off.x) < half && std::abs(off.y) < half) {
                 const auto row = static_cast<std::size_t>((half - off.y) / module);
                 const auto column = static_cast<std::size_t>((half + off.x) / module);
                 const bool is_white = modules_.at(tag.id)
-                                          .at(std::min(row, tag_modules - 1))
-                                          .at(std::min(column, tag_modules - 1));
+                                          .at(std::min(row, tags::tag_modules - 1))
+                                          .at(std::min(column, tags::tag_modules - 1));
                 return covered_.contains(tag.id) ? skin : is_white ? white : black;
             }
         }
         return white;
     }
 
-    const Board& board_;
+    const calibration::Board& board_;
     const std::set<int>& covered_;
     glm::dmat4 table_from_prop_;
     glm::dmat4 prop_from_table_;
-    std::map<int, TagModules> modules_;
+    std::map<int, tags::TagModules> modules_;
 };
 
 /// The pixels that may show the tag sheet or the prop.
@@ -108,13 +110,15 @@ struct Window {
     glm::dvec2 high{-1e9};
 };
 
-Window window_of(const Board& board, const SimulatedCamera& camera, const glm::dmat4& table_from_prop) {
+Window window_of(const calibration::Board& board, const SimulatedCamera& camera,
+                 const glm::dmat4& table_from_prop) {
     Window window;
     for (const double z : {0.0, board.prop.height_m}) {
         for (const glm::dvec2& side : std::array<glm::dvec2, 4>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}) {
             const double half_top = 0.5 * board.prop.top_m;
             const glm::dvec2 reach =
-                z > 0.0 ? glm::dvec2(half_top) : glm::max(0.5 * Board::size_m, 0.5 * board.prop.base_m);
+                z > 0.0 ? glm::dvec2(half_top)
+                        : glm::max(0.5 * calibration::Board::size_m, 0.5 * board.prop.base_m);
             const glm::dvec2 at =
                 camera.pixel(glm::dvec3(table_from_prop * glm::dvec4(side * reach, z, 1.0)));
             window.low = glm::min(window.low, at - 4.0);
@@ -130,14 +134,15 @@ Nanoseconds nanoseconds(double seconds) {
 
 } // namespace
 
-SimulatedBoard::SimulatedBoard(const SimulatedTable& table, const SimulatedCamera& camera, Board board,
-                               const StripeSetup& stripes, const BoardFaults& faults, std::uint64_t seed)
+SimulatedBoard::SimulatedBoard(const SimulatedTable& table, const SimulatedCamera& camera,
+                               calibration::Board board, const calibration::StripeSetup& stripes,
+                               const BoardFaults& faults, std::uint64_t seed)
     : table_(table), camera_(camera), board_(std::move(board)), stripes_(stripes), faults_(faults),
       numbers_(seed) {
     for (int k = 0; k < 1'000'003; ++k) {
         normals_.push_back(static_cast<float>(numbers_.normal()));
     }
-    show(MonotonicTime(std::chrono::hours(-1)), Pattern{Stripes::Black});
+    show(MonotonicTime(std::chrono::hours(-1)), calibration::Pattern{calibration::Stripes::Black});
     put(table_from_prop_);
 }
 
@@ -177,14 +182,14 @@ void SimulatedBoard::cast() {
     }
 }
 
-void SimulatedBoard::show(MonotonicTime given_out, const Pattern& pattern) {
+void SimulatedBoard::show(MonotonicTime given_out, const calibration::Pattern& pattern) {
     shown_.push_back({given_out + nanoseconds(faults_.latency_s),
                       pattern,
                       {},
                       shown_.empty() ? Shade() : shown_.back().shade});
 }
 
-void SimulatedBoard::show(MonotonicTime given_out, const Image8& words) {
+void SimulatedBoard::show(MonotonicTime given_out, const image::Image8& words) {
     std::vector<float> light;
     light.reserve(words.texels.size());
     for (const glm::u8vec4& texel : words.texels) {
@@ -226,11 +231,11 @@ void SimulatedBoard::light(Shown& shown) const {
     blur_picture(shown.light, camera_.width, camera_.height, faults_.light.camera_blur);
 }
 
-CameraFrame SimulatedBoard::frame(MonotonicTime begin) {
+camera::CameraFrame SimulatedBoard::frame(MonotonicTime begin) {
     while (shown_.size() > 1 && std::next(shown_.begin())->from <= begin) {
         shown_.pop_front();
     }
-    CameraFrame frame{begin, 0, camera_.width, camera_.height, {}};
+    camera::CameraFrame frame{begin, 0, camera_.width, camera_.height, {}};
     frame.luma.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
     std::size_t noise = numbers_.below(normals_.size());
     std::vector<std::pair<const Shown*, double>> lights;
@@ -262,4 +267,4 @@ CameraFrame SimulatedBoard::frame(MonotonicTime begin) {
     return frame;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

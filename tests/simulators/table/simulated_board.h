@@ -18,7 +18,7 @@
 #include <list>
 #include <set>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct BoardFaults {
     CaptureFaults light;
@@ -29,8 +29,8 @@ struct BoardFaults {
 
 class SimulatedBoard {
 public:
-    SimulatedBoard(const SimulatedTable& table, const SimulatedCamera& camera, Board board,
-                   const StripeSetup& stripes, const BoardFaults& faults, std::uint64_t seed);
+    SimulatedBoard(const SimulatedTable& table, const SimulatedCamera& camera, calibration::Board board,
+                   const calibration::StripeSetup& stripes, const BoardFaults& faults, std::uint64_t seed);
 
     /// Places the prop with its tag sheet. `covered`: tags covered by a hand.
     void put(const glm::dmat4& table_from_prop, std::set<int> covered = {});
@@ -38,10 +38,10 @@ public:
     using Shade = std::function<bool(const glm::dvec2& pixel)>;
     void shade(MonotonicTime from, Shade shade);
     /// Shows a pattern, or a picture of text.
-    void show(MonotonicTime given_out, const Pattern& pattern);
-    void show(MonotonicTime given_out, const Image8& words);
+    void show(MonotonicTime given_out, const calibration::Pattern& pattern);
+    void show(MonotonicTime given_out, const image::Image8& words);
     /// `begin`: start of the first row's exposure, which is the frame's time.
-    [[nodiscard]] CameraFrame frame(MonotonicTime begin);
+    [[nodiscard]] camera::CameraFrame frame(MonotonicTime begin);
 
 private:
     /// One of a pixel's rays.
@@ -53,7 +53,7 @@ private:
     };
     struct Shown {
         MonotonicTime from; ///< on the table since
-        std::optional<Pattern> pattern;
+        std::optional<calibration::Pattern> pattern;
         std::vector<float> words;    ///< light of each pixel of the projector
         Shade shade;                 ///< may be empty
         std::vector<double> light{}; ///< seen by each pixel of the camera; empty: not yet computed
@@ -63,8 +63,8 @@ private:
 
     SimulatedTable table_;
     SimulatedCamera camera_;
-    Board board_;
-    StripeSetup stripes_;
+    calibration::Board board_;
+    calibration::StripeSetup stripes_;
     BoardFaults faults_;
     SeededNumbers numbers_;
     std::vector<float> normals_; ///< noise, read from a random offset on
@@ -74,4 +74,4 @@ private:
     std::list<Shown> shown_; ///< the latest is last
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -168,8 +168,9 @@ Cast cast(const SimulatedTable& table, const Scene& scene, const SimulatedCamera
 }
 
 std::vector<std::uint8_t> captured(const std::vector<Sample>& samples, const Window& window,
-                                   const StripeSetup& stripes, const Pattern& pattern,
-                                   const CaptureFaults& faults, SeededNumbers& numbers) {
+                                   const calibration::StripeSetup& stripes,
+                                   const calibration::Pattern& pattern, const CaptureFaults& faults,
+                                   SeededNumbers& numbers) {
     const StripeProfile profile(stripes, pattern, faults);
     std::vector<double> light(samples.size() / (rays * rays), 0.0);
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -190,7 +191,7 @@ std::vector<std::uint8_t> captured(const std::vector<Sample>& samples, const Win
 
 SimulatedCaptures simulated_captures(const SimulatedTable& table, const SimulatedCamera& camera,
                                      const TagCorners& tags, const glm::dmat4& table_from_prop,
-                                     const StripeSetup& stripes, const CaptureFaults& faults,
+                                     const calibration::StripeSetup& stripes, const CaptureFaults& faults,
                                      SeededNumbers& numbers) {
     std::vector<glm::dvec2> corners;
     for (const glm::dvec3& corner : tags) {
@@ -202,7 +203,7 @@ SimulatedCaptures simulated_captures(const SimulatedTable& table, const Simulate
     captures.width = window.size.x;
     captures.height = window.size.y;
     captures.true_pixels = std::move(rays_cast.true_pixels);
-    for (const Pattern& pattern : patterns_of(stripes)) {
+    for (const calibration::Pattern& pattern : calibration::patterns_of(stripes)) {
         captures.pictures.push_back(captured(rays_cast.samples, window, stripes, pattern, faults, numbers));
     }
     for (const glm::dvec2& corner : corners) {
@@ -214,4 +215,4 @@ SimulatedCaptures simulated_captures(const SimulatedTable& table, const Simulate
     return captures;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

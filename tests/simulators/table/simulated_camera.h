@@ -12,7 +12,7 @@
 #include "tests/simulators/table/capture_optics.h"
 #include "tests/simulators/table/simulated_rests.h"
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct SimulatedCamera {
     int width = 1280;
@@ -42,7 +42,7 @@ struct SimulatedCaptures {
 };
 [[nodiscard]] SimulatedCaptures simulated_captures(const SimulatedTable& table, const SimulatedCamera& camera,
                                                    const TagCorners& tags, const glm::dmat4& table_from_prop,
-                                                   const StripeSetup& stripes, const CaptureFaults& faults,
-                                                   SeededNumbers& numbers);
+                                                   const calibration::StripeSetup& stripes,
+                                                   const CaptureFaults& faults, SeededNumbers& numbers);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -26,13 +26,13 @@ glm::dmat4 placed_prop(const glm::dvec3& bottom, double yaw_rad, double lean_rad
     return matrix;
 }
 
-RigidTransform simulated_report(const SimulatedTable& table, const glm::dmat4& table_from_prop,
-                                const RestNoise& noise, SeededNumbers& numbers) {
+geometry::RigidTransform simulated_report(const SimulatedTable& table, const glm::dmat4& table_from_prop,
+                                          const calibration::RestNoise& noise, SeededNumbers& numbers) {
     glm::dmat4 sensor_from_prop = glm::mat4_cast(table.sensor_from_prop);
     sensor_from_prop[3] = glm::dvec4(table.truth.sensor_offset_m, 1.0);
     const glm::dmat4 tracker_from_sensor = glm::inverse(table.truth.table_from_tracker.matrix()) *
                                            table_from_prop * glm::inverse(sensor_from_prop);
-    RigidTransform report;
+    geometry::RigidTransform report;
     report.translation = glm::dvec3(tracker_from_sensor[3]) + noise.position_m * numbers.normals();
     const glm::dvec3 turn = noise.rotation_rad * numbers.normals();
     const double angle = glm::length(turn);
@@ -60,7 +60,8 @@ TagCorners tag_on_top(double top_m) {
     return corners;
 }
 
-std::optional<glm::dvec2> true_pixel(const CalibratedTable& truth, const glm::dvec3& table_point) {
+std::optional<glm::dvec2> true_pixel(const calibration::CalibratedTable& truth,
+                                     const glm::dvec3& table_point) {
     const glm::dvec2 pixel = calibrated_pixel(truth, table_point);
     const bool inside =
         pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= truth.pinhole.width && pixel.y <= truth.pinhole.height;
@@ -68,7 +69,7 @@ std::optional<glm::dvec2> true_pixel(const CalibratedTable& truth, const glm::dv
 }
 
 std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
-                                     const RestNoise& noise, SeededNumbers& numbers) {
+                                     const calibration::RestNoise& noise, SeededNumbers& numbers) {
     const int columns = static_cast<int>(std::ceil(std::sqrt(1.5 * plan.count)));
     const int rows = (plan.count + columns - 1) / columns;
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
@@ -92,14 +93,15 @@ std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan
     return rests;
 }
 
-Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, const RestPlan& plan,
-                      const RestNoise& noise, SeededNumbers& numbers) {
+calibration::Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners,
+                                   const RestPlan& plan, const calibration::RestNoise& noise,
+                                   SeededNumbers& numbers) {
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
-    Rests rests;
+    calibration::Rests rests;
     for (const PlacedRest& place : placed_rests(table, plan, noise, numbers)) {
-        Rest rest = place.rest;
+        calibration::Rest rest = place.rest;
         for (std::size_t tag = 0; tag < corners.size(); tag += 4) {
-            std::vector<PropPoint> found;
+            std::vector<calibration::PropPoint> found;
             for (std::size_t j = tag; j < tag + 4; ++j) {
                 const auto pixel =
                     true_pixel(table.truth, glm::dvec3(place.table_from_prop * glm::dvec4(corners[j], 1.0)));
@@ -119,8 +121,8 @@ Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, co
     return rests;
 }
 
-RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                             const RigidTransform& sensor_from_prop, double top_m) {
+RegistrationError prop_error(const SimulatedTable& table, const calibration::CalibratedTable& calibrated,
+                             const geometry::RigidTransform& sensor_from_prop, double top_m) {
     const double base = 0.15;
     const double top = 0.04;
     std::vector<glm::dvec3> points;
@@ -136,7 +138,8 @@ RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable&
                                table.truth.pinhole.height * (k / 28) / 4.0);
         const glm::dmat4 table_from_prop =
             placed_prop(true_light(table.truth, pixel, 0.0), 0.5 * pi * (k % 4), 0.0, 0.0);
-        const RigidTransform report = simulated_report(table, table_from_prop, {0.0, 0.0, 0.0, 0.0}, none);
+        const geometry::RigidTransform report =
+            simulated_report(table, table_from_prop, {0.0, 0.0, 0.0, 0.0}, none);
         for (const glm::dvec3& point : points) {
             const glm::dvec3 place(table_from_prop * glm::dvec4(point, 1.0));
             if (!true_pixel(table.truth, place)) {
@@ -155,4 +158,4 @@ RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable&
     return error;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

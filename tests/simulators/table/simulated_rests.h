@@ -9,7 +9,7 @@
 #include "app/calibration/rest.h"
 #include "tests/simulators/table/simulated_table.h"
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 /// Corners of square tags, four per tag, tag by tag.
 using TagCorners = std::vector<glm::dvec3>;
@@ -28,30 +28,35 @@ struct RestPlan {
 
 /// A rest without decoded points, and the prop's true pose.
 struct PlacedRest {
-    Rest rest;
+    calibration::Rest rest;
     glm::dmat4 table_from_prop{1.0};
 };
 /// Turned by `yaw_rad`, then leaning by `lean_rad` about an axis in the table towards `towards_rad`.
 [[nodiscard]] glm::dmat4 placed_prop(const glm::dvec3& bottom, double yaw_rad, double lean_rad,
                                      double towards_rad);
 /// The tracker's report for a prop at this pose, with its noise.
-[[nodiscard]] RigidTransform simulated_report(const SimulatedTable& table, const glm::dmat4& table_from_prop,
-                                              const RestNoise& noise, SeededNumbers& numbers);
+[[nodiscard]] geometry::RigidTransform simulated_report(const SimulatedTable& table,
+                                                        const glm::dmat4& table_from_prop,
+                                                        const calibration::RestNoise& noise,
+                                                        SeededNumbers& numbers);
 /// Random poses: each cell of a grid over the picture has one rest at a random place, randomly turned, on
 /// some board.
 [[nodiscard]] std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
-                                                   const RestNoise& noise, SeededNumbers& numbers);
+                                                   const calibration::RestNoise& noise,
+                                                   SeededNumbers& numbers);
 /// Rests with the corners of the tags that are in the picture and visible; skips rests without any.
-[[nodiscard]] Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners,
-                                    const RestPlan& plan, const RestNoise& noise, SeededNumbers& numbers);
+[[nodiscard]] calibration::Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners,
+                                                 const RestPlan& plan, const calibration::RestNoise& noise,
+                                                 SeededNumbers& numbers);
 
 /// The pixel that lights a point in table space; nullopt outside the picture.
-[[nodiscard]] std::optional<glm::dvec2> true_pixel(const CalibratedTable& truth,
+[[nodiscard]] std::optional<glm::dvec2> true_pixel(const calibration::CalibratedTable& truth,
                                                    const glm::dvec3& table_point);
 
 /// Like registration_error, but for points all over the prop: also the corners of its bottom and top, which
 /// move with its rotation in the sensor's frame.
-[[nodiscard]] RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                           const RigidTransform& sensor_from_prop, double top_m);
+[[nodiscard]] RegistrationError prop_error(const SimulatedTable& table,
+                                           const calibration::CalibratedTable& calibrated,
+                                           const geometry::RigidTransform& sensor_from_prop, double top_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
 /// Inverts the distortion by bisection: slow, and independent of the solver's own method.
-double unbent(double goal, const Lens& lens) {
+double unbent(double goal, const geometry::Lens& lens) {
     double low = 0.0;
     double high = 3.0;
     for (int k = 0; k < 70; ++k) {
@@ -28,12 +28,12 @@ glm::dquat about_z(double angle) {
 }
 
 /// The sensor's pose for a prop whose touched place is at a point in table space.
-RigidTransform sensor_at(const SimulatedTable& table, const glm::dvec3& table_point, double yaw,
-                         double lean) {
+geometry::RigidTransform sensor_at(const SimulatedTable& table, const glm::dvec3& table_point, double yaw,
+                                   double lean) {
     const glm::dquat table_from_prop =
         about_z(yaw) * glm::dquat(std::cos(0.5 * lean), std::sin(0.5 * lean), 0.0, 0.0);
-    const RigidTransform tracker_from_table = table.truth.table_from_tracker.inverse();
-    RigidTransform tracker_from_sensor;
+    const geometry::RigidTransform tracker_from_table = table.truth.table_from_tracker.inverse();
+    geometry::RigidTransform tracker_from_sensor;
     tracker_from_sensor.rotation =
         tracker_from_table.rotation * table_from_prop * glm::conjugate(table.sensor_from_prop);
     tracker_from_sensor.translation =
@@ -47,18 +47,19 @@ glm::dquat small_turn(const glm::dvec3& v) {
 }
 
 /// A projector that looks down, any tracker beside the table, the sensor anywhere in the prop.
-SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, const glm::dvec3& off_rad,
-                           const glm::dvec2& sensor_heights_m, SeededNumbers& numbers) {
+SimulatedTable table_under(const geometry::Pinhole& pinhole, const glm::dvec3& lens_m,
+                           const glm::dvec3& off_rad, const glm::dvec2& sensor_heights_m,
+                           SeededNumbers& numbers) {
     SimulatedTable table;
-    CalibratedTable& truth = table.truth;
+    calibration::CalibratedTable& truth = table.truth;
     truth.pinhole = pinhole;
     const glm::dquat down(0.0, 1.0, 0.0, 0.0);
     truth.table_from_projector = {glm::normalize(down * small_turn(off_rad)), lens_m};
     // Applies the convention of the table's frame, whatever the aim.
-    TouchModel model;
+    calibration::TouchModel model;
     model.pinhole = truth.pinhole;
     model.projector_from_tracker = truth.table_from_projector.inverse();
-    truth.table_from_projector = in_table_frame(model)->table_from_projector;
+    truth.table_from_projector = calibration::in_table_frame(model)->table_from_projector;
     truth.table_from_tracker = {
         numbers.rotation(),
         {numbers.between(-0.6, 0.6), numbers.between(-0.6, 0.6), numbers.between(-0.3, 0.4)}};
@@ -71,7 +72,7 @@ SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, con
 }
 
 /// Distortion up to `share` at the picture's corner.
-Lens some_lens(double share, int width, int height, double throw_ratio, SeededNumbers& numbers) {
+geometry::Lens some_lens(double share, int width, int height, double throw_ratio, SeededNumbers& numbers) {
     const double sides = static_cast<double>(height) / width;
     const double corner2 = (0.25 + 0.25 * sides * sides) / (throw_ratio * throw_ratio);
     return {std::fmax(-0.1, std::fmin(0.1, numbers.between(-share, share) / corner2)), 0.0};
@@ -79,7 +80,7 @@ Lens some_lens(double share, int width, int height, double throw_ratio, SeededNu
 
 } // namespace
 
-glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point) {
+glm::dvec2 calibrated_pixel(const calibration::CalibratedTable& calibrated, const glm::dvec3& table_point) {
     const glm::dvec3 q(glm::inverse(calibrated.table_from_projector.matrix()) * glm::dvec4(table_point, 1.0));
     const double x = q.x / q.z;
     const double y = q.y / q.z;
@@ -89,8 +90,8 @@ glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3&
             calibrated.pinhole.fy * y * factor + calibrated.pinhole.cy};
 }
 
-glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m) {
-    const Pinhole& p = truth.pinhole;
+glm::dvec3 true_light(const calibration::CalibratedTable& truth, const glm::dvec2& pixel, double height_m) {
+    const geometry::Pinhole& p = truth.pinhole;
     const glm::dvec2 real((pixel.x - p.cx) / p.fx, (pixel.y - p.cy) / p.fy);
     const double r = glm::length(real);
     const glm::dvec2 ideal = r > 0.0 ? real * (unbent(r, truth.pinhole.lens) / r) : real;
@@ -135,12 +136,12 @@ SimulatedTable some_table(std::uint64_t seed) {
     const double shift =
         numbers.between(0.0, 1.0) < 0.5 ? numbers.between(-0.1, 0.1) : numbers.between(0.3, 0.6);
     const double fx = throw_ratio * width;
-    Pinhole pinhole{size.x,
-                    size.y,
-                    fx,
-                    fx * std::exp(5e-4 * numbers.normal()),
-                    (0.5 + numbers.between(-0.03, 0.03)) * width,
-                    (0.5 + shift) * size.y};
+    geometry::Pinhole pinhole{size.x,
+                              size.y,
+                              fx,
+                              fx * std::exp(5e-4 * numbers.normal()),
+                              (0.5 + numbers.between(-0.03, 0.03)) * width,
+                              (0.5 + shift) * size.y};
     pinhole.lens = some_lens(0.01, size.x, size.y, throw_ratio, numbers); // some per mille to a per cent
     // Aimed at the table's middle within some degrees.
     const glm::dvec3 off{numbers.between(-0.15, 0.15), numbers.between(-0.15, 0.15),
@@ -154,26 +155,26 @@ SimulatedTable shipped_table(std::uint64_t seed) {
     constexpr int height = 1200;
     const double throw_ratio = 1.875 * numbers.between(0.98, 1.02);
     const double fx = throw_ratio * width;
-    Pinhole pinhole{width,
-                    height,
-                    fx,
-                    fx * std::exp(5e-4 * numbers.normal()),
-                    (0.5 + numbers.between(-0.02, 0.02)) * width,
-                    (0.5 + numbers.between(-0.02, 0.02)) * height};
+    geometry::Pinhole pinhole{width,
+                              height,
+                              fx,
+                              fx * std::exp(5e-4 * numbers.normal()),
+                              (0.5 + numbers.between(-0.02, 0.02)) * width,
+                              (0.5 + numbers.between(-0.02, 0.02)) * height};
     pinhole.lens = some_lens(0.01, width, height, throw_ratio, numbers);
     const glm::dvec3 off{numbers.between(-0.03, 0.03), numbers.between(-0.03, 0.03),
                          numbers.between(-0.02, 0.02)};
     return table_under(pinhole, {0.0, 0.0, numbers.between(1.48, 1.52)}, off, {0.08, 0.09}, numbers);
 }
 
-Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, const TouchNoise& noise,
-                      SeededNumbers& numbers) {
-    const Cross& cross = placed.cross;
+calibration::Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed,
+                                   const calibration::TouchNoise& noise, SeededNumbers& numbers) {
+    const calibration::Cross& cross = placed.cross;
     const glm::dvec2 laid = cross.pixel + noise.pixel * glm::dvec2{numbers.normal(), numbers.normal()};
     const double height = cross.block_m + noise.block_m * numbers.normal();
-    const RigidTransform pose =
+    const geometry::RigidTransform pose =
         sensor_at(table, true_light(table.truth, laid, height), cross.yaw_rad, placed.lean_rad);
-    Touch touch;
+    calibration::Touch touch;
     touch.tracker_from_sensor.translation = pose.translation + noise.position_m * numbers.normals();
     touch.tracker_from_sensor.rotation =
         glm::normalize(small_turn(noise.rotation_rad * numbers.normals()) * pose.rotation);
@@ -182,8 +183,9 @@ Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, con
     return touch;
 }
 
-std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                             double top_m, const Reported& reported) {
+std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table,
+                                             const calibration::CalibratedTable& calibrated, double top_m,
+                                             const Reported& reported) {
     std::vector<glm::dvec3> offsets;
     for (int level = 0; level <= 2; ++level) {
         const double height = 0.5 * level * top_m;
@@ -193,7 +195,7 @@ std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table, const 
                                        table.truth.pinhole.height * row / 6.0);
                 const glm::dvec3 place = true_light(table.truth, pixel, height);
                 for (int quarter = 0; quarter < 4; ++quarter) {
-                    RigidTransform pose = sensor_at(table, place, 0.5 * pi * quarter, 0.0);
+                    geometry::RigidTransform pose = sensor_at(table, place, 0.5 * pi * quarter, 0.0);
                     pose = reported ? reported(pose) : pose;
                     const glm::dvec3 believed = calibrated.table_from_tracker.point(
                         pose.translation + pose.rotation * calibrated.sensor_offset_m);
@@ -206,8 +208,9 @@ std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table, const 
     return offsets;
 }
 
-RegistrationError registration_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                     double top_m, const Reported& reported) {
+RegistrationError registration_error(const SimulatedTable& table,
+                                     const calibration::CalibratedTable& calibrated, double top_m,
+                                     const Reported& reported) {
     const std::vector<glm::dvec3> offsets = registration_offsets(table, calibrated, top_m, reported);
     RegistrationError error;
     for (const glm::dvec3& offset : offsets) {
@@ -218,4 +221,4 @@ RegistrationError registration_error(const SimulatedTable& table, const Calibrat
     return error;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

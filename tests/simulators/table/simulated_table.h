@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 /// Uniform and normal numbers from a seed. The standard's distributions differ between libraries; these are
 /// portable.
@@ -31,7 +31,7 @@ private:
 };
 
 struct SimulatedTable {
-    CalibratedTable truth;
+    calibration::CalibratedTable truth;
     glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0}; ///< mounting of the sensor in the prop
     double sensor_height_m = 0.0;                    ///< above the touched place, upright
 };
@@ -46,17 +46,20 @@ struct SimulatedTable {
 [[nodiscard]] SimulatedTable shipped_table(std::uint64_t seed);
 
 /// The pixel that a calibration lights for a point of its table's space.
-[[nodiscard]] glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point);
+[[nodiscard]] glm::dvec2 calibrated_pixel(const calibration::CalibratedTable& calibrated,
+                                          const glm::dvec3& table_point);
 /// The true position of a pixel's light at a height above the table.
-[[nodiscard]] glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m);
+[[nodiscard]] glm::dvec3 true_light(const calibration::CalibratedTable& truth, const glm::dvec2& pixel,
+                                    double height_m);
 
 /// A touch: the prop on a cross, upright and turned, or leaning by `lean_rad` about its own X axis.
 struct PlacedProp {
-    Cross cross;
+    calibration::Cross cross;
     double lean_rad = 0.0;
 };
-[[nodiscard]] Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed,
-                                    const TouchNoise& noise, SeededNumbers& numbers);
+[[nodiscard]] calibration::Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed,
+                                                 const calibration::TouchNoise& noise,
+                                                 SeededNumbers& numbers);
 
 /// Distance between the light and its intended place, over the picture and from the table up to `top_m`: the
 /// tracker gives a prop's place, the calibrated projector lights it, and the true projector shows where the
@@ -66,13 +69,13 @@ struct RegistrationError {
     double worst_m = 0.0;
 };
 /// `reported`: the tracker's report of a sensor's pose; empty: exact.
-using Reported = std::function<RigidTransform(const RigidTransform&)>;
+using Reported = std::function<geometry::RigidTransform(const geometry::RigidTransform&)>;
 [[nodiscard]] RegistrationError registration_error(const SimulatedTable& table,
-                                                   const CalibratedTable& calibrated, double top_m,
-                                                   const Reported& reported = {});
+                                                   const calibration::CalibratedTable& calibrated,
+                                                   double top_m, const Reported& reported = {});
 /// The offset at each place: from the intended place to the light.
 [[nodiscard]] std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table,
-                                                           const CalibratedTable& calibrated, double top_m,
-                                                           const Reported& reported = {});
+                                                           const calibration::CalibratedTable& calibrated,
+                                                           double top_m, const Reported& reported = {});
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

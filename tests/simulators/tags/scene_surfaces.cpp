@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -24,14 +24,16 @@ double shown(const glm::dvec3& table_m) {
 
 } // namespace
 
-SceneSurfaces::SceneSurfaces(PropShape prop, std::vector<PropTag> tags, const SceneLight& light)
+SceneSurfaces::SceneSurfaces(geometry::PropShape prop, std::vector<tags::PropTag> tags,
+                             const SceneLight& light)
     : prop_(std::move(prop)), tags_(std::move(tags)), light_(light) {
     for (const glm::dvec3& corner : prop_.corners) {
         radius_m_ = std::fmax(radius_m_, glm::length(corner));
     }
-    for (const PropTag& tag : tags_) {
-        printed_.push_back({tag.prop_from_tag.inverse(), tag.size_m / static_cast<double>(black_modules),
-                            tag_modules_of(tag.id)});
+    for (const tags::PropTag& tag : tags_) {
+        printed_.push_back({tag.prop_from_tag.inverse(),
+                            tag.size_m / static_cast<double>(tags::black_modules),
+                            tags::tag_modules_of(tag.id)});
         radius_m_ = std::fmax(radius_m_, glm::length(tag.prop_from_tag.translation) + tag.size_m);
     }
 }
@@ -58,13 +60,13 @@ double SceneSurfaces::table_brightness(const glm::dvec3& origin_m, const glm::dv
 }
 
 double SceneSurfaces::brightness(const glm::dvec3& origin_m, const glm::dvec3& direction,
-                                 const RigidTransform& prop_from_table,
-                                 const RigidTransform& table_from_prop) const {
+                                 const geometry::RigidTransform& prop_from_table,
+                                 const geometry::RigidTransform& table_from_prop) const {
     const glm::dvec3 origin = prop_from_table.point(origin_m);
     const glm::dvec3 along = prop_from_table.direction(direction);
     double nearest = std::numeric_limits<double>::infinity();
     double reflectance = table;
-    if (PropHit hit; enter(prop_, origin, along, hit)) {
+    if (geometry::PropHit hit; geometry::enter(prop_, origin, along, hit)) {
         nearest = hit.t;
         reflectance = white;
     }
@@ -73,10 +75,10 @@ double SceneSurfaces::brightness(const glm::dvec3& origin_m, const glm::dvec3& d
         const glm::dvec3 to = tag.tag_from_prop.direction(along);
         const double t = -from.z / to.z;
         const glm::dvec3 at = from + t * to;
-        const double half = 0.5 * static_cast<double>(tag_modules);
+        const double half = 0.5 * static_cast<double>(tags::tag_modules);
         const double column = half + at.x / tag.module_m;
         const double row = half - at.y / tag.module_m;
-        const double last = static_cast<double>(tag_modules);
+        const double last = static_cast<double>(tags::tag_modules);
         if (to.z < 0.0 && t < nearest && column >= 0.0 && row >= 0.0 && column < last && row < last) {
             nearest = t;
             const bool is_white =
@@ -90,4 +92,4 @@ double SceneSurfaces::brightness(const glm::dvec3& origin_m, const glm::dvec3& d
     return lit(reflectance, table_from_prop.point(origin + nearest * along));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct SceneLight {
     double room = 0.6;    ///< of white paper, from the room's light; 1 is the camera's maximum
@@ -21,32 +21,32 @@ struct SceneLight {
 
 class SceneSurfaces {
 public:
-    SceneSurfaces(PropShape prop, std::vector<PropTag> tags, const SceneLight& light);
+    SceneSurfaces(geometry::PropShape prop, std::vector<tags::PropTag> tags, const SceneLight& light);
 
     /// Along the ray from `origin_m`; both in the table's frame.
     [[nodiscard]] double brightness(const glm::dvec3& origin_m, const glm::dvec3& direction,
-                                    const RigidTransform& prop_from_table,
-                                    const RigidTransform& table_from_prop) const;
+                                    const geometry::RigidTransform& prop_from_table,
+                                    const geometry::RigidTransform& table_from_prop) const;
     /// The table alone.
     [[nodiscard]] double table_brightness(const glm::dvec3& origin_m, const glm::dvec3& direction) const;
     /// Greatest distance of the prop or its tags from the prop's origin.
     [[nodiscard]] double radius_m() const { return radius_m_; }
-    [[nodiscard]] const std::vector<PropTag>& tags() const { return tags_; }
+    [[nodiscard]] const std::vector<tags::PropTag>& tags() const { return tags_; }
 
 private:
     struct Printed {
-        RigidTransform tag_from_prop;
+        geometry::RigidTransform tag_from_prop;
         double module_m = 0.0;
-        TagModules modules{};
+        tags::TagModules modules{};
     };
     [[nodiscard]] double table_reflectance(const glm::dvec3& table_m) const;
     [[nodiscard]] double lit(double reflectance, const glm::dvec3& table_m) const;
 
-    PropShape prop_;
-    std::vector<PropTag> tags_;
+    geometry::PropShape prop_;
+    std::vector<tags::PropTag> tags_;
     std::vector<Printed> printed_;
     SceneLight light_;
     double radius_m_ = 0.0;
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct Skirt {
     double base_m = 0.30;   ///< side of the prop's foot, which the skirt surrounds
@@ -19,6 +19,6 @@ struct Skirt {
 };
 
 /// Ids continue from side to side: front (towards -Y), right, back, left.
-[[nodiscard]] std::vector<PropTag> tags_of(const Skirt& skirt);
+[[nodiscard]] std::vector<tags::PropTag> tags_of(const Skirt& skirt);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::string csv_of(const std::vector<TagFigures>& figures) {
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -29,31 +29,34 @@ PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
     const glm::dvec3 velocity = of.speed_m_s * glm::dvec3(std::cos(heading), std::sin(heading), 0.0);
     const double turning = glm::radians(of.turn_deg_s);
     if (of.motion) {
-        return [begin = RigidTransform{rotation_of({0.0, 0.0, yaw}), place},
+        return [begin = geometry::RigidTransform{tracking::rotation_of({0.0, 0.0, yaw}), place},
                 motion = of.motion(random)](double t_s) {
-            const RigidTransform moved = motion(t_s);
-            return RigidTransform{moved.rotation * begin.rotation, begin.translation + moved.translation};
+            const geometry::RigidTransform moved = motion(t_s);
+            return geometry::RigidTransform{moved.rotation * begin.rotation,
+                                            begin.translation + moved.translation};
         };
     }
     return [=](double t_s) {
-        return RigidTransform{rotation_of({0.0, 0.0, yaw + turning * t_s}), place + t_s * velocity};
+        return geometry::RigidTransform{tracking::rotation_of({0.0, 0.0, yaw + turning * t_s}),
+                                        place + t_s * velocity};
     };
 }
 
 /// The exhibit's knowledge of a rolling shutter after three frames before the one at 0 s.
-RollingShutter known_shutter(const TagScene& scene, TagDetector& detector, const PropMotion& motion,
-                             std::mt19937_64& random) {
+tags::RollingShutter known_shutter(const TagScene& scene, tags::TagDetector& detector,
+                                   const PropMotion& motion, std::mt19937_64& random) {
     constexpr double frame_s = 1.0 / 30.0;
-    const Pinhole& pinhole = scene.camera().pinhole;
-    RollingShutter shutter{1e-3 * scene.camera().rolling_ms, {}, 0.0};
-    std::vector<FoundTag> found;
+    const geometry::Pinhole& pinhole = scene.camera().pinhole;
+    tags::RollingShutter shutter{1e-3 * scene.camera().rolling_ms, {}, 0.0};
+    std::vector<tags::FoundTag> found;
     for (const int ago : {3, 2, 1}) {
         const std::vector<std::uint8_t> picture =
             scene.picture([&](double t_s) { return motion(t_s - ago * frame_s); }, random());
         detector.find(picture, pinhole.width, pinhole.height, found);
-        const auto pose = pose_from_tags(found, scene.tags(), pinhole, usual_corner_sd_px, shutter);
+        const auto pose =
+            tags::pose_from_tags(found, scene.tags(), pinhole, tags::usual_corner_sd_px, shutter);
         shutter.before.reset();
-        if (pose && is_sure(*pose)) {
+        if (pose && tags::is_sure(*pose)) {
             shutter.before = pose->camera_from_prop;
             shutter.before_s = pose->moment_s - frame_s;
         }
@@ -64,40 +67,41 @@ RollingShutter known_shutter(const TagScene& scene, TagDetector& detector, const
 } // namespace
 
 TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) {
-    std::vector<PropTag> tags = tags_of(of.skirt);
+    std::vector<tags::PropTag> tags = tags_of(of.skirt);
     tags.resize(of.tags > 0 ? of.tags : tags.size());
     SceneCamera camera = of.camera;
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.0, -0.3, 1.27));
-    camera.table_from_camera = *looking_at(of.distance_m * towards, {0.0, 0.0, 0.0}, 0.0);
-    const TagScene scene(make_frustum(shipped_frustum), tags, camera, of.light);
-    TagDetectorOptions options;
+    camera.table_from_camera = *settings::looking_at(of.distance_m * towards, {0.0, 0.0, 0.0}, 0.0);
+    const TagScene scene(geometry::make_frustum(geometry::shipped_frustum), tags, camera, of.light);
+    tags::TagDetectorOptions options;
     options.decimate = of.decimate;
-    TagDetector detector(options);
+    tags::TagDetector detector(options);
     std::mt19937_64 random(seed);
-    std::vector<FoundTag> found;
+    std::vector<tags::FoundTag> found;
     Lists lists;
     TagFigures figures{.name = of.name, .pictures = pictures};
     double squares = 0.0;
     for (std::size_t k = 0; k < pictures; ++k) {
         const PropMotion motion = any_motion(of, random);
-        const RollingShutter shutter =
-            of.is_shutter_known ? known_shutter(scene, detector, motion, random) : RollingShutter{};
+        const tags::RollingShutter shutter =
+            of.is_shutter_known ? known_shutter(scene, detector, motion, random) : tags::RollingShutter{};
         const std::vector<std::uint8_t> picture = scene.picture(motion, random());
-        const double begin = 1e3 * thread_seconds();
+        const double begin = 1e3 * camera::thread_seconds();
         detector.find(picture, camera.pinhole.width, camera.pinhole.height, found);
-        const double between = 1e3 * thread_seconds();
-        const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px, shutter);
+        const double between = 1e3 * camera::thread_seconds();
+        const auto pose =
+            tags::pose_from_tags(found, tags, camera.pinhole, tags::usual_corner_sd_px, shutter);
         lists.find_ms.push_back(between - begin);
-        lists.fit_ms.push_back(1e3 * thread_seconds() - between);
+        lists.fit_ms.push_back(1e3 * camera::thread_seconds() - between);
         figures.tags += static_cast<double>(found.size()) / static_cast<double>(pictures);
         figures.posed += pose ? 1.0 / static_cast<double>(pictures) : 0.0;
-        if (!pose || !is_sure(*pose)) {
+        if (!pose || !tags::is_sure(*pose)) {
             continue;
         }
         const double moment_s =
             of.is_shutter_known ? pose->moment_s + 0.5e-3 * camera.exposure_ms : scene.moment_s(motion);
-        const PoseStep off =
-            step_between(motion(moment_s), camera.table_from_camera * pose->camera_from_prop);
+        const tracking::PoseStep off =
+            tracking::step_between(motion(moment_s), camera.table_from_camera * pose->camera_from_prop);
         lists.off_mm.push_back(1e3 * glm::length(off.shift_m));
         lists.off_deg.push_back(glm::degrees(glm::length(off.turn_rad)));
         lists.said_mm.push_back(1e3 * pose->place_sd_m);
@@ -118,4 +122,4 @@ TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) 
     return figures;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct TagCase {
     std::string name;
@@ -56,4 +56,4 @@ struct TagFigures {
 [[nodiscard]] std::string table_of(const std::vector<TagFigures>& figures);
 [[nodiscard]] std::string csv_of(const std::vector<TagFigures>& figures);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -21,11 +21,11 @@ double share_of_exposure(std::size_t ray) {
 
 } // namespace
 
-TagScene::TagScene(PropShape prop, std::vector<PropTag> tags, const SceneCamera& camera,
+TagScene::TagScene(geometry::PropShape prop, std::vector<tags::PropTag> tags, const SceneCamera& camera,
                    const SceneLight& light)
     : surfaces_(std::move(prop), std::move(tags), light), camera_(camera) {
-    const Pinhole& pinhole = camera_.pinhole;
-    const RigidTransform& eye = camera_.table_from_camera;
+    const geometry::Pinhole& pinhole = camera_.pinhole;
+    const geometry::RigidTransform& eye = camera_.table_from_camera;
     for (int row = 0; row <= pinhole.height; ++row) {
         for (int column = 0; column <= pinhole.width; ++column) {
             rays_.push_back(eye.direction(pinhole.ray({column, row})));
@@ -42,15 +42,15 @@ std::size_t TagScene::pixel_at(int row, int column) const {
 }
 
 double TagScene::moment_s(const PropMotion& motion) const {
-    const RigidTransform camera_from_table = camera_.table_from_camera.inverse();
+    const geometry::RigidTransform camera_from_table = camera_.table_from_camera.inverse();
     const auto middle = camera_.pinhole.pixel(camera_from_table.point(motion(0.0).translation));
     const double row = middle ? middle->y / camera_.pinhole.height : 0.5;
     return 1e-3 * (row * camera_.rolling_ms + 0.5 * camera_.exposure_ms);
 }
 
 std::vector<double> TagScene::light_seen(const PropMotion& motion) const {
-    const Pinhole& pinhole = camera_.pinhole;
-    const RigidTransform& eye = camera_.table_from_camera;
+    const geometry::Pinhole& pinhole = camera_.pinhole;
+    const geometry::RigidTransform& eye = camera_.table_from_camera;
     const auto row_of_rays = static_cast<std::size_t>(pinhole.width) + 1;
     const glm::dvec3 middle = eye.inverse().point(motion(moment_s(motion)).translation);
     const double reach = 1.15 * pinhole.fx * surfaces_.radius_m() / std::fmax(middle.z, 1e-3);
@@ -63,8 +63,8 @@ std::vector<double> TagScene::light_seen(const PropMotion& motion) const {
     const auto [top, bottom] = ends(at.y, pinhole.height);
     std::vector<double> light = table_;
     for (int row = top; row < bottom; ++row) {
-        std::array<RigidTransform, rays> table_from_prop;
-        std::array<RigidTransform, rays> prop_from_table;
+        std::array<geometry::RigidTransform, rays> table_from_prop;
+        std::array<geometry::RigidTransform, rays> prop_from_table;
         for (std::size_t k = 0; k < rays; ++k) {
             const double share = static_cast<double>(row) / pinhole.height;
             table_from_prop[k] =
@@ -135,4 +135,4 @@ std::vector<std::uint8_t> TagScene::picture(const PropMotion& motion, std::uint6
     return codes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -15,11 +15,11 @@
 #include <functional>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct SceneCamera {
-    Pinhole pinhole{1280, 720, 1500.0, 1500.0, 640.0, 360.0, {-0.08, 0.02}};
-    RigidTransform table_from_camera;
+    geometry::Pinhole pinhole{1280, 720, 1500.0, 1500.0, 640.0, 360.0, {-0.08, 0.02}};
+    geometry::RigidTransform table_from_camera;
     double exposure_ms = 5.0;
     double rolling_ms = 0.0;  ///< from the first row's exposure to the last one's; 0: global shutter
     double defocus_px = 0.6;  ///< of the lens, standard deviation
@@ -29,11 +29,12 @@ struct SceneCamera {
 };
 
 /// table_from_prop, `t_s` after the start of the first row's exposure.
-using PropMotion = std::function<RigidTransform(double t_s)>;
+using PropMotion = std::function<geometry::RigidTransform(double t_s)>;
 
 class TagScene {
 public:
-    TagScene(PropShape prop, std::vector<PropTag> tags, const SceneCamera& camera, const SceneLight& light);
+    TagScene(geometry::PropShape prop, std::vector<tags::PropTag> tags, const SceneCamera& camera,
+             const SceneLight& light);
 
     /// [height][width], row-major.
     [[nodiscard]] std::vector<std::uint8_t> picture(const PropMotion& motion, std::uint64_t seed) const;
@@ -41,7 +42,7 @@ public:
     /// row's exposure.
     [[nodiscard]] double moment_s(const PropMotion& motion) const;
     [[nodiscard]] const SceneCamera& camera() const { return camera_; }
-    [[nodiscard]] const std::vector<PropTag>& tags() const { return surfaces_.tags(); }
+    [[nodiscard]] const std::vector<tags::PropTag>& tags() const { return surfaces_.tags(); }
 
 private:
     [[nodiscard]] std::size_t pixel_at(int row, int column) const;
@@ -54,4 +55,4 @@ private:
     std::vector<double> table_;    ///< [height][width], the background without the prop
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -45,7 +45,7 @@ double spill_on(const glm::dvec3& point, const glm::dvec3& normal) {
 
 } // namespace
 
-RigidTransform WatchingCamera::table_from_camera() const {
+geometry::RigidTransform WatchingCamera::table_from_camera() const {
     // The top of its picture is up.
     const glm::dvec3 forward = glm::normalize(aim_m - place_m);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
@@ -53,7 +53,7 @@ RigidTransform WatchingCamera::table_from_camera() const {
 }
 
 RoomScene::RoomScene(const WatchingCamera& camera, const RoomLight& light, const glm::dvec2& table_size_m,
-                     const PropShape& prop, const glm::dvec3& prop_m)
+                     const geometry::PropShape& prop, const glm::dvec3& prop_m)
     : camera_(camera), table_from_camera_(camera.table_from_camera()), light_(light),
       table_size_m_(table_size_m), prop_(prop), prop_m_(prop_m) {
     for (std::size_t k = 0; k < code_of_.size(); ++k) {
@@ -61,7 +61,7 @@ RoomScene::RoomScene(const WatchingCamera& camera, const RoomLight& light, const
         code_of_[k] =
             static_cast<std::uint8_t>(std::lround(255.0 * std::pow(light_seen, 1.0 / camera_.gamma)));
     }
-    const Pinhole& pinhole = camera_.pinhole;
+    const geometry::Pinhole& pinhole = camera_.pinhole;
     for (int row = 0; row < pinhole.height; ++row) {
         for (int column = 0; column < pinhole.width; ++column) {
             rays_.push_back(
@@ -87,7 +87,7 @@ RoomScene::Seen RoomScene::room(const glm::dvec3& direction) const {
                                             (direct > 0.0 ? direct : spill_on(point, normal)));
         seen.is_lit = direct > 0.0;
     };
-    if (PropHit hit; enter(prop_, origin - prop_m_, direction, hit)) {
+    if (geometry::PropHit hit; geometry::enter(prop_, origin - prop_m_, direction, hit)) {
         set(hit.t, 0.85, prop_.bounds[static_cast<std::size_t>(hit.face)].normal, 0.6);
         return seen;
     }
@@ -129,8 +129,8 @@ double RoomScene::people_light(const Ball& ball, const glm::dvec3& point_m, cons
 }
 
 std::pair<int, int> RoomScene::columns_of(const std::vector<Ball>& body) const {
-    const Pinhole& pinhole = camera_.pinhole;
-    const RigidTransform camera_from_table = table_from_camera_.inverse();
+    const geometry::Pinhole& pinhole = camera_.pinhole;
+    const geometry::RigidTransform camera_from_table = table_from_camera_.inverse();
     double left = pinhole.width;
     double right = 0.0;
     for (const Ball& one : body) {
@@ -169,7 +169,7 @@ void RoomScene::meet(const std::vector<Ball>& body, const LightNow& now, std::si
 
 void RoomScene::add_people(std::vector<double>& light, const Bodies& bodies, const Lights& lights,
                            double t_s) const {
-    const Pinhole& pinhole = camera_.pinhole;
+    const geometry::Pinhole& pinhole = camera_.pinhole;
     std::vector<float> nearest_m(seen_.size());
     std::transform(seen_.begin(), seen_.end(), nearest_m.begin(),
                    [](const Seen& seen) { return seen.away_m; });
@@ -233,4 +233,4 @@ std::vector<std::uint8_t> RoomScene::picture(const Bodies& bodies, const Lights&
     return codes;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

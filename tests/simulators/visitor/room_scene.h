@@ -18,11 +18,11 @@
 #include <functional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct WatchingCamera {
     /// 640 x 360, 95 degrees wide.
-    Pinhole pinhole{640, 360, 293.0, 293.0, 320.0, 180.0, {-0.06, 0.005}};
+    geometry::Pinhole pinhole{640, 360, 293.0, 293.0, 320.0, 180.0, {-0.06, 0.005}};
     glm::dvec3 place_m{0.0, 0.28, 0.12};
     glm::dvec3 aim_m{0.0, -0.60, 0.44};
     double exposure_ms = 15.0;
@@ -30,7 +30,7 @@ struct WatchingCamera {
     double read_noise = 1.5;  ///< codes, standard deviation
     double shot_noise = 0.08; ///< codes^2 per code
     double gamma = 2.2;
-    [[nodiscard]] RigidTransform table_from_camera() const;
+    [[nodiscard]] geometry::RigidTransform table_from_camera() const;
 };
 
 struct RoomLight {
@@ -52,13 +52,13 @@ using Bodies = std::function<std::vector<std::vector<Ball>>(double t_s)>;
 class RoomScene {
 public:
     RoomScene(const WatchingCamera& camera, const RoomLight& light, const glm::dvec2& table_size_m,
-              const PropShape& prop, const glm::dvec3& prop_m);
+              const geometry::PropShape& prop, const glm::dvec3& prop_m);
 
     /// [height][width]; the first row's exposure begins at `t_s`.
     [[nodiscard]] std::vector<std::uint8_t> picture(const Bodies& bodies, const Lights& lights, double t_s,
                                                     std::uint64_t seed) const;
     [[nodiscard]] const WatchingCamera& camera() const { return camera_; }
-    [[nodiscard]] const RigidTransform& table_from_camera() const { return table_from_camera_; }
+    [[nodiscard]] const geometry::RigidTransform& table_from_camera() const { return table_from_camera_; }
 
 private:
     struct Seen {
@@ -76,10 +76,10 @@ private:
     void add_people(std::vector<double>& light, const Bodies& bodies, const Lights& lights, double t_s) const;
 
     WatchingCamera camera_;
-    RigidTransform table_from_camera_;
+    geometry::RigidTransform table_from_camera_;
     RoomLight light_;
     glm::dvec2 table_size_m_;
-    PropShape prop_;
+    geometry::PropShape prop_;
     glm::dvec3 prop_m_;
     static constexpr double codes_of_light = 4096.0;
     std::array<std::uint8_t, 4096> code_of_{}; ///< from the camera's gamma
@@ -87,4 +87,4 @@ private:
     std::vector<Seen> seen_;                   ///< [height][width]
 };
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -155,4 +155,4 @@ std::vector<Ball> body_of(const Person& person, const glm::dvec3& eye_m, const g
     return body;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

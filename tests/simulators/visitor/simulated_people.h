@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct Ball {
     glm::dvec3 middle_m{0.0};
@@ -57,4 +57,4 @@ struct Person {
 [[nodiscard]] std::vector<Ball> body_of(const Person& person, const glm::dvec3& eye_m,
                                         const glm::dvec3& prop_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::string csv_of(const std::vector<WrongPresence>& figures) {
     return text;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -115,4 +115,4 @@ WrongPresence measure_empty(const VisitorCase& of, double minutes, std::uint64_t
     return wrong;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

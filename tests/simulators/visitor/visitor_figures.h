@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct VisitorFigures {
     std::string name;
@@ -46,4 +46,4 @@ struct WrongPresence {
 [[nodiscard]] std::string table_of(const std::vector<WrongPresence>& figures);
 [[nodiscard]] std::string csv_of(const std::vector<WrongPresence>& figures);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

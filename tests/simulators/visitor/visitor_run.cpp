@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 namespace {
 
@@ -94,8 +94,8 @@ struct Room {
     std::vector<Somebody> people;
     Lights lights;
     RoomScene scene;
-    VisitorReader reader;
-    LiveTrackedState live;
+    visitor::VisitorReader reader;
+    tracking::LiveTrackedState live;
 };
 
 WatchingCamera believed(const VisitorCase& of) {
@@ -110,15 +110,17 @@ Room room_of(const VisitorCase& of, bool comes, std::mt19937_64& random) {
     const glm::dvec3 prop(0.15 * share(random), 0.06 * share(random), 0.0);
     std::vector<Somebody> people = anybody(of, comes, random);
     Lights lights = lights_of(of, random);
-    HeadZone zone;
+    visitor::HeadZone zone;
     zone.table_size_m = table_size_m;
-    return {{prop, {}},
-            of,
-            std::move(people),
-            std::move(lights),
-            RoomScene(of.camera, of.light, table_size_m, make_frustum(shipped_frustum), prop),
-            VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone}, thread_seconds),
-            LiveTrackedState(default_eye_m, 0.5 * shipped_frustum.height_m)};
+    return {
+        {prop, {}},
+        of,
+        std::move(people),
+        std::move(lights),
+        RoomScene(of.camera, of.light, table_size_m, geometry::make_frustum(geometry::shipped_frustum), prop),
+        visitor::VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone},
+                               camera::thread_seconds),
+        tracking::LiveTrackedState(default_eye_m, 0.5 * geometry::shipped_frustum.height_m)};
 }
 
 MonotonicTime time_of(double t_s) {
@@ -126,7 +128,8 @@ MonotonicTime time_of(double t_s) {
 }
 
 void step(Room& room, double t_s, std::uint64_t seed) {
-    const glm::dvec3 looked_at = room.visit.prop_m + glm::dvec3(0.0, 0.0, 0.5 * shipped_frustum.height_m);
+    const glm::dvec3 looked_at =
+        room.visit.prop_m + glm::dvec3(0.0, 0.0, 0.5 * geometry::shipped_frustum.height_m);
     const auto bodies = [&](double moment_s) {
         std::vector<std::vector<Ball>> all;
         for (const Somebody& one : room.people) {
@@ -139,25 +142,25 @@ void step(Room& room, double t_s, std::uint64_t seed) {
         }
         return all;
     };
-    const Pinhole& pinhole = room.of.camera.pinhole;
-    const CameraFrame frame{time_of(t_s), 1, pinhole.width, pinhole.height,
-                            room.scene.picture(bodies, room.lights, t_s, seed)};
-    const double begin = thread_seconds();
-    const std::span<const SeenHead> heads = room.reader.read(frame);
+    const geometry::Pinhole& pinhole = room.of.camera.pinhole;
+    const camera::CameraFrame frame{time_of(t_s), 1, pinhole.width, pinhole.height,
+                                    room.scene.picture(bodies, room.lights, t_s, seed)};
+    const double begin = camera::thread_seconds();
+    const std::span<const tracking::SeenHead> heads = room.reader.read(frame);
     VisitMoment moment;
-    moment.ms = 1e3 * (thread_seconds() - begin);
-    PoseSample prop;
+    moment.ms = 1e3 * (camera::thread_seconds() - begin);
+    tracker::PoseSample prop;
     prop.time = frame.time;
-    prop.station = prop_station;
+    prop.station = tracker::prop_station;
     prop.position_m = room.visit.prop_m;
     prop.rotation = {1.0, 0.0, 0.0, 0.0};
     prop.ok = true;
     static_cast<void>(room.live.take(prop));
-    for (const SeenHead& head : heads) {
+    for (const tracking::SeenHead& head : heads) {
         static_cast<void>(room.live.take_visitor(head));
     }
     const double lit_s = t_s + lit_after_s;
-    const TrackedState tracked_state = room.live.at(time_of(lit_s));
+    const tracking::TrackedState tracked_state = room.live.at(time_of(lit_s));
     moment.t_s = lit_s;
     moment.seen = tracked_state.head_seen;
     moment.shown_eye_m = tracked_state.eye_m;
@@ -195,7 +198,7 @@ Visit run_empty(const VisitorCase& of, double length_s, std::uint64_t seed) {
 namespace {
 
 /// Where the ray from an eye to a point meets the plane of a face.
-glm::dvec3 on_face(const Plane& plane, const glm::dvec3& eye, const glm::dvec3& point) {
+glm::dvec3 on_face(const geometry::Plane& plane, const glm::dvec3& eye, const glm::dvec3& point) {
     const glm::dvec3 along = point - eye;
     return eye - along * (plane.distance(eye) / glm::dot(plane.normal, along));
 }
@@ -204,7 +207,7 @@ glm::dvec3 on_face(const Plane& plane, const glm::dvec3& eye, const glm::dvec3& 
 
 std::vector<double> picture_errors_mm(const glm::dvec3& prop_m, const glm::dvec3& eye_m,
                                       const glm::dvec3& shown_eye_m) {
-    static const PropShape prop = make_frustum(shipped_frustum);
+    static const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     const glm::dvec3 half(0.045, 0.045, 0.07);
     const glm::dvec3 middle(0.0, 0.0, 0.0725);
     const glm::dvec3 eye = eye_m - prop_m;
@@ -218,9 +221,9 @@ std::vector<double> picture_errors_mm(const glm::dvec3& prop_m, const glm::dvec3
             const double flat = std::sqrt(1.0 - z * z);
             const glm::dvec3 unit(flat * std::cos(turn), flat * std::sin(turn), z);
             const glm::dvec3 point = middle + half * unit;
-            PropHit hit;
-            if (glm::dot(unit / half, eye - point) > 0.0 && enter(prop, eye, point - eye, hit)) {
-                const Plane& face = prop.bounds[static_cast<std::size_t>(hit.face)];
+            geometry::PropHit hit;
+            if (glm::dot(unit / half, eye - point) > 0.0 && geometry::enter(prop, eye, point - eye, hit)) {
+                const geometry::Plane& face = prop.bounds[static_cast<std::size_t>(hit.face)];
                 errors.push_back(1e3 * glm::distance(on_face(face, eye, point),
                                                      on_face(face, shown_eye_m - prop_m, point)));
             }
@@ -230,14 +233,14 @@ std::vector<double> picture_errors_mm(const glm::dvec3& prop_m, const glm::dvec3
 }
 
 glm::dvec3 shown_middle_m(const glm::dvec3& prop_m, const glm::dvec3& eye_m, const glm::dvec3& shown_eye_m) {
-    static const PropShape prop = make_frustum(shipped_frustum);
+    static const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     const glm::dvec3 middle(0.0, 0.0, 0.0725);
     const glm::dvec3 eye = eye_m - prop_m;
-    PropHit hit;
-    if (!enter(prop, eye, middle - eye, hit)) {
+    geometry::PropHit hit;
+    if (!geometry::enter(prop, eye, middle - eye, hit)) {
         return middle;
     }
     return on_face(prop.bounds[static_cast<std::size_t>(hit.face)], shown_eye_m - prop_m, middle);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

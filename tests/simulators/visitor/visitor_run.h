@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::simulators {
 
 struct VisitorCase {
     std::string name;
@@ -64,4 +64,4 @@ inline constexpr double visit_rate_hz = 30.0;
 [[nodiscard]] glm::dvec3 shown_middle_m(const glm::dvec3& prop_m, const glm::dvec3& eye_m,
                                         const glm::dvec3& shown_eye_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::simulators

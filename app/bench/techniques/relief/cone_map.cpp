@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -16,14 +16,14 @@ constexpr float codes = 65535.0F;
 constexpr std::uint16_t no_crest = 65535;
 
 /// Smallest depths: level 0 is the image, each next level half as wide.
-using Pyramid = std::vector<Image16>;
+using Pyramid = std::vector<image::Image16>;
 
-Pyramid highest_of(Image16 depth) {
+Pyramid highest_of(image::Image16 depth) {
     Pyramid levels;
     levels.push_back(std::move(depth));
     while (levels.back().width > 1) {
-        const Image16& fine = levels.back();
-        Image16 coarse(fine.width / 2, fine.height / 2);
+        const image::Image16& fine = levels.back();
+        image::Image16 coarse(fine.width / 2, fine.height / 2);
         for (int y = 0; y < coarse.height; ++y) {
             for (int x = 0; x < coarse.width; ++x) {
                 coarse.at(x, y) = std::min({fine.at(2 * x, 2 * y), fine.at(2 * x + 1, 2 * y),
@@ -50,8 +50,8 @@ constexpr std::size_t all_texels = 4;
 
 /// Keeps only texels behind which, in `direction`, the surface falls or the image ends; the others move to
 /// the bottom.
-Image16 crests(const Image16& depth, const glm::ivec2& direction) {
-    Image16 result = depth;
+image::Image16 crests(const image::Image16& depth, const glm::ivec2& direction) {
+    image::Image16 result = depth;
     for (int y = 0; y < depth.height; ++y) {
         for (int x = 0; x < depth.width; ++x) {
             const int u = x + direction.x;
@@ -124,7 +124,7 @@ private:
     float square_ = 1.0F; ///< of the ratio so far
 };
 
-Image16 cones(const Image16& depth, bool relaxed) {
+image::Image16 cones(const image::Image16& depth, bool relaxed) {
     std::array<Pyramid, 9> pyramids;
     for (int k = 0; k < 9; ++k) {
         const glm::ivec2 direction(k % 3 - 1, k / 3 - 1);
@@ -134,7 +134,7 @@ Image16 cones(const Image16& depth, bool relaxed) {
             pyramids[pyramid_of(direction)] = highest_of(crests(depth, direction));
         }
     }
-    Image16 ratios(depth.width, depth.height);
+    image::Image16 ratios(depth.width, depth.height);
     parallel_for(static_cast<std::size_t>(depth.height), 4, [&](std::size_t begin, std::size_t end) {
         ConeSearch search(pyramids);
         for (std::size_t y = begin; y < end; ++y) {
@@ -148,11 +148,11 @@ Image16 cones(const Image16& depth, bool relaxed) {
 
 } // namespace
 
-Image16 empty_cones(const Image16& depth) {
+image::Image16 empty_cones(const image::Image16& depth) {
     return cones(depth, false);
 }
-Image16 relaxed_cones(const Image16& depth) {
+image::Image16 relaxed_cones(const image::Image16& depth) {
     return cones(depth, true);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

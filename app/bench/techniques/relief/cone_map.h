@@ -17,11 +17,11 @@
 
 #include "app/image/image.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// `depth`: codes 0..65535 of a box length from the viewer's side; square, with a power of two texels per
 /// side.
-[[nodiscard]] Image16 empty_cones(const Image16& depth);
-[[nodiscard]] Image16 relaxed_cones(const Image16& depth);
+[[nodiscard]] image::Image16 empty_cones(const image::Image16& depth);
+[[nodiscard]] image::Image16 relaxed_cones(const image::Image16& depth);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -81,12 +81,12 @@ bool search(vec3 start, vec3 along, float leave, out float at) {
 )";
 
 struct Cones { ///< on an axis's low and high surface
-    Image16 low;
-    Image16 high;
+    image::Image16 low;
+    image::Image16 high;
 };
 
 /// The cones of the images along `axis`; 0 on a side without an image.
-Cones cones_of(const ReliefImages& images, int axis, Image16 (*make)(const Image16&)) {
+Cones cones_of(const ReliefImages& images, int axis, image::Image16 (*make)(const image::Image16&)) {
     Cones cones{{images.texels, images.texels}, {images.texels, images.texels}};
     for (const ReliefImage& image : images.images) {
         if (image.axis == axis) {
@@ -103,13 +103,13 @@ Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const Rel
         return bad_input("bench.cone_texels", "cone maps need a power of two of texels, not {}",
                          images.texels);
     }
-    GlTexture relief = make_relief_array(GL_RGBA16UI, images.texels, 1, 6);
+    gl::GlTexture relief = make_relief_array(GL_RGBA16UI, images.texels, 1, 6);
     for (int axis = 0; axis < 3; ++axis) {
-        const Image<glm::u16vec2> material = material_along(images, axis);
+        const image::Image<glm::u16vec2> material = material_along(images, axis);
         const Cones relaxed = cones_of(images, axis, relaxed_cones);
         const Cones empty = cones_of(images, axis, empty_cones);
-        Image<glm::u16vec4> forward(images.texels, images.texels);
-        Image<glm::u16vec4> backward(images.texels, images.texels);
+        image::Image<glm::u16vec4> forward(images.texels, images.texels);
+        image::Image<glm::u16vec4> backward(images.texels, images.texels);
         for (std::size_t k = 0; k < material.texels.size(); ++k) {
             forward.texels[k] = {material.texels[k], relaxed.low.texels[k], empty.high.texels[k]};
             backward.texels[k] = {material.texels[k], empty.low.texels[k], relaxed.high.texels[k]};
@@ -118,8 +118,11 @@ Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const Rel
         set_layer(0, axis, forward);
         set_layer(0, axis + 3, backward);
     }
-    return make_relief_technique(
-        stage, images, {fmt::format("relaxed cone {}", images.texels), "", cone_source, std::move(relief)});
+    return make_relief_technique(stage, images,
+                                 {.name = fmt::format("relaxed cone {}", images.texels),
+                                  .defines = "",
+                                  .source = cone_source,
+                                  .relief = std::move(relief)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -34,15 +34,16 @@ bool search(vec3 start, vec3 along, float leave, out float at) {
 
 Result<std::unique_ptr<Technique>> make_linear_march(const Stage& stage, const ReliefImages& images,
                                                      const LinearBinary& search) {
-    GlTexture relief = make_relief_array(GL_RG16UI, images.texels, 1, 3);
+    gl::GlTexture relief = make_relief_array(GL_RG16UI, images.texels, 1, 3);
     for (int axis = 0; axis < 3; ++axis) {
         set_layer(0, axis, material_along(images, axis));
     }
     return make_relief_technique(
         stage, images,
-        {fmt::format("linear {}+{} {}", search.steps, search.bisections, images.texels),
-         fmt::format("#define STEPS {}\n#define BISECTIONS {}\n", search.steps, search.bisections),
-         linear_source, std::move(relief)});
+        {.name = fmt::format("linear {}+{} {}", search.steps, search.bisections, images.texels),
+         .defines = fmt::format("#define STEPS {}\n#define BISECTIONS {}\n", search.steps, search.bisections),
+         .source = linear_source,
+         .relief = std::move(relief)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-MaxMipmap max_mipmap(Image<glm::u16vec2> material) {
+MaxMipmap max_mipmap(image::Image<glm::u16vec2> material) {
     MaxMipmap levels;
     levels.push_back(std::move(material));
     while (levels.back().width > 1) {
-        const Image<glm::u16vec2>& fine = levels.back();
-        Image<glm::u16vec2> coarse(fine.width / 2, fine.height / 2);
+        const image::Image<glm::u16vec2>& fine = levels.back();
+        image::Image<glm::u16vec2> coarse(fine.width / 2, fine.height / 2);
         for (int y = 0; y < coarse.height; ++y) {
             for (int x = 0; x < coarse.width; ++x) {
                 glm::u16vec2 bound(65535, 0);
@@ -25,4 +25,4 @@ MaxMipmap max_mipmap(Image<glm::u16vec2> material) {
     return levels;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -11,9 +11,9 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
-using MaxMipmap = std::vector<Image<glm::u16vec2>>;
-[[nodiscard]] MaxMipmap max_mipmap(Image<glm::u16vec2> material);
+using MaxMipmap = std::vector<image::Image<glm::u16vec2>>;
+[[nodiscard]] MaxMipmap max_mipmap(image::Image<glm::u16vec2> material);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

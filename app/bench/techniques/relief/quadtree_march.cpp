@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -66,7 +66,7 @@ Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const
                          images.texels);
     }
     const int coarsest = std::bit_width(texels / coarsest_cells) - 1;
-    GlTexture relief = make_relief_array(GL_RG16UI, images.texels, coarsest + 1, 3);
+    gl::GlTexture relief = make_relief_array(GL_RG16UI, images.texels, coarsest + 1, 3);
     for (int axis = 0; axis < 3; ++axis) {
         const MaxMipmap levels = max_mipmap(material_along(images, axis));
         for (int level = 0; level <= coarsest; ++level) {
@@ -74,9 +74,10 @@ Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const
         }
     }
     return make_relief_technique(stage, images,
-                                 {fmt::format("quadtree {}", images.texels),
-                                  fmt::format("#define COARSEST {}\n", coarsest), quadtree_source,
-                                  std::move(relief)});
+                                 {.name = fmt::format("quadtree {}", images.texels),
+                                  .defines = fmt::format("#define COARSEST {}\n", coarsest),
+                                  .source = quadtree_source,
+                                  .relief = std::move(relief)});
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -40,7 +40,7 @@ glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const gl
     return count > 0 ? sum / static_cast<float>(count) : glm::clamp(colour_of_middle, 0.0F, 1.0F);
 }
 
-void rasterize_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
+void rasterize_row(const Truth& truth, const geometry::Box& box, int row, ReliefImage& image) {
     const int texels = image.depth.width;
     const auto [across, down] = image_axes(image.axis);
     const glm::dvec3 size = box.high - box.low;
@@ -64,16 +64,17 @@ void rasterize_row(const Truth& truth, const Box& box, int row, ReliefImage& ima
             static_cast<std::uint16_t>(std::lround(std::clamp(depth, 0.0, 1.0) * depth_codes));
         const glm::vec3 colour =
             colour_of_texel(truth, origin, hit.colour.linear, inward, one_across, one_down);
-        image.colour.at(column, row) = {srgb8_from_linear(colour.r), srgb8_from_linear(colour.g),
-                                        srgb8_from_linear(colour.b), 255};
+        image.colour.at(column, row) = {image::srgb8_from_linear(colour.r),
+                                        image::srgb8_from_linear(colour.g),
+                                        image::srgb8_from_linear(colour.b), 255};
     }
 }
 
 /// Gives one ring of texels around the coloured texels the mean of their neighbours; `known` marks coloured
 /// texels.
-void continue_colours(Image8& colour, Image<std::uint8_t>& known) {
-    const Image8 before = colour;
-    const Image<std::uint8_t> known_before = known;
+void continue_colours(image::Image8& colour, image::Image<std::uint8_t>& known) {
+    const image::Image8 before = colour;
+    const image::Image<std::uint8_t> known_before = known;
     const auto mend = [&](int x, int y) {
         glm::ivec3 sum(0);
         int count = 0;
@@ -114,9 +115,12 @@ std::uint8_t squareness(const ReliefImage& image, const glm::dvec3& size, const 
     return static_cast<std::uint8_t>(std::max(std::lround(255.0 * cosine), 1L));
 }
 
-ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& normal, int texels) {
+ReliefImage cast_image(const Truth& truth, const geometry::Box& box, const glm::dvec3& normal, int texels) {
     const int axis = axis_of(normal);
-    ReliefImage image{axis, normal[axis] > 0.0, {texels, texels}, {texels, texels, no_depth}};
+    ReliefImage image{.axis = axis,
+                      .high = normal[axis] > 0.0,
+                      .colour = {texels, texels},
+                      .depth = {texels, texels, no_depth}};
     parallel_for(static_cast<std::size_t>(texels), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
             rasterize_row(truth, box, static_cast<int>(row), image);
@@ -129,7 +133,7 @@ ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& nor
             }
         }
     }
-    Image<std::uint8_t> known(texels, texels);
+    image::Image<std::uint8_t> known(texels, texels);
     for (std::size_t k = 0; k < known.texels.size(); ++k) {
         known.texels[k] = image.depth.texels[k] != no_depth ? 1 : 0;
     }
@@ -141,9 +145,9 @@ ReliefImage cast_image(const Truth& truth, const Box& box, const glm::dvec3& nor
 
 } // namespace
 
-Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
-    Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
-            glm::dvec3(-std::numeric_limits<double>::infinity())};
+geometry::Box placed_box(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
+    geometry::Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                      glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) {
             const glm::dvec3 placed(prop_from_artifact * glm::dvec4(mesh.positions[corner], 1.0));
@@ -153,24 +157,24 @@ Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
     return box;
 }
 
-ReliefImages rasterize_relief_images(const Truth& truth, const Box& artifact, const PropShape& prop,
-                                     int texels) {
+ReliefImages rasterize_relief_images(const Truth& truth, const geometry::Box& artifact,
+                                     const geometry::PropShape& prop, int texels) {
     // A flat artifact also needs a box with a volume.
     const glm::dvec3 size = artifact.high - artifact.low;
     const double longest = std::max({size.x, size.y, size.z});
     const glm::dvec3 rim = glm::max(size, glm::dvec3(1e-3 * longest)) *
                            (static_cast<double>(rim_texels) / (texels - 2 * rim_texels));
     ReliefImages result{{artifact.low - rim, artifact.high + rim}, texels, {}};
-    for (const PropFace& face : prop.faces) {
+    for (const geometry::PropFace& face : prop.faces) {
         result.images.push_back(cast_image(truth, result.box, face.plane.normal, texels));
     }
     return result;
 }
 
-Image<glm::u16vec2> material_along(const ReliefImages& images, int axis) {
+image::Image<glm::u16vec2> material_along(const ReliefImages& images, int axis) {
     constexpr double codes = 65535.0;
     const auto code = [&](double box) { return static_cast<std::uint16_t>(std::lround(box * codes)); };
-    Image<glm::u16vec2> material(images.texels, images.texels, glm::u16vec2(0, 65535));
+    image::Image<glm::u16vec2> material(images.texels, images.texels, glm::u16vec2(0, 65535));
     for (const ReliefImage& image : images.images) {
         for (std::size_t k = 0; image.axis == axis && k < material.texels.size(); ++k) {
             glm::u16vec2& at = material.texels[k];
@@ -185,4 +189,4 @@ Image<glm::u16vec2> material_along(const ReliefImages& images, int axis) {
     return material;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

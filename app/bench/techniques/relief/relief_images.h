@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr std::uint16_t no_depth = 65535;
 inline constexpr double depth_codes = 65534.0; ///< per box length
@@ -29,12 +29,12 @@ struct ReliefImage {
     bool high = true; ///< looks at the box's high side, against the axis
     /// sRGB; alpha 1..255: the cosine between the surface's normal and the line of sight; 0 = no hit; around
     /// hits, their colours continue for a few texels.
-    Image8 colour;
-    Image16 depth; ///< from the box's side, in 1 / depth_codes of the box; no_depth = no hit
+    image::Image8 colour;
+    image::Image16 depth; ///< from the box's side, in 1 / depth_codes of the box; no_depth = no hit
 };
 
 struct ReliefImages {
-    Box box; ///< with an empty margin of texels around the artifact
+    geometry::Box box; ///< with an empty margin of texels around the artifact
     int texels = 0;
     std::vector<ReliefImage> images; ///< one per face of the prop, in that order
 };
@@ -45,15 +45,15 @@ struct ReliefImages {
 }
 
 /// The placed mesh's box.
-[[nodiscard]] Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
+[[nodiscard]] geometry::Box placed_box(const bake::SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
 
 /// `artifact`: its box in the prop's frame. At least 8 texels.
-[[nodiscard]] ReliefImages rasterize_relief_images(const Truth& truth, const Box& artifact,
-                                                   const PropShape& prop, int texels);
+[[nodiscard]] ReliefImages rasterize_relief_images(const Truth& truth, const geometry::Box& artifact,
+                                                   const geometry::PropShape& prop, int texels);
 
 /// Dual-depth relief (Policarpo, Oliveira & Comba 2005): where material may be along an axis, from the two
 /// images that look along it; codes 0..65535 of box coordinates, (65535, 0) = no material. A side without an
 /// image counts as solid up to the box's end.
-[[nodiscard]] Image<glm::u16vec2> material_along(const ReliefImages& images, int axis);
+[[nodiscard]] image::Image<glm::u16vec2> material_along(const ReliefImages& images, int axis);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -19,7 +19,7 @@
 
 #include <memory>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 /// Linear search, then bisection between the last two steps.
 /// Source   Policarpo, Oliveira & Comba, Real-time relief mapping on arbitrary polygonal surfaces, 2005.
@@ -48,4 +48,4 @@ make_linear_march(const Stage& stage, const ReliefImages& images, const LinearBi
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage,
                                                                      const ReliefImages& images);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -47,7 +47,7 @@ private:
     }
     [[nodiscard]] glm::dvec3 point(const glm::ivec2& at) const {
         const auto [across, down] = image_axes(image_.axis);
-        const Box& box = images_.box;
+        const geometry::Box& box = images_.box;
         glm::dvec3 result;
         result[across] = box.low[across] + size_[across] * (at.x + 0.5) / images_.texels;
         result[down] = box.low[down] + size_[down] * (at.y + 0.5) / images_.texels;
@@ -137,7 +137,7 @@ private:
     glm::dvec3 size_;
     double texel_m_;
     Grid grid_;
-    Image<std::uint32_t> vertices_; ///< index of each texel's vertex, once it has one
+    image::Image<std::uint32_t> vertices_; ///< index of each texel's vertex, once it has one
 };
 
 /// Reduces the triangles as far as the tolerance allows.
@@ -166,14 +166,18 @@ void simplify(Grid& grid, double tolerance_m) {
 
 } // namespace
 
-SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m) {
-    SourceMesh mesh;
+bake::SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m) {
+    bake::SourceMesh mesh;
     for (const ReliefImage& image : images.images) {
         Grid grid = GridMaker(images, image).make();
         simplify(grid, tolerance_m);
         const auto material = static_cast<std::uint32_t>(mesh.materials.size());
-        mesh.textures.push_back({std::make_shared<const Image8>(image.colour), Wrap::Clamp, Wrap::Clamp});
-        mesh.materials.push_back({glm::vec4(1.0F), static_cast<int>(material), false, 0.5F});
+        mesh.textures.push_back(
+            {std::make_shared<const image::Image8>(image.colour), bake::Wrap::Clamp, bake::Wrap::Clamp});
+        mesh.materials.push_back({.base_colour = glm::vec4(1.0F),
+                                  .texture = static_cast<int>(material),
+                                  .alpha_mask = false,
+                                  .alpha_cutoff = 0.5F});
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), grid.positions.begin(), grid.positions.end());
         mesh.uvs.insert(mesh.uvs.end(), grid.uvs.begin(), grid.uvs.end());
@@ -185,4 +189,4 @@ SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m) {
     return mesh;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

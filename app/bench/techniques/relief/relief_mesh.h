@@ -18,10 +18,10 @@
 
 #include "app/bench/techniques/relief/relief_images.h"
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 inline constexpr double single_layer_tolerance_m = 1e-4;
 
-[[nodiscard]] SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m);
+[[nodiscard]] bake::SourceMesh single_layer_mesh(const ReliefImages& images, double tolerance_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -9,10 +9,10 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
-                                                  const SourceMesh& mesh,
+                                                  const bake::SourceMesh& mesh,
                                                   const glm::dmat4& prop_from_artifact, int texels) {
     const ReliefImages images =
         rasterize_relief_images(truth, placed_box(mesh, prop_from_artifact), stage.prop, texels);
@@ -24,7 +24,7 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         TRY_VOID(march);
         peers.push_back({std::move(*march), 0});
     }
-    const SourceMesh grids = single_layer_mesh(images, single_layer_tolerance_m);
+    const bake::SourceMesh grids = single_layer_mesh(images, single_layer_tolerance_m);
     TRY(std::shared_ptr<const PeerMesh> warped, PeerMesh::upload(grids, glm::dmat4(1.0), true));
     TRY(std::unique_ptr<Technique> warp,
         make_full_mesh(stage, std::move(warped), nullptr, fmt::format("relief warp {}", texels)));
@@ -32,4 +32,4 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
     return peers;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct ReliefPeer {
     std::unique_ptr<Technique> technique;
@@ -19,8 +19,8 @@ struct ReliefPeer {
 
 /// `texels`: side of a relief image, a power of two.
 [[nodiscard]] Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
-                                                                const SourceMesh& mesh,
+                                                                const bake::SourceMesh& mesh,
                                                                 const glm::dmat4& prop_from_artifact,
                                                                 int texels);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

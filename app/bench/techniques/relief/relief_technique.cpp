@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 namespace {
 
@@ -99,8 +99,8 @@ void main() {
     }
 })";
 
-GlTexture upload_colours(const ReliefImages& images) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture upload_colours(const ReliefImages& images) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.get());
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_SRGB8_ALPHA8, images.texels, images.texels, 6);
     for (const ReliefImage& image : images.images) {
@@ -131,15 +131,16 @@ std::string constants_of(const ReliefImages& images) {
 
 struct ReliefGl {
     OutputPrograms programs;
-    GlTexture relief;
-    GlTexture colours;
+    gl::GlTexture relief;
+    gl::GlTexture colours;
 };
 
 class ReliefTechnique final : public PeerTechnique {
 public:
-    ReliefTechnique(const Stage& stage, const Box& box, std::string name, ReliefGl gl, OffscreenTarget points)
+    ReliefTechnique(const Stage& stage, const geometry::Box& box, std::string name, ReliefGl gl,
+                    OffscreenTarget points)
         : PeerTechnique(stage, std::move(name), std::move(points)), box_(box), gl_(std::move(gl)),
-          array_(GlVertexArray::generate()), corners_(GlBuffer::generate()) {
+          array_(gl::GlVertexArray::generate()), corners_(gl::GlBuffer::generate()) {
         glBindVertexArray(array_.get());
         glBindBuffer(GL_ARRAY_BUFFER, corners_.get());
         glEnableVertexAttribArray(0);
@@ -178,7 +179,7 @@ private:
     void draw_shadows(const PeerView& view) const {
         std::vector<glm::vec3> corners;
         std::vector<GLint> ends;
-        for (const PropFace* face : view.faces) {
+        for (const geometry::PropFace* face : view.faces) {
             for (const glm::dvec3& corner : shadow_on_face(*face, view.eye_m, box_)) {
                 corners.emplace_back(corner);
             }
@@ -196,13 +197,13 @@ private:
         glBindVertexArray(0);
     }
 
-    Box box_;
+    geometry::Box box_;
     ReliefGl gl_;
-    GlVertexArray array_;
-    GlBuffer corners_;
+    gl::GlVertexArray array_;
+    gl::GlBuffer corners_;
 };
 
-glm::dvec3 corner_of(const Box& box, unsigned k) {
+glm::dvec3 corner_of(const geometry::Box& box, unsigned k) {
     return {(k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
             (k & 4U) != 0 ? box.high.z : box.low.z};
 }
@@ -230,7 +231,8 @@ void cut(std::vector<glm::dvec3>& polygon, const glm::dvec3& eye, const glm::dve
     polygon = std::move(result);
 }
 
-template <typename Texel> void set_layer_of(int level, int layer, GLenum format, const Image<Texel>& image) {
+template <typename Texel>
+void set_layer_of(int level, int layer, GLenum format, const image::Image<Texel>& image) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, image.width, image.height, 1, format,
                     GL_UNSIGNED_SHORT, image.texels.data());
@@ -238,7 +240,8 @@ template <typename Texel> void set_layer_of(int level, int layer, GLenum format,
 
 } // namespace
 
-std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& eye_m, const Box& box) {
+std::vector<glm::dvec3> shadow_on_face(const geometry::PropFace& face, const glm::dvec3& eye_m,
+                                       const geometry::Box& box) {
     std::vector<glm::dvec3> polygon(face.corners.begin(), face.corners.end());
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     const auto faces_eye = [&](int axis, bool high) {
@@ -261,8 +264,8 @@ std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& e
     return polygon;
 }
 
-GlTexture make_relief_array(GLenum format, int texels, int levels, int layers) {
-    GlTexture texture = GlTexture::generate();
+gl::GlTexture make_relief_array(GLenum format, int texels, int levels, int layers) {
+    gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.get());
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, format, texels, texels, layers);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
@@ -271,10 +274,10 @@ GlTexture make_relief_array(GLenum format, int texels, int levels, int layers) {
     return texture;
 }
 
-void set_layer(int level, int layer, const Image<glm::u16vec2>& image) {
+void set_layer(int level, int layer, const image::Image<glm::u16vec2>& image) {
     set_layer_of(level, layer, GL_RG_INTEGER, image);
 }
-void set_layer(int level, int layer, const Image<glm::u16vec4>& image) {
+void set_layer(int level, int layer, const image::Image<glm::u16vec4>& image) {
     set_layer_of(level, layer, GL_RGBA_INTEGER, image);
 }
 
@@ -295,4 +298,4 @@ Result<std::unique_ptr<Technique>> make_relief_technique(const Stage& stage, con
                                              std::move(points));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

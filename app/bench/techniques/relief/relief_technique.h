@@ -21,26 +21,26 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::bench {
 
 struct ReliefSearch {
     std::string name;
     std::string defines;
     std::string_view source;
-    GlTexture relief; ///< the array read by `source`
+    gl::GlTexture relief; ///< the array read by `source`
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
 make_relief_technique(const Stage& stage, const ReliefImages& images, ReliefSearch search);
 
 /// An array of `layers` unsigned 16-bit images with `levels` mip levels, read by texelFetch.
-[[nodiscard]] GlTexture make_relief_array(GLenum format, int texels, int levels, int layers);
+[[nodiscard]] gl::GlTexture make_relief_array(GLenum format, int texels, int levels, int layers);
 /// Writes an image into the bound array.
-void set_layer(int level, int layer, const Image<glm::u16vec2>& image);
-void set_layer(int level, int layer, const Image<glm::u16vec4>& image);
+void set_layer(int level, int layer, const image::Image<glm::u16vec2>& image);
+void set_layer(int level, int layer, const image::Image<glm::u16vec4>& image);
 
 /// The part of a face whose eye rays meet the box: convex, in the order of the face's corners; may be empty.
-[[nodiscard]] std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& eye_m,
-                                                     const Box& box);
+[[nodiscard]] std::vector<glm::dvec3> shadow_on_face(const geometry::PropFace& face, const glm::dvec3& eye_m,
+                                                     const geometry::Box& box);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::bench

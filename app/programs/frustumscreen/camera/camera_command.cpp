@@ -18,7 +18,7 @@
 #include <optional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -53,20 +53,21 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 /// Takes the camera's frames until the time is over or a stop is requested; prints each new state to standard error.
-void look(Camera& camera, const Request& request, const StopSignals& stop, CameraReport& report) {
+void look(camera::Camera& camera, const Request& request, const service::StopSignals& stop,
+          CameraReport& report) {
     ProgressLine progress("watched seconds");
-    CameraFrame frame;
+    camera::CameraFrame frame;
     MonotonicTime now = report.begun;
     report.state = camera.state();
     report.changes.push_back({now, report.state});
     for (; to_seconds(now - report.begun) < request.seconds && !stop.received(); now = monotonic_now()) {
         if (camera.poll(frame)) {
-            report.last_look = look_at(frame.luma);
+            report.last_look = camera::look_at(frame.luma);
         }
-        if (const CameraState state = camera.state(); state != report.state) {
+        if (const camera::CameraState state = camera.state(); state != report.state) {
             report.state = state;
             report.changes.push_back({now, state});
-            fmt::print(stderr, "frustumscreen: {}\n", sentence_of(state));
+            fmt::print(stderr, "frustumscreen: {}\n", camera::sentence_of(state));
         }
         progress.show(static_cast<std::size_t>(to_seconds(now - report.begun)),
                       static_cast<std::size_t>(std::ceil(request.seconds)));
@@ -79,16 +80,16 @@ void look(Camera& camera, const Request& request, const StopSignals& stop, Camer
 }
 
 /// `camera` is the caller's to close, because its thread may hang in the device.
-Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
-    const StopSignals stop;
-    TRY(const CheckedSettings settings, load_settings(request.config));
-    const CameraSettings& requested = settings->camera;
+Result<int> run(const Request& request, std::unique_ptr<camera::Camera>& camera) {
+    const service::StopSignals stop;
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    const settings::CameraSettings& requested = settings->camera;
     CameraReport report;
-    report.is_on = requested.kind == CameraKind::V4l2;
+    report.is_on = requested.kind == settings::CameraKind::V4l2;
     if (request.is_on) {
         return report.is_on ? 0 : 1;
     }
-    report.found = list_cameras(*kernel_v4l2_devices(), camera_request(requested));
+    report.found = camera::list_cameras(*camera::kernel_v4l2_devices(), camera_request(requested));
     report.begun = monotonic_now();
     if (report.is_on) {
         camera = make_camera(requested);
@@ -96,7 +97,7 @@ Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     }
     const std::string text = request.json ? camera_json(report) : camera_text(report, requested);
     fmt::print("{}", text);
-    return report.is_on && health_of(report.state) != CameraHealth::Well ? 1 : 0;
+    return report.is_on && camera::health_of(report.state) != camera::CameraHealth::Well ? 1 : 0;
 }
 
 } // namespace
@@ -106,12 +107,12 @@ int camera_command(int argc, char** argv) {
     if (const std::optional<int> end = read_arguments(argc, argv, request)) {
         return *end;
     }
-    std::unique_ptr<Camera> camera;
+    std::unique_ptr<camera::Camera> camera;
     const Result<int> ran = run(request, camera);
     const int status = ran ? *ran : exit_status("frustumscreen", tl::unexpected<Error>(ran.error()));
     std::fflush(stdout);
-    end_within(longest_stop, status);
+    service::end_within(longest_stop, status);
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -6,22 +6,23 @@
 
 #include <algorithm>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string mode_text(const CameraMode& mode) {
+std::string mode_text(const camera::CameraMode& mode) {
     const std::string rate =
         mode.rate_hz > 0.0 ? fmt::format(" at {:.4g} Hz", mode.rate_hz) : " at an unknown rate";
-    return fmt::format("{} {} x {}{}", name_of(mode.format), mode.width, mode.height, rate);
+    return fmt::format("{} {} x {}{}", camera::name_of(mode.format), mode.width, mode.height, rate);
 }
 
-std::string found_text(const FoundCamera& camera) {
-    const auto largest = std::max_element(
-        camera.modes.begin(), camera.modes.end(),
-        [](const CameraMode& a, const CameraMode& b) { return a.width * a.height < b.width * b.height; });
+std::string found_text(const camera::FoundCamera& camera) {
+    const auto largest = std::max_element(camera.modes.begin(), camera.modes.end(),
+                                          [](const camera::CameraMode& a, const camera::CameraMode& b) {
+                                              return a.width * a.height < b.width * b.height;
+                                          });
     const std::string modes =
         largest == camera.modes.end()
             ? "sends no format that can be read"
@@ -29,29 +30,29 @@ std::string found_text(const FoundCamera& camera) {
     return fmt::format("{}: \"{}\" at {}; {}", camera.path, camera.name, camera.bus, modes);
 }
 
-std::string control_text(const LockedControl& control) {
-    return control.lock == Lock::NotThere
-               ? std::string(name_of(control.lock))
+std::string control_text(const camera::LockedControl& control) {
+    return control.lock == camera::Lock::NotThere
+               ? std::string(camera::name_of(control.lock))
                : fmt::format("{:.6g}{}{}, {}", control.value, control.unit.empty() ? "" : " ", control.unit,
-                             name_of(control.lock));
+                             camera::name_of(control.lock));
 }
 
 void add(std::string& text, std::string_view name, const std::string& what) {
     text += fmt::format("{:<15}{}\n", name, what);
 }
 
-Json json_of(const CameraMode& mode) {
-    return {{"format", name_of(mode.format)},
+Json json_of(const camera::CameraMode& mode) {
+    return {{"format", camera::name_of(mode.format)},
             {"width", mode.width},
             {"height", mode.height},
             {"rate_hz", mode.rate_hz}};
 }
 
-Json json_of(const CameraSetUp& set_up) {
+Json json_of(const camera::CameraSetUp& set_up) {
     Json controls = Json::array();
-    for (const LockedControl& control : set_up.controls) {
+    for (const camera::LockedControl& control : set_up.controls) {
         controls.push_back({{"name", control.name},
-                            {"lock", name_of(control.lock)},
+                            {"lock", camera::name_of(control.lock)},
                             {"value", control.value},
                             {"unit", control.unit}});
     }
@@ -64,9 +65,9 @@ Json json_of(const CameraSetUp& set_up) {
 
 } // namespace
 
-std::string camera_text(const CameraReport& report, const CameraSettings& requested) {
+std::string camera_text(const CameraReport& report, const settings::CameraSettings& requested) {
     std::string text;
-    for (const FoundCamera& camera : report.found) {
+    for (const camera::FoundCamera& camera : report.found) {
         add(text, "found", found_text(camera));
     }
     if (report.found.empty()) {
@@ -80,29 +81,30 @@ std::string camera_text(const CameraReport& report, const CameraSettings& reques
         add(text, "mode",
             fmt::format("{}; the settings ask for {} x {} at {:.4g} Hz", mode_text(report.set_up->mode),
                         requested.width, requested.height, requested.rate_hz));
-        for (const LockedControl& control : report.set_up->controls) {
+        for (const camera::LockedControl& control : report.set_up->controls) {
             add(text, control.name, control_text(control));
         }
     }
-    const CameraCounts& counts = report.counts;
+    const camera::CameraCounts& counts = report.counts;
     add(text, "frames",
         fmt::format("{} in {:.1f} s, {:.1f} a second of late; {} lost, {} broken, {} overtaken",
                     counts.frames, report.seconds, report.rate_hz, counts.lost, counts.broken,
                     counts.overtaken));
     if (report.last_look) {
-        const FrameLook& look = *report.last_look;
+        const camera::FrameLook& look = *report.last_look;
         add(text, "brightness",
             fmt::format("darkest {}, median {}, brightest {} of 255", look.darkest, look.median,
                         look.brightest));
     }
-    return text + fmt::format("{}: {}\n", name_of(health_of(report.state)), sentence_of(report.state));
+    return text + fmt::format("{}: {}\n", camera::name_of(camera::health_of(report.state)),
+                              camera::sentence_of(report.state));
 }
 
 std::string camera_json(const CameraReport& report) {
     Json found = Json::array();
-    for (const FoundCamera& camera : report.found) {
+    for (const camera::FoundCamera& camera : report.found) {
         Json modes = Json::array();
-        for (const CameraMode& mode : camera.modes) {
+        for (const camera::CameraMode& mode : camera.modes) {
             modes.push_back(json_of(mode));
         }
         found.push_back(
@@ -114,11 +116,11 @@ std::string camera_json(const CameraReport& report) {
         for (const CameraChange& change : report.changes) {
             changes.push_back({{"at_s", to_seconds(change.at.time_since_epoch())},
                                {"after_s", to_seconds(change.at - report.begun)},
-                               {"health", name_of(health_of(change.state))},
-                               {"sentence", sentence_of(change.state)}});
+                               {"health", camera::name_of(camera::health_of(change.state))},
+                               {"sentence", camera::sentence_of(change.state)}});
         }
-        json["health"] = name_of(health_of(report.state));
-        json["sentence"] = sentence_of(report.state);
+        json["health"] = camera::name_of(camera::health_of(report.state));
+        json["sentence"] = camera::sentence_of(report.state);
         json["set_up"] = report.set_up ? json_of(*report.set_up) : Json();
         json["seconds"] = report.seconds;
         json["rate_hz"] = report.rate_hz;
@@ -137,4 +139,4 @@ std::string camera_json(const CameraReport& report) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; // camera names may be any bytes
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

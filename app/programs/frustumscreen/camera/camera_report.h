@@ -12,27 +12,27 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct CameraChange {
     MonotonicTime at; ///< monotonic clock, as in the kernel's log
-    CameraState state = CameraState::NotConnected;
+    camera::CameraState state = camera::CameraState::NotConnected;
 };
 
 struct CameraReport {
-    std::vector<FoundCamera> found;
+    std::vector<camera::FoundCamera> found;
     bool is_on = false; ///< switched on in the settings; if not, all that follows is empty
     MonotonicTime begun;
     double seconds = 0.0;
-    CameraState state = CameraState::NotConnected;
-    std::optional<CameraSetUp> set_up;
-    CameraCounts counts;
+    camera::CameraState state = camera::CameraState::NotConnected;
+    std::optional<camera::CameraSetUp> set_up;
+    camera::CameraCounts counts;
     double rate_hz = 0.0;
-    std::optional<FrameLook> last_look;
+    std::optional<camera::FrameLook> last_look;
     std::vector<CameraChange> changes; ///< the first is the state at the start
 };
 
-[[nodiscard]] std::string camera_text(const CameraReport& report, const CameraSettings& requested);
+[[nodiscard]] std::string camera_text(const CameraReport& report, const settings::CameraSettings& requested);
 [[nodiscard]] std::string camera_json(const CameraReport& report);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -50,15 +50,15 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 
 Result<void> print_config(const Request& request) {
     if (request.describe) {
-        fmt::print("{}", settings_page());
+        fmt::print("{}", settings::settings_page());
         return {};
     }
-    TRY(const CheckedSettings settings, load_settings(request.config));
-    for (const std::string& missing : missing_files(*settings)) {
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    for (const std::string& missing : settings::missing_files(*settings)) {
         say_line("frustumscreen", missing);
     }
     if (!request.explain) {
-        fmt::print("{}", config_json(settings));
+        fmt::print("{}", settings::config_json(settings));
         return {};
     }
     const std::string& zone = settings->hours.time_zone;
@@ -78,4 +78,4 @@ int config_command(int argc, char** argv) {
     return exit_status("frustumscreen", print_config(request));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

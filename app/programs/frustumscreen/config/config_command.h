@@ -2,8 +2,8 @@
 /// settings.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 int config_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

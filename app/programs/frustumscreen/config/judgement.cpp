@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -38,12 +38,12 @@ struct Page {
     std::vector<std::string> faults; ///< findings that need attention
 };
 
-double em_m(const Settings& settings) {
-    return std::max(settings.exhibit.caption_height_m, min_caption_em_m);
+double em_m(const settings::Settings& settings) {
+    return std::max(settings.exhibit.caption_height_m, typography::min_caption_em_m);
 }
 
 /// Minutes of arc of a capital at an em of one metre, flat on the table's middle, seen from the default eye.
-double arcmin_per_em_m(const EyeSettings& eye) {
+double arcmin_per_em_m(const settings::EyeSettings& eye) {
     const double distance = glm::length(eye.default_m);
     const double foreshortened = eye.default_m.z / distance;
     return 60.0 * glm::degrees(capital_em * foreshortened / distance);
@@ -55,12 +55,12 @@ double rounded_up(double metres) {
     return std::ceil(1e3 * metres - rounding) / 1e3;
 }
 
-void judge_letters(const Settings& settings, Page& page) {
+void judge_letters(const settings::Settings& settings, Page& page) {
     if (!settings.exhibit.captions) {
         page.text += "  Captions are left out.\n";
         return;
     }
-    const ProjectorSettings& projector = settings.projector;
+    const settings::ProjectorSettings& projector = settings.projector;
     const double px_per_m = std::min(projector.pinhole.fx, projector.pinhole.fy) /
                             glm::length(projector.table_from_projector.translation);
     const double em = em_m(settings);
@@ -84,9 +84,9 @@ void judge_letters(const Settings& settings, Page& page) {
     }
 }
 
-void judge_caption_room(const Settings& settings, const std::vector<NamedPack>& packs, const Rectangle& zone,
-                        Page& page) {
-    if (!settings.exhibit.captions || packs.empty() || settings.prop.zone == PropZone::Hand ||
+void judge_caption_room(const settings::Settings& settings, const std::vector<NamedPack>& packs,
+                        const settings::Rectangle& zone, Page& page) {
+    if (!settings.exhibit.captions || packs.empty() || settings.prop.zone == settings::PropZone::Hand ||
         packs.front().entry.languages.empty()) {
         return;
     }
@@ -102,22 +102,23 @@ void judge_caption_room(const Settings& settings, const std::vector<NamedPack>& 
     }
 }
 
-std::string size_words(const Rectangle& zone) {
+std::string size_words(const settings::Rectangle& zone) {
     return fmt::format("{:.0f} x {:.0f} cm", 200.0 * zone.half_m.x, 200.0 * zone.half_m.y);
 }
 
-bool is_narrow(const Rectangle& zone) {
+bool is_narrow(const settings::Rectangle& zone) {
     return 2.0 * zone.half_m.x < min_zone_m.x || 2.0 * zone.half_m.y < min_zone_m.y;
 }
 
 /// Suggests the wider zoom of the lens at which the zone is wide enough to play in.
-std::string wider_picture(Settings settings, const std::vector<glm::dvec3>& hull) {
-    const Pinhole& pinhole = settings.projector.pinhole;
+std::string wider_picture(settings::Settings settings, const std::vector<glm::dvec3>& hull) {
+    const geometry::Pinhole& pinhole = settings.projector.pinhole;
     for (int step = 0; step < 12; ++step) {
         constexpr double wider = 0.95;
         settings.projector.pinhole.fx *= wider;
         settings.projector.pinhole.fy *= wider;
-        const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), hull).rectangle;
+        const settings::Rectangle zone =
+            settings::whole_zone(settings, settings::all_eyes(settings.eye), hull).rectangle;
         if (!is_narrow(zone)) {
             return fmt::format("With a throw ratio of {:.2f} in place of {:.2f} it is {}",
                                pinhole.fx / pinhole.width,
@@ -128,16 +129,19 @@ std::string wider_picture(Settings settings, const std::vector<glm::dvec3>& hull
 }
 
 /// Returns the zone of the first artifact; without packs, that of a typical artifact.
-Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
-    std::optional<Rectangle> first;
+settings::Rectangle judge_zone(const settings::Settings& settings, const std::vector<NamedPack>& packs,
+                               Page& page) {
+    std::optional<settings::Rectangle> first;
     const auto judge = [&](const std::string& name, const std::vector<glm::dvec3>& hull) {
-        const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), hull).rectangle;
+        const settings::Rectangle zone =
+            settings::whole_zone(settings, settings::all_eyes(settings.eye), hull).rectangle;
         first = first.value_or(zone);
-        page.text +=
-            fmt::format("  {} is seen whole from all around while the prop is within {}; by eyes as high as "
-                        "eye.default_m, within {}.\n",
-                        name, size_words(zone),
-                        size_words(whole_zone(settings, eyes_like_default(settings.eye), hull).rectangle));
+        page.text += fmt::format(
+            "  {} is seen whole from all around while the prop is within {}; by eyes as high as "
+            "eye.default_m, within {}.\n",
+            name, size_words(zone),
+            size_words(
+                settings::whole_zone(settings, settings::eyes_like_default(settings.eye), hull).rectangle));
         if (is_narrow(zone)) {
             page.faults.push_back(
                 fmt::format("The zone is too narrow to play in: {} is seen whole within {}, and {:.0f} x "
@@ -146,14 +150,15 @@ Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& pac
                             wider_picture(settings, hull)));
         }
     };
-    if (settings.prop.zone == PropZone::Hand) {
-        return whole_zone(settings, all_eyes(settings.eye), {}).rectangle; // setup_page prints it
+    if (settings.prop.zone == settings::PropZone::Hand) {
+        return settings::whole_zone(settings, settings::all_eyes(settings.eye), {})
+            .rectangle; // setup_page prints it
     }
     for (const NamedPack& pack : packs) {
         judge("\"" + pack.description.title + "\"", pack.hull);
     }
     if (packs.empty()) {
-        const std::vector<glm::dvec3> usual = usual_artifact(make_prop(settings.prop));
+        const std::vector<glm::dvec3> usual = settings::usual_artifact(settings::make_prop(settings.prop));
         judge(fmt::format("An artifact {:.0f} mm high and {:.0f} mm wide", 1e3 * settings.prop.height_m,
                           650.0 * settings.prop.height_m),
               usual);
@@ -161,34 +166,34 @@ Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& pac
     return *first;
 }
 
-void judge_words(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
+void judge_words(const settings::Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
     if (settings.exhibit.words.empty()) {
         page.text += "  The exhibit has no words of its own: exhibit.words is left out.\n";
         return;
     }
-    const Result<std::vector<WordsLanguage>> listed =
-        read_file(settings.exhibit.words).and_then([](const Bytes& file) { return list_words(file); });
+    const Result<std::vector<pack::WordsLanguage>> listed =
+        read_file(settings.exhibit.words).and_then([](const Bytes& file) { return pack::list_words(file); });
     if (!listed) {
         page.text += "  exhibit.words cannot be read, and is not judged.\n";
         return;
     }
     std::vector<std::string> there;
     std::transform(listed->begin(), listed->end(), std::back_inserter(there),
-                   [](const WordsLanguage& language) { return language.language; });
+                   [](const pack::WordsLanguage& language) { return language.language; });
     page.text += fmt::format("  The exhibit's own words are in {}.\n", fmt::join(there, ", "));
     std::vector<std::string> wanted{settings.exhibit.language};
     for (const NamedPack& pack : packs) {
         for (const std::string& language : pack.entry.languages) {
-            add_language(wanted, language);
+            exhibit::add_language(wanted, language);
         }
     }
     std::vector<std::string> missing;
     std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
-                 [&](const std::string& language) { return !has_language(there, language); });
+                 [&](const std::string& language) { return !exhibit::has_language(there, language); });
     if (missing.empty()) {
         return;
     }
-    const std::string instead = there[caption_for(missing.front(), there)];
+    const std::string instead = there[exhibit::caption_for(missing.front(), there)];
     std::vector<std::string> all = there;
     all.insert(all.end(), missing.begin(), missing.end());
     page.faults.push_back(
@@ -197,9 +202,9 @@ void judge_words(const Settings& settings, const std::vector<NamedPack>& packs, 
                     fmt::join(missing, ", "), instead, fmt::join(all, ","), settings.exhibit.words.string()));
 }
 
-void judge_language(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
+void judge_language(const settings::Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
     const bool has = packs.empty() || std::any_of(packs.begin(), packs.end(), [&](const NamedPack& pack) {
-                         return has_language(pack.entry.languages, settings.exhibit.language);
+                         return exhibit::has_language(pack.entry.languages, settings.exhibit.language);
                      });
     if (!has) {
         page.faults.push_back(
@@ -209,7 +214,7 @@ void judge_language(const Settings& settings, const std::vector<NamedPack>& pack
 
 } // namespace
 
-std::string judgement_page(const Settings& settings, std::chrono::sys_seconds now) {
+std::string judgement_page(const settings::Settings& settings, std::chrono::sys_seconds now) {
     const std::vector<NamedPack> packs = named_packs(settings);
     Page page;
     page.text = "What visitors get\n";
@@ -217,7 +222,7 @@ std::string judgement_page(const Settings& settings, std::chrono::sys_seconds no
         page.text += fmt::format("  Of {} packs {} cannot be read, and are not judged.\n",
                                  settings.exhibit.packs.size(), unread);
     }
-    const Rectangle zone = judge_zone(settings, packs, page);
+    const settings::Rectangle zone = judge_zone(settings, packs, page);
     judge_letters(settings, page);
     judge_caption_room(settings, packs, zone, page);
     judge_words(settings, packs, page);
@@ -230,4 +235,4 @@ std::string judgement_page(const Settings& settings, std::chrono::sys_seconds no
     return page.text + (page.faults.empty() ? "  Nothing.\n" : "");
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -14,8 +14,8 @@
 #include <chrono>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] std::string judgement_page(const Settings& settings, std::chrono::sys_seconds now);
+[[nodiscard]] std::string judgement_page(const settings::Settings& settings, std::chrono::sys_seconds now);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,24 +13,24 @@
 #include <optional>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
-std::optional<NamedPack> read(const Settings& settings, const std::filesystem::path& file) {
-    const PropShape prop = make_prop(settings.prop);
-    const auto no_levels = [](const PackOutline&) { return Result<std::vector<std::uint32_t>>(); };
-    const Result<VerifiedPack> pack = load_pack(file, no_levels);
+std::optional<NamedPack> read(const settings::Settings& settings, const std::filesystem::path& file) {
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const auto no_levels = [](const pack::PackOutline&) { return Result<std::vector<std::uint32_t>>(); };
+    const Result<pack::VerifiedPack> pack = pack::load_pack(file, no_levels);
     if (!pack) {
         return std::nullopt;
     }
     NamedPack named{**pack, {}, {}};
     std::vector<std::size_t> captions(named.description.captions.size());
     std::iota(captions.begin(), captions.end(), std::size_t{0});
-    const auto texts =
-        lay_out_texts({file, named.description, captions}, place(named.description, prop).metres_per_box,
-                      text_style(settings), false);
-    const auto hull = hull_in(named.description, prop);
+    const auto texts = residency::lay_out_texts({file, named.description, captions},
+                                                pack::place(named.description, prop).metres_per_box,
+                                                residency::text_style(settings), false);
+    const auto hull = pack::hull_in(named.description, prop);
     if (!texts || !hull) {
         return std::nullopt;
     }
@@ -41,7 +41,7 @@ std::optional<NamedPack> read(const Settings& settings, const std::filesystem::p
 
 } // namespace
 
-std::vector<NamedPack> named_packs(const Settings& settings) {
+std::vector<NamedPack> named_packs(const settings::Settings& settings) {
     std::vector<NamedPack> packs;
     for (const std::filesystem::path& file : settings.exhibit.packs) {
         if (std::optional<NamedPack> pack = read(settings, file)) {
@@ -51,11 +51,12 @@ std::vector<NamedPack> named_packs(const Settings& settings) {
     return packs;
 }
 
-double caption_share(const Settings& settings, const std::vector<NamedPack>& packs, const Rectangle& zone) {
-    Catalogue catalogue;
+double caption_share(const settings::Settings& settings, const std::vector<NamedPack>& packs,
+                     const settings::Rectangle& zone) {
+    exhibit::Catalogue catalogue;
     std::transform(packs.begin(), packs.end(), std::back_inserter(catalogue),
                    [](const NamedPack& pack) { return pack.entry; });
-    ExhibitPlace place = exhibit_place(settings);
+    exhibit::ExhibitPlace place = show::exhibit_place(settings);
     place.guidance.reset(); // advice takes the caption's place
     constexpr int columns = 7;
     constexpr int rows = 5;
@@ -65,7 +66,7 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
         const glm::dvec2 at(2.0 * (k % columns) / (columns - 1) - 1.0,
                             2.0 * (k / columns) / (rows - 1) - 1.0);
         for (const double turn : turns) {
-            TrackedState tracked_state;
+            tracking::TrackedState tracked_state;
             tracked_state.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
                                              glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
             tracked_state.eye_m = settings.eye.default_m;
@@ -73,11 +74,11 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
             // Long enough for all fades, and too short for a narration.
             constexpr int steps = 20;
             constexpr Nanoseconds step = std::chrono::milliseconds(100);
-            Exhibit exhibit(catalogue, place, settings.exhibit.language, MonotonicTime());
+            exhibit::Exhibit exhibit(catalogue, place, settings.exhibit.language, MonotonicTime());
             bool lies = false;
             for (int k_step = 0; k_step <= steps; ++k_step) {
                 constexpr double readable = 0.5;
-                const Presentation presented =
+                const exhibit::Presentation presented =
                     exhibit.step(MonotonicTime() + k_step * step, {}, tracked_state);
                 lies = presented.caption && presented.caption->brightness > readable;
             }
@@ -87,4 +88,4 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
     return static_cast<double>(shown) / (columns * rows * static_cast<int>(turns.size()));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,18 +10,18 @@
 
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct NamedPack {
-    PackDescription description;
-    CatalogueEntry entry;         ///< with captions laid out for the settings' table
-    std::vector<glm::dvec3> hull; ///< in the prop of the settings
+    pack::PackDescription description;
+    exhibit::CatalogueEntry entry; ///< with captions laid out for the settings' table
+    std::vector<glm::dvec3> hull;  ///< in the prop of the settings
 };
-[[nodiscard]] std::vector<NamedPack> named_packs(const Settings& settings);
+[[nodiscard]] std::vector<NamedPack> named_packs(const settings::Settings& settings);
 
 /// Share of situations in which the first artifact's caption lies on the table, in the settings' language: a grid of
 /// places all over `zone`, at each the prop turned by 0 and 45 degrees, the eye at its default place.
-[[nodiscard]] double caption_share(const Settings& settings, const std::vector<NamedPack>& packs,
-                                   const Rectangle& zone);
+[[nodiscard]] double caption_share(const settings::Settings& settings, const std::vector<NamedPack>& packs,
+                                   const settings::Rectangle& zone);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

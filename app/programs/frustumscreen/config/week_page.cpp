@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -21,26 +21,26 @@ std::size_t weekday(std::chrono::sys_days day) {
     return std::chrono::weekday(day).iso_encoding() - 1;
 }
 
-std::string spans_words(const HoursSettings& hours, std::chrono::sys_days day) {
+std::string spans_words(const settings::HoursSettings& hours, std::chrono::sys_days day) {
     std::vector<std::string> spans;
     bool is_exception = false;
-    for (const HoursException& exception : hours.exceptions) {
+    for (const settings::HoursException& exception : hours.exceptions) {
         if (exception.day == day) {
             is_exception = true;
             if (exception.open) {
-                spans.push_back(text_of_span(*exception.open));
+                spans.push_back(settings::text_of_span(*exception.open));
             }
         }
     }
     if (!is_exception) {
-        const HoursSettings::Day& usual = hours.weekdays.at(weekday(day));
-        std::transform(usual.begin(), usual.end(), std::back_inserter(spans), text_of_span);
+        const settings::HoursSettings::Day& usual = hours.weekdays.at(weekday(day));
+        std::transform(usual.begin(), usual.end(), std::back_inserter(spans), settings::text_of_span);
     }
     const std::string words = spans.empty() ? "closed" : fmt::format("{}", fmt::join(spans, ", "));
     return (words == "00:00-24:00" ? "all day" : words) + (is_exception ? ", an exception" : "");
 }
 
-std::string moment_words(std::chrono::sys_seconds time, const OffsetAt& offset_at) {
+std::string moment_words(std::chrono::sys_seconds time, const exhibit::OffsetAt& offset_at) {
     const std::chrono::sys_seconds local = time + offset_at(time);
     const auto day = std::chrono::floor<std::chrono::days>(local);
     const auto minute = std::chrono::duration_cast<std::chrono::minutes>(local - day).count();
@@ -50,8 +50,9 @@ std::string moment_words(std::chrono::sys_seconds time, const OffsetAt& offset_a
 
 } // namespace
 
-std::string week_page(const HoursSettings& hours, std::chrono::sys_seconds now, const OffsetAt& offset_at) {
-    const Timetable timetable(hours, offset_at);
+std::string week_page(const settings::HoursSettings& hours, std::chrono::sys_seconds now,
+                      const exhibit::OffsetAt& offset_at) {
+    const exhibit::Timetable timetable(hours, offset_at);
     std::string page = "This week, by this machine's clock\n";
     if (timetable.always_open()) {
         return page + "  It is awake all day, every day.\n";
@@ -62,7 +63,7 @@ std::string week_page(const HoursSettings& hours, std::chrono::sys_seconds now, 
         page += fmt::format("  {:<9} {}: {}.\n", day_names.at(weekday(day)), text_of_day(day),
                             spans_words(hours, day));
     }
-    const Opening opening = timetable.at(now);
+    const exhibit::Opening opening = timetable.at(now);
     return page +
            (opening.until
                 ? fmt::format("  It is {} now; it {} on {}.\n", opening.open ? "awake" : "asleep",
@@ -71,4 +72,4 @@ std::string week_page(const HoursSettings& hours, std::chrono::sys_seconds now, 
                 : fmt::format("  It is {} now, for more than a year.\n", opening.open ? "awake" : "asleep"));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -9,10 +9,10 @@
 #include <chrono>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// One line for each day, and one for the next opening or closing.
-[[nodiscard]] std::string week_page(const HoursSettings& hours, std::chrono::sys_seconds now,
-                                    const OffsetAt& offset_at);
+[[nodiscard]] std::string week_page(const settings::HoursSettings& hours, std::chrono::sys_seconds now,
+                                    const exhibit::OffsetAt& offset_at);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

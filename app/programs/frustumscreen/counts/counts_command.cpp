@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -48,11 +48,11 @@ Result<std::optional<std::chrono::sys_days>> day_in(const std::string& text, con
     return day;
 }
 
-Result<ReadCounts> wanted(const Request& request) {
+Result<counts::ReadCounts> wanted(const Request& request) {
     TRY(const auto from, day_in(request.from, "--from"));
     TRY(const auto to, day_in(request.to, "--to"));
-    TRY(ReadCounts counts, read_counts(request.folder));
-    std::erase_if(counts.days, [&](const DayCounts& each) {
+    TRY(counts::ReadCounts counts, counts::read_counts(request.folder));
+    std::erase_if(counts.days, [&](const counts::DayCounts& each) {
         return (from && *each.day < *from) || (to && *each.day > *to);
     });
     if (from || to) {
@@ -61,14 +61,14 @@ Result<ReadCounts> wanted(const Request& request) {
     return counts;
 }
 
-Result<void> show_counts(const Request& request, const ReadCounts& counts) {
+Result<void> show_counts(const Request& request, const counts::ReadCounts& counts) {
     if (!request.csv.empty()) {
-        TRY_VOID(write_file(request.csv, as_bytes(counts_csv(counts))));
+        TRY_VOID(write_file(request.csv, as_bytes(counts::counts_csv(counts))));
     }
     if (!request.plot.empty()) {
-        TRY_VOID(write_file(request.plot, as_bytes(counts_plot(counts.days))));
+        TRY_VOID(write_file(request.plot, as_bytes(counts::counts_plot(counts.days))));
     }
-    fmt::print("{}", request.json ? counts_json(counts) : counts_text(counts));
+    fmt::print("{}", request.json ? counts::counts_json(counts) : counts::counts_text(counts));
     std::fflush(stdout);
     return {};
 }
@@ -80,7 +80,7 @@ int counts_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    const Result<ReadCounts> counts = wanted(request);
+    const Result<counts::ReadCounts> counts = wanted(request);
     if (!counts) {
         return exit_status("frustumscreen", tl::unexpected<Error>(counts.error()));
     }
@@ -91,4 +91,4 @@ int counts_command(int argc, char** argv) {
     return counts->trouble.empty() ? status : 1;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -37,12 +37,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 Result<void> draw(const Request& request) {
     const std::array inputs{request.config};
     TRY_VOID(check_output_is_no_input(request.output, inputs));
-    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     TRY_VOID(check_output_place(request.output));
     const std::string name = request.config.filename().string();
-    const std::string drawing = request.sheet == "table"  ? table_sheet(*settings, name)
-                                : request.sheet == "prop" ? prop_sheet(*settings, name)
-                                                          : net_sheet(*settings, name);
+    const std::string drawing = request.sheet == "table"  ? drawing::table_sheet(*settings, name)
+                                : request.sheet == "prop" ? drawing::prop_sheet(*settings, name)
+                                                          : drawing::net_sheet(*settings, name);
     return write_file(request.output, as_bytes(drawing));
 }
 
@@ -56,4 +56,4 @@ int drawing_command(int argc, char** argv) {
     return exit_status("frustumscreen", draw(request));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -1,8 +1,8 @@
 /// `frustumscreen drawing`: draws the table and the prop to scale, from the settings.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 int drawing_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

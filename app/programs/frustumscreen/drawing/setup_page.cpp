@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -27,9 +27,9 @@ constexpr double min_contrast = 7.0; ///< WCAG 2.2, 1.4.6
 constexpr double assumed_black = 0.05;
 
 /// Intersection of a pixel's ray with a plane of the table's frame; nothing if the ray goes away from the plane.
-std::optional<glm::dvec3> meets(const ProjectorSettings& projector, const glm::dvec2& pixel,
-                                const Plane& plane) {
-    const RigidTransform& pose = projector.table_from_projector;
+std::optional<glm::dvec3> meets(const settings::ProjectorSettings& projector, const glm::dvec2& pixel,
+                                const geometry::Plane& plane) {
+    const geometry::RigidTransform& pose = projector.table_from_projector;
     const glm::dvec3 ray = pose.direction(projector.pinhole.ray(pixel));
     const double toward = -glm::dot(plane.normal, ray);
     return toward > 0.0 ? std::optional(pose.translation + ray * (plane.distance(pose.translation) / toward))
@@ -42,8 +42,8 @@ std::string place_words(const glm::dvec2& place) {
 }
 
 /// The two sides, in metres, of a projector's pixel at `point` of `plane`, the shorter first.
-std::optional<glm::dvec2> pixel_size(const ProjectorSettings& projector, const glm::dvec3& point,
-                                     const Plane& plane) {
+std::optional<glm::dvec2> pixel_size(const settings::ProjectorSettings& projector, const glm::dvec3& point,
+                                     const geometry::Plane& plane) {
     const std::optional<glm::dvec2> pixel =
         projector.pinhole.pixel(projector.table_from_projector.inverse().point(point));
     if (!pixel) {
@@ -72,27 +72,28 @@ std::string sides_in_mm(const glm::dvec2& sides) {
 /// The prop upright at a place of the table: its faces in the table's frame, and the light that each receives.
 class StandingProp {
 public:
-    StandingProp(const Settings& settings, const glm::dvec2& place, double yaw)
-        : prop_(make_prop(settings.prop)), lens_(settings.projector.table_from_projector.translation),
+    StandingProp(const settings::Settings& settings, const glm::dvec2& place, double yaw)
+        : prop_(settings::make_prop(settings.prop)),
+          lens_(settings.projector.table_from_projector.translation),
           table_from_prop_{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(place, 0.0)} {}
 
-    [[nodiscard]] const std::vector<PropFace>& faces() const { return prop_.faces; }
-    [[nodiscard]] glm::dvec3 centre(const PropFace& face) const {
+    [[nodiscard]] const std::vector<geometry::PropFace>& faces() const { return prop_.faces; }
+    [[nodiscard]] glm::dvec3 centre(const geometry::PropFace& face) const {
         return table_from_prop_.point(face.middle());
     }
-    [[nodiscard]] Plane plane(const PropFace& face) const {
+    [[nodiscard]] geometry::Plane plane(const geometry::PropFace& face) const {
         const glm::dvec3 normal = table_from_prop_.direction(face.plane.normal);
         return {normal, glm::dot(normal, centre(face))};
     }
     /// Light at the face's centre; 0 if it faces away from the lens.
-    [[nodiscard]] double light(const PropFace& face) const {
-        return std::max(0.0, received_light(plane(face), centre(face), lens_));
+    [[nodiscard]] double light(const geometry::PropFace& face) const {
+        return std::max(0.0, settings::received_light(plane(face), centre(face), lens_));
     }
     /// Light of the dimmest side divided by that of the brightest face.
     [[nodiscard]] double evenness() const {
         double dimmest = std::numeric_limits<double>::infinity();
         double brightest = 0.0;
-        for (const PropFace& face : prop_.faces) {
+        for (const geometry::PropFace& face : prop_.faces) {
             if (is_underside(face)) {
                 continue;
             }
@@ -101,23 +102,24 @@ public:
         }
         return brightest > 0.0 ? dimmest / brightest : 0.0;
     }
-    [[nodiscard]] static bool is_underside(const PropFace& face) { return face.name == "-Z"; }
+    [[nodiscard]] static bool is_underside(const geometry::PropFace& face) { return face.name == "-Z"; }
 
 private:
-    PropShape prop_;
+    geometry::PropShape prop_;
     glm::dvec3 lens_;
-    RigidTransform table_from_prop_;
+    geometry::RigidTransform table_from_prop_;
 };
 
 /// The range of light over a rectangle of places and all yaws.
-LightRange light_over(const Settings& settings, const Rectangle& places) {
-    return light_range(make_prop(settings.prop),
-                       settings.projector.table_from_projector.translation - glm::dvec3(places.centre_m, 0.0),
-                       places.half_m);
+settings::LightRange light_over(const settings::Settings& settings, const settings::Rectangle& places) {
+    return settings::light_range(settings::make_prop(settings.prop),
+                                 settings.projector.table_from_projector.translation -
+                                     glm::dvec3(places.centre_m, 0.0),
+                                 places.half_m);
 }
 
-std::string describe_projector(const Settings& settings) {
-    const ProjectorSettings& projector = settings.projector;
+std::string describe_projector(const settings::Settings& settings) {
+    const settings::ProjectorSettings& projector = settings.projector;
     const glm::dvec3& lens = projector.table_from_projector.translation;
     const glm::dvec3 axis = projector.table_from_projector.direction({0.0, 0.0, 1.0});
     return fmt::format(
@@ -130,43 +132,44 @@ std::string describe_projector(const Settings& settings) {
         projector.pinhole.width, projector.pinhole.height, projector.refresh_hz);
 }
 
-double caption_em_m(const Settings& settings) {
-    return std::max(settings.exhibit.caption_height_m, min_caption_em_m);
+double caption_em_m(const settings::Settings& settings) {
+    return std::max(settings.exhibit.caption_height_m, typography::min_caption_em_m);
 }
 
 /// Describes captions that are hard to read; empty if size and contrast are sufficient.
-std::string describe_captions(const Settings& settings) {
-    const ExhibitSettings& exhibit = settings.exhibit;
+std::string describe_captions(const settings::Settings& settings) {
+    const settings::ExhibitSettings& exhibit = settings.exhibit;
     if (!exhibit.captions) {
         return "";
     }
     std::string text;
-    if (exhibit.caption_height_m < min_caption_em_m) {
+    if (exhibit.caption_height_m < typography::min_caption_em_m) {
         text += fmt::format(
             "  exhibit.caption_height_m, {:.3g} mm, is less than 24 pt: captions are set at 24 pt, "
             "{:.3g} mm.\n",
-            mm * exhibit.caption_height_m, mm * min_caption_em_m);
+            mm * exhibit.caption_height_m, mm * typography::min_caption_em_m);
     }
     const double contrast =
-        (caption_text_brightness * exhibit.caption_brightness + assumed_black) / assumed_black;
+        (typography::caption_text_brightness * exhibit.caption_brightness + assumed_black) / assumed_black;
     if (contrast < min_contrast) {
-        text += fmt::format(
-            "  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
-            "with the table, and needs "
-            "7:1, from {:.3g} on, if the projector's black and the room's light are {:g} % of "
-            "its white; measure "
-            "these.\n",
-            exhibit.caption_brightness, contrast,
-            (min_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
+        text +=
+            fmt::format("  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
+                        "with the table, and needs "
+                        "7:1, from {:.3g} on, if the projector's black and the room's light are {:g} % of "
+                        "its white; measure "
+                        "these.\n",
+                        exhibit.caption_brightness, contrast,
+                        (min_contrast - 1.0) * assumed_black / typography::caption_text_brightness,
+                        100.0 * assumed_black);
     }
     return text;
 }
 
-std::string describe_picture(const Settings& settings) {
-    const ProjectorSettings& projector = settings.projector;
-    const Plane table_top{{0.0, 0.0, 1.0}, 0.0};
-    const double share =
-        area_of(picture_on_table(settings, 0.0)) / (settings.table.width_m * settings.table.depth_m);
+std::string describe_picture(const settings::Settings& settings) {
+    const settings::ProjectorSettings& projector = settings.projector;
+    const geometry::Plane table_top{{0.0, 0.0, 1.0}, 0.0};
+    const double share = settings::area_of(settings::picture_on_table(settings, 0.0)) /
+                         (settings.table.width_m * settings.table.depth_m);
     const glm::dvec2 corner(projector.pinhole.width, projector.pinhole.height);
     std::string text = "The picture on the table\n";
     constexpr std::array<std::pair<const char*, glm::dvec2>, 4> corners{
@@ -190,13 +193,13 @@ std::string describe_picture(const Settings& settings) {
 }
 
 /// "+X, -X: ...": one line for each group of equal faces.
-std::string describe_faces(const Settings& settings, const StandingProp& prop) {
+std::string describe_faces(const settings::Settings& settings, const StandingProp& prop) {
     double brightest = 0.0;
-    for (const PropFace& face : prop.faces()) {
+    for (const geometry::PropFace& face : prop.faces()) {
         brightest = std::max(brightest, prop.light(face));
     }
     std::vector<std::pair<std::string, std::string>> lines; // names, words
-    for (const PropFace& face : prop.faces()) {
+    for (const geometry::PropFace& face : prop.faces()) {
         const auto size = pixel_size(settings.projector, prop.centre(face), prop.plane(face));
         const bool lit = size && prop.light(face) > 0.0;
         const std::string words =
@@ -218,7 +221,7 @@ std::string describe_faces(const Settings& settings, const StandingProp& prop) {
     return text;
 }
 
-std::string describe_prop(const Settings& settings, const glm::dvec2& place) {
+std::string describe_prop(const settings::Settings& settings, const glm::dvec2& place) {
     const StandingProp prop(settings, place, 0.0);
     const double evenness = prop.evenness();
     return fmt::format("The prop on the table at {}, its faces square to the table\n", place_words(place)) +
@@ -226,7 +229,7 @@ std::string describe_prop(const Settings& settings, const glm::dvec2& place) {
            (evenness > 0.0 ? fmt::format("  Faces are lit 1 : {:.2f}.\n", evenness) : std::string());
 }
 
-std::string words_of(const Rectangle& inside) {
+std::string words_of(const settings::Rectangle& inside) {
     const glm::dvec2 low = inside.centre_m - inside.half_m;
     const glm::dvec2 high = inside.centre_m + inside.half_m;
     return fmt::format("x {:.3f} to {:.3f} m, y {:.3f} to {:.3f} m", low.x, high.x, low.y, high.y);
@@ -234,10 +237,11 @@ std::string words_of(const Rectangle& inside) {
 
 /// The part of `zone`, about its middle, in which every place of the prop can reflect the light that the exhibit aims
 /// at; nothing if the middle fails.
-std::optional<Rectangle> evenly_lit(const Settings& settings, const Rectangle& zone) {
+std::optional<settings::Rectangle> evenly_lit(const settings::Settings& settings,
+                                              const settings::Rectangle& zone) {
     constexpr double rounding = 1e-3;
-    const double aim = (1.0 - rounding) * even_light(settings);
-    const auto part = [&](double share) { return Rectangle{zone.centre_m, share * zone.half_m}; };
+    const double aim = (1.0 - rounding) * settings::even_light(settings);
+    const auto part = [&](double share) { return settings::Rectangle{zone.centre_m, share * zone.half_m}; };
     const auto even = [&](double share) { return light_over(settings, part(share)).least >= aim; };
     if (!even(0.0)) {
         return std::nullopt;
@@ -252,27 +256,27 @@ std::optional<Rectangle> evenly_lit(const Settings& settings, const Rectangle& z
 }
 
 /// A prop in the hand has no preferred turn and no face that is always lit.
-std::string describe_hand_zone(const LitZone& zone) {
+std::string describe_hand_zone(const settings::LitZone& zone) {
     return zone.any_eye.empty()
                ? std::string("Where the prop lies in the picture\n"
                              "  Nowhere at every turn: hang the projector higher, or take a smaller prop.\n")
                : fmt::format("Where the prop lies in the picture\n"
                              "  At every turn while its middle is within {},\n"
                              "  the largest rectangle in a zone of {:.3f} m2.\n",
-                             words_of(zone.any_eye_rectangle), area_of(zone.any_eye));
+                             words_of(zone.any_eye_rectangle), settings::area_of(zone.any_eye));
 }
 
-std::string describe_table_zone(const Settings& settings, const LitZone& zone) {
+std::string describe_table_zone(const settings::Settings& settings, const settings::LitZone& zone) {
     std::string text = "Where the prop stays lit at every turn, by the place of its axis\n";
     if (zone.any_eye.empty()) {
         text += "  Nowhere for eyes all around: hang the projector higher and more over the table, or take a "
                 "flatter "
                 "prop.\n";
     } else {
-        const Rectangle& inside = zone.any_eye_rectangle;
+        const settings::Rectangle& inside = zone.any_eye_rectangle;
         text += fmt::format("  For eyes all around: {}, the largest rectangle in a zone of {:.3f} m2.\n",
-                            words_of(inside), area_of(zone.any_eye));
-        const std::optional<Rectangle> even = evenly_lit(settings, inside);
+                            words_of(inside), settings::area_of(zone.any_eye));
+        const std::optional<settings::Rectangle> even = evenly_lit(settings, inside);
         text += even ? fmt::format("  It stays evenly lit within {}.\n", words_of(*even))
                      : std::string("  It is evenly lit nowhere: its sides are too steep for this light.\n");
         text += fmt::format(
@@ -280,17 +284,17 @@ std::string describe_table_zone(const Settings& settings, const LitZone& zone) {
             std::max(0.0, light_over(settings, inside).evenness));
     }
     return text + fmt::format("  For the eyes at eye.default_m alone: a zone of {:.3f} m2.\n",
-                              std::abs(area_of(zone.default_eye)));
+                              std::abs(settings::area_of(zone.default_eye)));
 }
 
-std::string describe_zone(const Settings& settings, const LitZone& zone) {
-    return settings.prop.zone == PropZone::Hand ? describe_hand_zone(zone)
-                                                : describe_table_zone(settings, zone);
+std::string describe_zone(const settings::Settings& settings, const settings::LitZone& zone) {
+    return settings.prop.zone == settings::PropZone::Hand ? describe_hand_zone(zone)
+                                                          : describe_table_zone(settings, zone);
 }
 
 /// Distance between two planes square to the optical axis that enclose everything that is lit.
-std::string describe_focus(const Settings& settings, const Rectangle& zone) {
-    const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
+std::string describe_focus(const settings::Settings& settings, const settings::Rectangle& zone) {
+    const geometry::RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -307,8 +311,8 @@ std::string describe_focus(const Settings& settings, const Rectangle& zone) {
         nearest, farthest, 0.5 * mm * settings.prop.height_m);
 }
 
-std::string describe_errors(const Settings& settings, const Rectangle& zone) {
-    const ProjectorSettings& projector = settings.projector;
+std::string describe_errors(const settings::Settings& settings, const settings::Rectangle& zone) {
+    const settings::ProjectorSettings& projector = settings.projector;
     const glm::dvec3 point(zone.centre_m, settings.prop.height_m);
     const glm::dvec3& lens = projector.table_from_projector.translation;
     const double distance = glm::distance(lens, point);
@@ -332,12 +336,12 @@ std::string describe_errors(const Settings& settings, const Rectangle& zone) {
 
 } // namespace
 
-std::string setup_page(const Settings& settings) {
-    const LitZone zone = lit_zone(settings);
-    const Rectangle& inside = zone.any_eye_rectangle;
+std::string setup_page(const settings::Settings& settings) {
+    const settings::LitZone zone = settings::lit_zone(settings);
+    const settings::Rectangle& inside = zone.any_eye_rectangle;
     return describe_projector(settings) + describe_picture(settings) +
            describe_prop(settings, inside.centre_m) + describe_zone(settings, zone) +
            describe_errors(settings, inside);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

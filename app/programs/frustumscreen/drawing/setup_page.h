@@ -9,9 +9,9 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Ends with a line break.
-[[nodiscard]] std::string setup_page(const Settings& settings);
+[[nodiscard]] std::string setup_page(const settings::Settings& settings);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

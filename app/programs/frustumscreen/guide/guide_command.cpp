@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -36,14 +36,14 @@ struct Request {
 /// The findings for one pose.
 struct Guided {
     std::int64_t t_us = 0;
-    FaceSets faces;
+    guidance::FaceSets faces;
     double unlit_px = 0.0;
     bool knows_artifact = false;
     bool whole = false; ///< if the artifact is known
-    std::optional<Advice> advice;
+    std::optional<guidance::Advice> advice;
 };
 
-std::vector<std::string> names_of(std::uint32_t faces, const PropShape& prop) {
+std::vector<std::string> names_of(std::uint32_t faces, const geometry::PropShape& prop) {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         if ((faces >> k & 1U) != 0) {
@@ -57,21 +57,22 @@ double degrees(double radians) {
     return radians * 180.0 / std::numbers::pi;
 }
 
-Json advice_json(const std::optional<Advice>& advice) {
+Json advice_json(const std::optional<guidance::Advice>& advice) {
     if (!advice) {
         return nullptr;
     }
-    const Move& move = advice->move;
-    return {{"action", name_of(move.action)},
+    const guidance::Move& move = advice->move;
+    return {{"action", guidance::name_of(move.action)},
             {"dx_m", move.by_m.x},
             {"dy_m", move.by_m.y},
             {"dz_m", move.by_m.z},
             {"turn_deg", degrees(move.turn_rad)},
-            {"side", move.action == Action::ComeRound ? Json(name_of(move.side)) : Json(nullptr)},
+            {"side",
+             move.action == guidance::Action::ComeRound ? Json(guidance::name_of(move.side)) : Json(nullptr)},
             {"steps", advice->steps}};
 }
 
-std::string json_line(const Guided& guided, const PropShape& prop) {
+std::string json_line(const Guided& guided, const geometry::PropShape& prop) {
     Json line{{"t_us", guided.t_us},
               {"seen", names_of(guided.faces.seen, prop)},
               {"lit", names_of(guided.faces.lit, prop)},
@@ -85,33 +86,33 @@ std::string json_line(const Guided& guided, const PropShape& prop) {
 }
 
 /// The move in words, seen from the table's front edge.
-std::string words_of(const Move& move) {
+std::string words_of(const guidance::Move& move) {
     switch (move.action) {
-    case Action::Slide:
+    case guidance::Action::Slide:
         return fmt::format("slide it {:.0f} mm {} and {:.0f} mm {}", 1e3 * std::abs(move.by_m.x),
                            move.by_m.x < 0.0 ? "to the left" : "to the right", 1e3 * std::abs(move.by_m.y),
                            move.by_m.y < 0.0 ? "towards the front edge" : "away from the front edge");
-    case Action::Turn:
+    case guidance::Action::Turn:
         return fmt::format("turn it {} by {:.0f} degrees",
                            move.turn_rad > 0 ? "counter-clockwise" : "clockwise",
                            std::abs(degrees(move.turn_rad)));
-    case Action::SetDown:
+    case guidance::Action::SetDown:
         return "set it down";
-    case Action::Upright:
+    case guidance::Action::Upright:
         return "stand it upright";
-    case Action::ComeRound:
-        return fmt::format("come round to the table's {}", name_of(move.side));
-    case Action::Raise:
+    case guidance::Action::ComeRound:
+        return fmt::format("come round to the table's {}", guidance::name_of(move.side));
+    case guidance::Action::Raise:
         return fmt::format("raise it by {:.0f} mm", 1e3 * move.by_m.z);
-    case Action::Lower:
+    case guidance::Action::Lower:
         return fmt::format("lower it by {:.0f} mm", -1e3 * move.by_m.z);
-    case Action::Wait:
+    case guidance::Action::Wait:
         break;
     }
     return "no known move of the visitor helps";
 }
 
-std::string text_words(const Guided& guided, const PropShape& prop) {
+std::string text_words(const Guided& guided, const geometry::PropShape& prop) {
     const auto unlit = names_of(guided.faces.unlit(), prop);
     std::string line = fmt::format("sees {}", fmt::join(names_of(guided.faces.seen, prop), " "));
     if (!unlit.empty()) {
@@ -127,31 +128,36 @@ std::string text_words(const Guided& guided, const PropShape& prop) {
 }
 
 /// Corners of the artifact's hull, placed in the settings' prop.
-Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack, const PropShape& prop) {
-    const auto only_default = [](const PackOutline& outline) {
+Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack,
+                                          const geometry::PropShape& prop) {
+    const auto only_default = [](const pack::PackOutline& outline) {
         return Result<std::vector<std::uint32_t>>(std::vector{outline.description.default_level});
     };
-    TRY(const VerifiedPack read, load_pack(pack, only_default));
-    return hull_in(*read, prop);
+    TRY(const pack::VerifiedPack read, pack::load_pack(pack, only_default));
+    return pack::hull_in(*read, prop);
 }
 
 /// As in the exhibit, advice is kept from pose to pose while it helps.
 Result<void> guide(const Request& request) {
-    TRY(const CheckedSettings settings, load_settings(request.config));
-    TRY(const std::vector<TrackedState> frames, load_pose_frames(request.poses, settings->eye.default_m));
-    GuidanceSetup setup = guidance_setup(*settings);
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    TRY(const std::vector<tracking::TrackedState> frames,
+        load_pose_frames(request.poses, settings->eye.default_m));
+    guidance::GuidanceSetup setup = exhibit::guidance_setup(*settings);
     if (!request.pack.empty()) {
         TRY(setup.hull, read_hull(request.pack, setup.prop));
     }
-    Advisor advisor(setup);
-    const FaceReader& reader = advisor.reader();
-    const PropShape& prop = setup.prop;
+    guidance::Advisor advisor(setup);
+    const guidance::FaceReader& reader = advisor.reader();
+    const geometry::PropShape& prop = setup.prop;
     std::string said; ///< the last line; a line is printed when the text changes
-    for (const TrackedState& frame : frames) {
-        const GuidedState tracked_state{frame.table_from_prop, frame.eye_m};
-        const Guided guided{to_microseconds(frame.time),    reader.read(tracked_state),
-                            reader.unlit_px(tracked_state), !setup.hull.empty(),
-                            reader.whole(tracked_state),    advisor.advise(tracked_state)};
+    for (const tracking::TrackedState& frame : frames) {
+        const guidance::GuidedState tracked_state{frame.table_from_prop, frame.eye_m};
+        const Guided guided{.t_us = to_microseconds(frame.time),
+                            .faces = reader.read(tracked_state),
+                            .unlit_px = reader.unlit_px(tracked_state),
+                            .knows_artifact = !setup.hull.empty(),
+                            .whole = reader.whole(tracked_state),
+                            .advice = advisor.advise(tracked_state)};
         if (request.json) {
             fmt::print("{}\n", json_line(guided, prop));
         } else if (std::string words = text_words(guided, prop); words != said) {
@@ -182,4 +188,4 @@ int guide_command(int argc, char** argv) {
     return exit_status("frustumscreen", guide(request));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

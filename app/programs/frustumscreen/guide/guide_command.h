@@ -1,8 +1,8 @@
 /// `frustumscreen guide`: for each pose of a file, what the visitor sees, which of it is lit, and the advice.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 int guide_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <optional>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 Result<void> plan(Request request) {
-    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     if (request.pack.empty()) {
         if (settings->exhibit.packs.empty()) {
             return bad_input("plan.no_pack", "{}: the settings name no pack; name one with --pack",
@@ -49,12 +49,15 @@ Result<void> plan(Request request) {
         }
         request.pack = settings->exhibit.packs.front();
     }
-    TRY(const std::unique_ptr<Display> display, make_display(*settings, true));
-    const DevicePlan devices = plan_devices(*settings, false, false);
+    TRY(const std::unique_ptr<display::Display> display, make_display(*settings, true));
+    const scene::DevicePlan devices = scene::plan_devices(*settings, false, false);
     TRY(const PlanMeasurement measured,
         measure_plan(*settings, devices, request.pack, request.technique, *display));
-    const PlanReport report{request.config.string(), request.pack.string(), request.technique, devices,
-                            measured};
+    const PlanReport report{.config = request.config.string(),
+                            .pack = request.pack.string(),
+                            .technique = request.technique,
+                            .devices = devices,
+                            .measured = measured};
     fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
     return {};
 }
@@ -69,4 +72,4 @@ int plan_command(int argc, char** argv) {
     return exit_status("frustumscreen", plan(request));
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

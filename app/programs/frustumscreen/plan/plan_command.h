@@ -2,8 +2,8 @@
 /// saves, measured on this machine.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 int plan_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

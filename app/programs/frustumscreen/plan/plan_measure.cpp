@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -33,23 +33,24 @@ std::int64_t allocated_bytes() {
 }
 
 /// Situations from the plan's devices, half a second apart.
-Result<std::vector<TrackedState>> situations(const Settings& settings, const DevicePlan& devices) {
+Result<std::vector<tracking::TrackedState>> situations(const settings::Settings& settings,
+                                                       const scene::DevicePlan& devices) {
     const MonotonicTime start;
-    TRY(Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
-    TrackedStateTracker tracker(settings.eye.default_m);
+    TRY(show::Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
+    tracking::TrackedStateTracker tracker(settings.eye.default_m);
     if (!inputs.tracker) {
-        TrackedState standing = tracker.at(start);
+        tracking::TrackedState standing = tracker.at(start);
         standing.prop_known = true;
-        return std::vector<TrackedState>{standing};
+        return std::vector<tracking::TrackedState>{standing};
     }
-    std::vector<TrackedState> all;
-    std::vector<PoseSample> samples;
+    std::vector<tracking::TrackedState> all;
+    std::vector<tracker::PoseSample> samples;
     for (std::size_t k = 0; k < max_poses; ++k) {
         const MonotonicTime now = start + std::chrono::milliseconds(500 * (k + 1));
         samples.clear();
         TRY_VOID(inputs.tracker->poll(now, samples));
-        for (const PoseSample& sample : samples) {
-            if (devices.head || sample.station != head_station) {
+        for (const tracker::PoseSample& sample : samples) {
+            if (devices.head || sample.station != tracker::head_station) {
                 tracker.take(sample);
             }
         }
@@ -59,8 +60,8 @@ Result<std::vector<TrackedState>> situations(const Settings& settings, const Dev
 }
 
 struct Scene {
-    std::unique_ptr<ArtifactShow> show;
-    Exhibit exhibit;
+    std::unique_ptr<show::ArtifactShow> show;
+    exhibit::Exhibit exhibit;
     SceneCost cost;
     std::vector<double> us; ///< for each drawn frame
 };
@@ -70,15 +71,17 @@ SceneCost saving(const Scene& with, const Scene& without) {
     for (std::size_t k = 0; k < with.us.size(); ++k) {
         differences.push_back(with.us[k] - without.us[k]);
     }
-    return {with.cost.gpu_bytes - without.cost.gpu_bytes, with.cost.ram_bytes - without.cost.ram_bytes,
-            with.cost.load_ms - without.cost.load_ms, quantile(differences, 0.5),
-            0.5 * (quantile(differences, 0.75) - quantile(differences, 0.25))};
+    return {.gpu_bytes = with.cost.gpu_bytes - without.cost.gpu_bytes,
+            .ram_bytes = with.cost.ram_bytes - without.cost.ram_bytes,
+            .load_ms = with.cost.load_ms - without.cost.load_ms,
+            .frame_us = quantile(differences, 0.5),
+            .spread_us = 0.5 * (quantile(differences, 0.75) - quantile(differences, 0.25))};
 }
 
 class Measuring {
 public:
-    Measuring(const Settings& settings, const DevicePlan& devices, ArtifactShowOptions options,
-              Display& display)
+    Measuring(const settings::Settings& settings, const scene::DevicePlan& devices,
+              show::ArtifactShowOptions options, display::Display& display)
         : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
 
     /// Loads and frees the scene several times, with no other loaded; then loads it to keep it.
@@ -102,10 +105,10 @@ public:
         options_.cull_kinds = cull_kinds;
         const std::int64_t before = allocated_bytes();
         const Clock::time_point start = Clock::now();
-        TRY(std::unique_ptr<ArtifactShow> show,
-            ArtifactShow::create(settings_, devices_, options_, target()));
-        Exhibit exhibit = make_exhibit(settings_, *show, MonotonicTime{});
-        Scene scene{std::move(show), std::move(exhibit), {}, {}};
+        TRY(std::unique_ptr<show::ArtifactShow> show,
+            show::ArtifactShow::create(settings_, devices_, options_, target()));
+        exhibit::Exhibit exhibit = show::make_exhibit(settings_, *show, MonotonicTime{});
+        Scene scene{.show = std::move(show), .exhibit = std::move(exhibit), .cost = {}, .us = {}};
         scene.cost.load_ms = 1e-3 * microseconds_since(start);
         scene.cost.ram_bytes = allocated_bytes() - before;
         scene.cost.gpu_bytes = static_cast<std::int64_t>(scene.show->use().gpu_bytes);
@@ -114,7 +117,7 @@ public:
 
     /// Draws all scenes at each pose in turn; each round uses another order.
     [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
-        TRY(const std::vector<TrackedState> poses, situations(settings_, devices_));
+        TRY(const std::vector<tracking::TrackedState> poses, situations(settings_, devices_));
         ProgressLine progress("measuring");
         MonotonicTime now;
         std::size_t drawn = 0;
@@ -124,10 +127,11 @@ public:
             for (std::size_t k = 0; k < scenes.size(); ++k) {
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
-                const TrackedState& tracked_state = poses[frame % poses.size()];
-                const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state),
-                                                           tracked_state.eye_m, target(), Redraw::Everything);
-                wait_until_drawn();
+                const tracking::TrackedState& tracked_state = poses[frame % poses.size()];
+                const render::DrawResult result =
+                    scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state), tracked_state.eye_m,
+                                     target(), render::Redraw::Everything);
+                render::wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
                     scene.us.push_back(microseconds_since(start));
                 }
@@ -142,35 +146,40 @@ public:
     }
 
 private:
-    [[nodiscard]] RenderTarget target() const { return {display_.framebuffer(), 0}; }
+    [[nodiscard]] render::RenderTarget target() const { return {display_.framebuffer(), 0}; }
 
-    const Settings& settings_;
-    const DevicePlan& devices_;
-    ArtifactShowOptions options_;
-    Display& display_;
+    const settings::Settings& settings_;
+    const scene::DevicePlan& devices_;
+    show::ArtifactShowOptions options_;
+    display::Display& display_;
 };
 
 } // namespace
 
-Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
+Result<PlanMeasurement> measure_plan(const settings::Settings& settings, const scene::DevicePlan& devices,
                                      const std::filesystem::path& pack, const std::string& technique,
-                                     Display& display) {
-    Settings unhurried = settings; // no deadline: every scene draws the level for the tolerance
+                                     display::Display& display) {
+    settings::Settings unhurried = settings; // no deadline: every scene draws the level for the tolerance
     unhurried.projector.refresh_hz = 1e-3;
-    Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllCullKinds}, display);
+    Measuring measuring(unhurried, devices,
+                        {.packs = {pack},
+                         .technique = technique,
+                         .samples = render::default_samples,
+                         .cull_kinds = scene::AllCullKinds},
+                        display);
     // The first scene also pays the driver's one-time costs.
     TRY_VOID(without_value(measuring.load_once(0)));
-    TRY(Scene planned, measuring.load(AllCullKinds));
+    TRY(Scene planned, measuring.load(scene::AllCullKinds));
     unsigned used = 0;
-    for (const LeftOut& each : planned.show->plan(0).left_out) {
+    for (const scene::LeftOut& each : planned.show->plan(0).left_out) {
         used |= each.cull_kind;
     }
     std::vector<Scene> scenes;
     scenes.push_back(std::move(planned));
     std::vector<unsigned> without{0};
-    for (unsigned cull_kind = 1; cull_kind < AllCullKinds; cull_kind <<= 1U) {
+    for (unsigned cull_kind = 1; cull_kind < scene::AllCullKinds; cull_kind <<= 1U) {
         if ((used & cull_kind) != 0) {
-            without.push_back(AllCullKinds & ~cull_kind);
+            without.push_back(scene::AllCullKinds & ~cull_kind);
         }
     }
     for (const unsigned cull_kinds : without) {
@@ -184,12 +193,12 @@ Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan&
     result.everything = scenes[1].cost;
     result.saved = saving(scenes[1], scenes[0]);
     for (std::size_t k = 1; k < without.size(); ++k) {
-        result.cull_kinds.push_back(
-            {static_cast<CullKind>(AllCullKinds & ~without[k]), saving(scenes[k + 1], scenes[0])});
+        result.cull_kinds.push_back({static_cast<scene::CullKind>(scene::AllCullKinds & ~without[k]),
+                                     saving(scenes[k + 1], scenes[0])});
     }
-    result.renderer = renderer_name();
+    result.renderer = render::renderer_name();
     result.show = std::move(scenes[0].show);
     return result;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct SceneCost {
     std::int64_t gpu_bytes = 0;
@@ -30,20 +30,21 @@ struct SceneCost {
 };
 
 struct CullSaving {
-    CullKind cull_kind = UnusedLevels;
+    scene::CullKind cull_kind = scene::UnusedLevels;
     SceneCost saved;
 };
 
 struct PlanMeasurement {
-    std::unique_ptr<ArtifactShow> show; ///< as planned
+    std::unique_ptr<show::ArtifactShow> show; ///< as planned
     SceneCost everything, planned, saved;
     std::vector<CullSaving> cull_kinds; ///< those that leave something out
     std::size_t poses = 0;
     std::string renderer; ///< the driver's name for the GPU
 };
 
-[[nodiscard]] Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
+[[nodiscard]] Result<PlanMeasurement> measure_plan(const settings::Settings& settings,
+                                                   const scene::DevicePlan& devices,
                                                    const std::filesystem::path& pack,
-                                                   const std::string& technique, Display& display);
+                                                   const std::string& technique, display::Display& display);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <iterator>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> faces_of(const ScenePlan& plan) {
+std::vector<std::string> faces_of(const scene::ScenePlan& plan) {
     std::vector<std::string> names;
     for (std::size_t face = 0; face < plan.prop.faces.size(); ++face) {
         if (((plan.faces >> face) & 1U) != 0) {
@@ -31,11 +31,11 @@ template <typename List> std::string joined(const List& list) {
     return text.empty() ? "none" : text;
 }
 
-std::vector<std::string> names_of(const std::set<ShaderKey>& shaders) {
+std::vector<std::string> names_of(const std::set<scene::ShaderKey>& shaders) {
     std::vector<std::string> names;
     names.reserve(shaders.size());
-    for (const ShaderKey& key : shaders) {
-        names.push_back(name_of(key));
+    for (const scene::ShaderKey& key : shaders) {
+        names.push_back(scene::name_of(key));
     }
     return names;
 }
@@ -68,11 +68,11 @@ std::string savings(const SceneCost& saved) {
 }
 
 std::string needs_text(const PlanReport& report) {
-    const ScenePlan& plan = report.measured.show->plan(0);
-    const ShowUse use = report.measured.show->use();
+    const scene::ScenePlan& plan = report.measured.show->plan(0);
+    const show::ShowUse use = report.measured.show->use();
     std::string text = "The exhibit needs\n";
     const auto out = std::back_inserter(text);
-    for (const LevelUse& level : report.measured.show->levels(0).uses()) {
+    for (const residency::LevelUse& level : report.measured.show->levels(0).uses()) {
         if (level.blocks > 0) {
             fmt::format_to(out, "  relief of {} texels: {} blocks{}\n", level.level, level.blocks,
                            level.on_gpu ? ", drawn by the GPU" : "");
@@ -88,7 +88,7 @@ std::string needs_text(const PlanReport& report) {
                                        : fmt::format("{} texts", use.captions));
     fmt::format_to(out, "  room for samples a pixel, wherever the prop stands: {}\n", use.samples);
     fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.shaders)));
-    fmt::format_to(out, "  tracker: {}{}\n", name_of(report.devices.tracker),
+    fmt::format_to(out, "  tracker: {}{}\n", settings::name_of(report.devices.tracker),
                    report.devices.head ? ", the viewer's head is followed" : "");
     fmt::format_to(out, "  button panel: {}\n", report.devices.panel ? "yes" : "none");
     fmt::format_to(out, "  threads of its own: {}\n", joined(report.devices.threads));
@@ -98,9 +98,9 @@ std::string needs_text(const PlanReport& report) {
 std::string left_out_text(const PlanReport& report) {
     std::string text = "It leaves out\n";
     const auto out = std::back_inserter(text);
-    const std::vector<LeftOut>& left_out = report.measured.show->plan(0).left_out;
+    const std::vector<scene::LeftOut>& left_out = report.measured.show->plan(0).left_out;
     for (const CullSaving& each : report.measured.cull_kinds) {
-        for (const LeftOut& item : left_out) {
+        for (const scene::LeftOut& item : left_out) {
             if (item.cull_kind == each.cull_kind) {
                 fmt::format_to(out, "  {}: {}.\n", item.what, item.why);
             }
@@ -130,10 +130,10 @@ Json saving_json(const SceneCost& cost) {
 }
 
 Json needs_json(const PlanReport& report) {
-    const ScenePlan& plan = report.measured.show->plan(0);
-    const ShowUse use = report.measured.show->use();
+    const scene::ScenePlan& plan = report.measured.show->plan(0);
+    const show::ShowUse use = report.measured.show->use();
     Json levels = Json::array();
-    for (const LevelUse& level : report.measured.show->levels(0).uses()) {
+    for (const residency::LevelUse& level : report.measured.show->levels(0).uses()) {
         levels.push_back({{"level", level.level},
                           {"blocks", level.blocks},
                           {"triangles", level.triangles},
@@ -145,8 +145,8 @@ Json needs_json(const PlanReport& report) {
                           {"gpu_bytes", level.gpu_bytes}});
     }
     Json quality_levels = Json::array();
-    for (const QualityLevel& quality_level : plan.quality_levels) {
-        quality_levels.push_back({{"technique", name_of(quality_level)},
+    for (const scene::QualityLevel& quality_level : plan.quality_levels) {
+        quality_levels.push_back({{"technique", scene::name_of(quality_level)},
                                   {"level", quality_level.level},
                                   {"samples", quality_level.samples},
                                   {"enough", quality_level.enough}});
@@ -160,7 +160,7 @@ Json needs_json(const PlanReport& report) {
             {"programs", names_of(use.shaders)},
             {"planned_gpu_bytes", use.planned_gpu_bytes},
             {"gpu_bytes", use.gpu_bytes},
-            {"tracker", std::string(name_of(report.devices.tracker))},
+            {"tracker", std::string(settings::name_of(report.devices.tracker))},
             {"head", report.devices.head},
             {"panel", report.devices.panel},
             {"threads", report.devices.threads}};
@@ -192,14 +192,15 @@ std::string plan_text(const PlanReport& report) {
 std::string plan_json(const PlanReport& report) {
     const PlanMeasurement& measured = report.measured;
     Json left_out = Json::array();
-    for (const LeftOut& item : measured.show->plan(0).left_out) {
-        left_out.push_back(
-            {{"economy", std::string(name_of(item.cull_kind))}, {"what", item.what}, {"why", item.why}});
+    for (const scene::LeftOut& item : measured.show->plan(0).left_out) {
+        left_out.push_back({{"economy", std::string(scene::name_of(item.cull_kind))},
+                            {"what", item.what},
+                            {"why", item.why}});
     }
     Json cull_kinds = Json::array();
     for (const CullSaving& each : measured.cull_kinds) {
         cull_kinds.push_back(
-            {{"economy", std::string(name_of(each.cull_kind))}, {"saves", saving_json(each.saved)}});
+            {{"economy", std::string(scene::name_of(each.cull_kind))}, {"saves", saving_json(each.saved)}});
     }
     const Json json = {{"config", report.config},
                        {"pack", report.pack},
@@ -217,4 +218,4 @@ std::string plan_json(const PlanReport& report) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

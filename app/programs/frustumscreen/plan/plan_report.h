@@ -8,14 +8,14 @@
 
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct PlanReport {
     std::string config, pack, technique;
-    const DevicePlan& devices;
+    const scene::DevicePlan& devices;
     const PlanMeasurement& measured;
 };
 [[nodiscard]] std::string plan_text(const PlanReport& report);
 [[nodiscard]] std::string plan_json(const PlanReport& report);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -24,7 +24,7 @@
 #include <optional>
 #include <thread>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -58,9 +58,9 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 /// Polls until the time is over or a stop is requested; prints each new state of the tracker to standard error.
 class Recording {
 public:
-    Recording(Tracker& tracker, MonotonicTime start) : tracker_(tracker), start_(start) {}
+    Recording(tracker::Tracker& tracker, MonotonicTime start) : tracker_(tracker), start_(start) {}
 
-    void run(const Request& request, const StopSignals& stop, bool keep) {
+    void run(const Request& request, const service::StopSignals& stop, bool keep) {
         ProgressLine progress("recorded seconds");
         const auto all = static_cast<std::size_t>(std::ceil(request.seconds));
         MonotonicTime now = start_;
@@ -74,7 +74,7 @@ public:
         }
         poll(now, keep);
     }
-    [[nodiscard]] const std::vector<PoseSample>& poses() const { return poses_; }
+    [[nodiscard]] const std::vector<tracker::PoseSample>& poses() const { return poses_; }
     [[nodiscard]] std::string_view state() const { return state_.view(); }
 
 private:
@@ -90,17 +90,18 @@ private:
         }
     }
 
-    Tracker& tracker_;
+    tracker::Tracker& tracker_;
     MonotonicTime start_;
-    std::vector<PoseSample> poses_;
+    std::vector<tracker::PoseSample> poses_;
     Sentence state_;
 };
 
 /// Times are relative to the start; sensors that belong to no station are left out.
-std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, MonotonicTime start) {
-    std::vector<PoseSample> kept;
-    for (PoseSample pose : poses) {
-        if (pose.station > torch_station) {
+std::vector<tracker::PoseSample> for_pose_file(const std::vector<tracker::PoseSample>& poses,
+                                               MonotonicTime start) {
+    std::vector<tracker::PoseSample> kept;
+    for (tracker::PoseSample pose : poses) {
+        if (pose.station > tracker::torch_station) {
             continue;
         }
         pose.time = MonotonicTime(pose.time - start);
@@ -109,19 +110,19 @@ std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, Mono
     return kept;
 }
 
-Result<void> write_pose_recording(const Request& request, const Inputs& inputs, const Recording& recording,
-                                  MonotonicTime start) {
+Result<void> write_pose_recording(const Request& request, const show::Inputs& inputs,
+                                  const Recording& recording, MonotonicTime start) {
     if (recording.poses().empty()) {
         return fail(ErrorKind::DeviceLost, "record.no_pose", "no pose came, and {} was not written{}{}",
                     request.output.string(), recording.state().empty() ? "" : "; ", recording.state());
     }
-    const std::vector<PoseSample> poses = for_pose_file(recording.poses(), start);
-    std::array<std::size_t, torch_station + 1> of_station{};
-    for (const PoseSample& pose : poses) {
+    const std::vector<tracker::PoseSample> poses = for_pose_file(recording.poses(), start);
+    std::array<std::size_t, tracker::torch_station + 1> of_station{};
+    for (const tracker::PoseSample& pose : poses) {
         ++of_station[static_cast<std::size_t>(pose.station)];
     }
-    std::string text = write_poses(poses);
-    if (const std::optional<Registration>& registration = inputs.tracker->registration()) {
+    std::string text = tracker::write_poses(poses);
+    if (const std::optional<geometry::Registration>& registration = inputs.tracker->registration()) {
         const glm::dmat4 matrix = registration->table_from_tracker.matrix();
         const std::span<const double> numbers(&matrix[0][0], 16);
         text.insert(text.find('\n') + 1,
@@ -133,34 +134,35 @@ Result<void> write_pose_recording(const Request& request, const Inputs& inputs, 
     return {};
 }
 
-Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracker_state) {
+Result<void> end_raw_recording(tracker::PacketRecorder& recorder, std::string_view tracker_state) {
     TRY_VOID(recorder.finish());
-    const PacketRecorder::Counts counts = recorder.counts();
+    const tracker::PacketRecorder::Counts counts = recorder.counts();
     fmt::print("{}: {} packets, {} dropped; {}\n", recorder.path().string(), counts.packets, counts.dropped,
                tracker_state);
     return {};
 }
 
 /// `inputs` are the caller's to close, because one of their threads may hang in its device.
-Result<void> record(const Request& request, Inputs& inputs) {
-    const StopSignals stop;
-    TRY(const CheckedSettings settings, load_settings(request.config));
+Result<void> record(const Request& request, show::Inputs& inputs) {
+    const service::StopSignals stop;
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     TRY_VOID(check_output_is_no_input(request.output, {{request.config, settings->tracker.poses}}));
-    DevicePlan devices;
+    scene::DevicePlan devices;
     devices.tracker = settings->tracker.kind;
-    if (devices.tracker == TrackerKind::None) {
+    if (devices.tracker == settings::TrackerKind::None) {
         return fail(ErrorKind::BadConfiguration, "record.no_tracker",
                     "tracker.kind is \"none\"; there is nothing to record");
     }
     const MonotonicTime start = monotonic_now();
-    std::unique_ptr<PacketRecorder> recorder;
+    std::unique_ptr<tracker::PacketRecorder> recorder;
     if (request.raw) {
         TRY(recorder, make_recorder(devices.tracker, request.output));
     }
     TRY(inputs, make_inputs(*settings, devices, std::nullopt, start, std::move(recorder)));
     Recording recording(*inputs.tracker, start);
     recording.run(request, stop, !request.raw);
-    const StopSignals::AtOnce at_once(stop); // a disk may hang: from here a stop signal ends the program
+    const service::StopSignals::AtOnce at_once(
+        stop); // a disk may hang: from here a stop signal ends the program
     return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
                        : write_pose_recording(request, inputs, recording, start);
 }
@@ -172,14 +174,14 @@ int record_command(int argc, char** argv) {
     if (const std::optional<int> end = read_arguments(argc, argv, request)) {
         return *end;
     }
-    Inputs inputs;
+    show::Inputs inputs;
     const int status = exit_status("frustumscreen", record(request, inputs));
     std::fflush(stdout);
     if (status != 0) {
         std::quick_exit(status); // a hanging device must not delay the failure
     }
-    end_within(longest_stop); // the file is complete; only the device is left to close
+    service::end_within(longest_stop); // the file is complete; only the device is left to close
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

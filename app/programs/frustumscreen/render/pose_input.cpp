@@ -3,13 +3,13 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/pose_file.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-Result<std::vector<TrackedState>> load_pose_frames(const std::filesystem::path& file,
-                                                   const glm::dvec3& default_eye_m) {
+Result<std::vector<tracking::TrackedState>> load_pose_frames(const std::filesystem::path& file,
+                                                             const glm::dvec3& default_eye_m) {
     TRY(const Bytes bytes, read_file(file));
-    TRY(const std::vector<PoseSample> samples, parse_poses(as_text(bytes), file.string()));
-    return pose_frames(samples, default_eye_m);
+    TRY(const std::vector<tracker::PoseSample> samples, tracker::parse_poses(as_text(bytes), file.string()));
+    return tracking::pose_frames(samples, default_eye_m);
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
-[[nodiscard]] Result<std::vector<TrackedState>> load_pose_frames(const std::filesystem::path& file,
-                                                                 const glm::dvec3& default_eye_m);
+[[nodiscard]] Result<std::vector<tracking::TrackedState>> load_pose_frames(const std::filesystem::path& file,
+                                                                           const glm::dvec3& default_eye_m);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

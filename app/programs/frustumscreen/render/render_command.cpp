@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -34,7 +34,7 @@ struct Request {
     int width = 0; ///< width of the written pictures; 0: the view's
     int height = 0;
     bool no_light = false;
-    OfflineOptions options;
+    show::OfflineOptions options;
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
@@ -71,9 +71,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 /// Warns about places off the table: poses in millimetres, or in a tracker's frame, give dark pictures.
-void say_off_the_table(const std::vector<TrackedState>& frames, const TableSettings& table) {
+void say_off_the_table(const std::vector<tracking::TrackedState>& frames,
+                       const settings::TableSettings& table) {
     const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
-    const auto off = std::count_if(frames.begin(), frames.end(), [&](const TrackedState& frame) {
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const tracking::TrackedState& frame) {
         const glm::dvec2 place_m(frame.table_from_prop.translation);
         return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
     });
@@ -87,36 +88,42 @@ void say_off_the_table(const std::vector<TrackedState>& frames, const TableSetti
 /// Inputs of one picture.
 struct Studio {
     const Request& request;
-    const Settings& settings;
-    OfflineRenderer& renderer;
+    const settings::Settings& settings;
+    show::OfflineRenderer& renderer;
 };
 
-VisitorScene visitor_scene(const Studio& studio, const TrackedState& tracked_state) {
-    return {studio.renderer.projector(), studio.settings.projector.table_from_projector,
-            studio.renderer.prop(),      tracked_state.table_from_prop,
-            tracked_state.eye_m,         {studio.settings.table.width_m, studio.settings.table.depth_m}};
+simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::TrackedState& tracked_state) {
+    return {.projector = studio.renderer.projector(),
+            .table_from_projector = studio.settings.projector.table_from_projector,
+            .prop = studio.renderer.prop(),
+            .table_from_prop = tracked_state.table_from_prop,
+            .eye_m = tracked_state.eye_m,
+            .table_size_m = {studio.settings.table.width_m, studio.settings.table.depth_m}};
 }
 
 /// Writes one frame's files and returns its line of frames.csv.
-Result<std::string> make_frame(const Studio& studio, std::size_t frame, const TrackedState& tracked_state,
-                               std::vector<VisitorFrame>& visitor_frames) {
-    OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, tracked_state.eye_m);
+Result<std::string> make_frame(const Studio& studio, std::size_t frame,
+                               const tracking::TrackedState& tracked_state,
+                               std::vector<simulation::VisitorFrame>& visitor_frames) {
+    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, tracked_state.eye_m);
     const std::int64_t t_us = to_microseconds(tracked_state.time);
     if (studio.request.view == "visitor") {
-        const VisitorScene scene = visitor_scene(studio, tracked_state);
+        const simulation::VisitorScene scene = visitor_scene(studio, tracked_state);
         const Request& request = studio.request;
-        const VisitorCamera camera =
-            visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
-                           request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
-                           request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
-        picture.colour = visitor_view(scene, picture.colour, camera,
-                                      studio.request.no_light ? exact_check() : VisitorViewOptions{});
-        visitor_frames.push_back({static_cast<int>(frame), t_us, tracked_state.eye_m, camera});
+        const simulation::VisitorCamera camera = simulation::visitor_camera(
+            scene.prop, scene.table_from_prop, scene.eye_m,
+            request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
+            request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
+        picture.colour = simulation::visitor_view(scene, picture.colour, camera,
+                                                  studio.request.no_light ? simulation::exact_check()
+                                                                          : simulation::VisitorViewOptions{});
+        visitor_frames.push_back(
+            {.frame = static_cast<int>(frame), .t_us = t_us, .eye_m = tracked_state.eye_m, .camera = camera});
     }
     const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
-    TRY_VOID(write_file(stem.string() + ".png", encode_png(picture.colour)));
+    TRY_VOID(write_file(stem.string() + ".png", image::encode_png(picture.colour)));
     if (picture.hit_points) {
-        TRY_VOID(write_file(stem.string() + ".pfm", encode_pfm(*picture.hit_points)));
+        TRY_VOID(write_file(stem.string() + ".pfm", image::encode_pfm(*picture.hit_points)));
     }
     return fmt::format("{},{},{:.3f},{},{},{}\n", frame, t_us, picture.ms, studio.renderer.technique(),
                        picture.error ? fmt::format("{:.4f}", picture.error->mean_mm) : std::string(),
@@ -124,16 +131,18 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Tr
 }
 
 Result<void> render(const Request& request) {
-    TRY(const CheckedSettings settings, load_settings(request.config));
-    TRY(const std::vector<TrackedState> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    TRY(const std::vector<tracking::TrackedState> frames,
+        load_pose_frames(request.poses, settings->eye.default_m));
     say_off_the_table(frames, settings->table);
-    OfflineSetup setup{settings, request.options};
-    for (const TrackedState& frame : frames) {
+    show::OfflineSetup setup{settings, request.options};
+    for (const tracking::TrackedState& frame : frames) {
         setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
     }
-    TRY(const OfflineScene scene,
-        load_offline(request.pack, [&](const PackOutline& /*outline*/) { return setup; }));
-    if (const auto note = note_other_prop(request.pack.string(), *scene.pack, name_of(settings->prop.kind))) {
+    TRY(const show::OfflineScene scene,
+        show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
+    if (const auto note = pack::note_other_prop(request.pack.string(), *scene.pack,
+                                                settings::name_of(settings->prop.kind))) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;
@@ -142,20 +151,21 @@ Result<void> render(const Request& request) {
         return bad_input("render.no_folder", "{}: the folder cannot be made: {}", request.out.string(),
                          failed.message());
     }
-    TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(scene));
+    TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
     const Studio studio{request, *settings, *renderer};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
-    std::vector<VisitorFrame> visitor_frames;
+    std::vector<simulation::VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");
     for (std::size_t frame = 0; frame < frames.size(); ++frame) {
         TRY(const std::string line, make_frame(studio, frame, frames[frame], visitor_frames));
         csv += line;
         progress.show(frame + 1, frames.size());
     }
-    std::filesystem::remove(request.out / visitor_cameras_name, failed); // left by an earlier call
+    std::filesystem::remove(request.out / simulation::visitor_cameras_name,
+                            failed); // left by an earlier call
     if (!visitor_frames.empty()) {
-        TRY_VOID(
-            write_file(request.out / visitor_cameras_name, as_bytes(visitor_cameras_json(visitor_frames))));
+        TRY_VOID(write_file(request.out / simulation::visitor_cameras_name,
+                            as_bytes(simulation::visitor_cameras_json(visitor_frames))));
     }
     return write_file(request.out / "frames.csv", as_bytes(csv));
 }
@@ -174,4 +184,4 @@ int render_command(int argc, char** argv) {
     return 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

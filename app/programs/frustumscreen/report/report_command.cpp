@@ -19,7 +19,7 @@
 #include <string>
 #include <utility>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -58,11 +58,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 /// A file that cannot be written causes one message: the report itself counts.
-void leave(const std::filesystem::path& file, const ImportReport& report) {
+void leave(const std::filesystem::path& file, const library::ImportReport& report) {
     if (file.empty()) {
         return;
     }
-    if (const Result<void> written = write_file(file, as_bytes(write_import_report(report))); !written) {
+    if (const Result<void> written = write_file(file, as_bytes(library::write_import_report(report)));
+        !written) {
         complain("frustumscreen", written.error());
     }
 }
@@ -76,14 +77,14 @@ Result<std::unique_ptr<WritableTree>> open_or_make(const std::filesystem::path& 
     return open_tree(folder);
 }
 
-tl::expected<void, ImportFailure> write(const Request& request) {
-    const std::vector<ReportFile> files = report_files(request.places);
+tl::expected<void, library::ImportFailure> write(const Request& request) {
+    const std::vector<report::ReportFile> files = report_files(request.places);
     const Result<std::unique_ptr<WritableTree>> folder = open_or_make(request.into);
     if (!folder) {
-        return tl::unexpected<ImportFailure>(
-            ImportFailure{ImportRefusal::Unwritable, folder.error().message, false});
+        return tl::unexpected<library::ImportFailure>(library::ImportFailure{
+            .refusal = library::ImportRefusal::Unwritable, .reason = folder.error().message, .whole = false});
     }
-    return write_report(**folder, files);
+    return report::write_report(**folder, files);
 }
 
 } // namespace
@@ -93,28 +94,28 @@ int report_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    ImportReport told;
+    library::ImportReport told;
     told.import_id = printable(request.id);
     if (!request.import_report.empty()) {
-        wait_for_readers(request.import_report, told.import_id, request.report_stands_s);
+        library::wait_for_readers(request.import_report, told.import_id, request.report_stands_s);
         leave(request.import_report, told);
     }
-    const tl::expected<void, ImportFailure> written = write(request);
+    const tl::expected<void, library::ImportFailure> written = write(request);
     const std::string name = request.name.empty() ? request.into.filename().string() : request.name;
-    ImportedPack& line = told.packs.emplace_back();
-    line.file = written ? printable(name) : std::string(report_request_name);
-    line.outcome = written ? ImportOutcome::Written : ImportOutcome::NotWritten;
-    line.refusal = written ? ImportRefusal::None : written.error().refusal;
+    library::ImportedPack& line = told.packs.emplace_back();
+    line.file = written ? printable(name) : std::string(library::report_request_name);
+    line.outcome = written ? library::ImportOutcome::Written : library::ImportOutcome::NotWritten;
+    line.refusal = written ? library::ImportRefusal::None : written.error().refusal;
     line.reason = written ? std::string() : written.error().reason;
-    told.stage = ImportStage::Done;
+    told.stage = library::ImportStage::Done;
     leave(request.outcome, told);
     if (written) {
         fmt::print("{}: the report is written\n", line.file);
         return 0;
     }
-    if (line.refusal == ImportRefusal::Unreadable) { // the importer may find no stick to tell of
+    if (line.refusal == library::ImportRefusal::Unreadable) { // the importer may find no stick to tell of
         told.import_id += ".report";
-        told.stage = ImportStage::Failed;
+        told.stage = library::ImportStage::Failed;
         told.refusal = line.refusal;
         told.reason = line.reason;
         leave(request.import_report, told);
@@ -123,4 +124,4 @@ int report_command(int argc, char** argv) {
     return 1;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

@@ -1,9 +1,9 @@
 /// `frustumscreen report`: all that the makers of a kiosk want to know of it, as files in a folder.
 #pragma once
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// Arguments after 'report'. Exit status: 0 it is written; 1 it is not; 2 wrong use.
 [[nodiscard]] int report_command(int argc, char** argv);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

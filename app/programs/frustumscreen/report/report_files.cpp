@@ -15,7 +15,7 @@
 #include <ctime>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
@@ -32,16 +32,16 @@ Result<std::string> small_text(const std::filesystem::path& file) {
 }
 
 /// What this sees of the disk with the packs may be read-only for it alone; the watchdog's notes tell of the disk.
-std::string document_to_share(const KnownExhibit& known) {
-    auto document = nlohmann::ordered_json::parse(status_document(known));
+std::string document_to_share(const status::KnownExhibit& known) {
+    auto document = nlohmann::ordered_json::parse(status::status_document(known));
     if (auto& machine = document["machine"]; machine.is_object() && machine["disk"].is_object()) {
         machine["disk"].erase("writable");
     }
     return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string version_text(const Environment& environment) {
-    const SystemImage& image = environment.image;
+std::string version_text(const status::Environment& environment) {
+    const status::SystemImage& image = environment.image;
     std::string text = fmt::format("FrustumScreen {}\n{}\n", project_version(), environment.system);
     if (image.there()) {
         text += fmt::format("image {}, slot {}\n", image.version, image.slot);
@@ -59,33 +59,33 @@ Result<std::string> journal_text(const std::filesystem::path& folder) {
     limits.time = std::chrono::minutes(4);
     limits.output_bytes = 4 * max_journal_bytes;
     TRY(const Bytes journal, run_program(command, "", limits));
-    return shared_journal(as_text(journal), max_journal_bytes);
+    return report::shared_journal(as_text(journal), max_journal_bytes);
 }
 
 } // namespace
 
-std::vector<ReportFile> report_files(const ReportPlaces& places) {
-    KnownExhibit known = read_known_exhibit(places.status, status_clock());
+std::vector<report::ReportFile> report_files(const ReportPlaces& places) {
+    status::KnownExhibit known = status::read_known_exhibit(places.status, status::status_clock());
     if (const auto import = known.status.fields.find("import");
         import != known.status.fields.end() && import->is_object()) {
         (*import)["stick"] = ""; // a label may be a person's name
     }
-    std::vector<ReportFile> files;
+    std::vector<report::ReportFile> files;
     files.push_back({"version.txt", version_text(known.environment)});
-    files.push_back({"status.txt", status_text(known, std::time(nullptr))});
+    files.push_back({"status.txt", status::status_text(known, std::time(nullptr))});
     files.push_back({"status.json", document_to_share(known)});
     files.push_back(
         {"settings.txt", text_or_why(small_text(places.config).and_then([](const std::string& text) {
-             return settings_to_share(text);
+             return settings::settings_to_share(text);
          }))});
-    if (const Result<ReadCounts> counts = read_counts(places.counts)) {
-        files.push_back({"counts.csv", counts_csv(*counts)});
+    if (const Result<counts::ReadCounts> counts = counts::read_counts(places.counts)) {
+        files.push_back({"counts.csv", counts::counts_csv(*counts)});
     }
     files.push_back({"faults.txt", text_or_why(small_text(places.faults).map([](const std::string& ring) {
-                         return faults_in_order(ring);
+                         return report::faults_in_order(ring);
                      }))});
     files.push_back({"journal.txt", text_or_why(journal_text(places.journal))});
     return files;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

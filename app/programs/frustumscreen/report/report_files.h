@@ -12,17 +12,17 @@
 #include <filesystem>
 #include <vector>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 struct ReportPlaces {
     std::filesystem::path config = "/etc/frustumscreen/kiosk.toml";
     std::filesystem::path counts = "/var/lib/frustumscreen/counts";
     std::filesystem::path faults = "/var/lib/frustumscreen-watchdog/faults";
     std::filesystem::path journal; ///< folder; empty: this machine's own
-    StatusPlaces status;
+    status::StatusPlaces status;
 };
 
 /// The shortest first.
-[[nodiscard]] std::vector<ReportFile> report_files(const ReportPlaces& places);
+[[nodiscard]] std::vector<report::ReportFile> report_files(const ReportPlaces& places);
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

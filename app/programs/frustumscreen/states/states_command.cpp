@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 int states_command(int argc, char** argv) {
     bool dot = false;
@@ -15,8 +15,8 @@ int states_command(int argc, char** argv) {
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
-    fmt::print("{}", dot ? states_graph() : states_page());
+    fmt::print("{}", dot ? exhibit::states_graph() : exhibit::states_page());
     return 0;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

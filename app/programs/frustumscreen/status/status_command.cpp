@@ -18,12 +18,12 @@
 #include <optional>
 #include <string>
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 namespace {
 
 struct Request {
-    StatusPlaces places;
+    status::StatusPlaces places;
     std::filesystem::path staff_socket = usual_staff_socket;
     std::filesystem::path screenshot;
     bool json = false;
@@ -60,17 +60,17 @@ int status_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    const KnownExhibit known = read_known_exhibit(request.places, status_clock());
-    const std::string text = request.json         ? status_document(known)
-                             : request.prometheus ? prometheus_text(known)
-                                                  : status_text(known, std::time(nullptr));
+    const status::KnownExhibit known = status::read_known_exhibit(request.places, status::status_clock());
+    const std::string text = request.json         ? status::status_document(known)
+                             : request.prometheus ? status::prometheus_text(known)
+                                                  : status::status_text(known, std::time(nullptr));
     fmt::print("{}", text);
     std::fflush(stdout);
-    int status = verdict_of(known).well ? 0 : 1;
+    int status = status::verdict_of(known).well ? 0 : 1;
     if (!request.screenshot.empty()) {
         status |= exit_status("frustumscreen", write_screenshot(request));
     }
     return status;
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs

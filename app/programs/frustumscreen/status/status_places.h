@@ -6,10 +6,10 @@
 #include "app/programs/common/command_line.h"
 #include "app/status/known_exhibit.h"
 
-namespace frustumscreen {
+namespace frustumscreen::programs {
 
 /// The defaults are those of `places`.
-inline void add_status_places(CommandLine& app, StatusPlaces& places) {
+inline void add_status_places(CommandLine& app, status::StatusPlaces& places) {
     app.add_option("--status-file", places.status_file, "the exhibit's status").capture_default_str();
     app.add_option("--watchdog-file", places.watchdog_file, "its watchdog's status").capture_default_str();
     app.add_option("--boot-folder", places.boot_folder, "what the start of an appliance has left")
@@ -18,4 +18,4 @@ inline void add_status_places(CommandLine& app, StatusPlaces& places) {
         .capture_default_str();
 }
 
-} // namespace frustumscreen
+} // namespace frustumscreen::programs
