@@ -115,8 +115,11 @@ std::string remark_of(const library::ImportReport& report) {
     const auto wrong =
         std::find_if(report.packs.begin(), report.packs.end(), [](const library::ImportedPack& pack) {
             return pack.outcome == library::ImportOutcome::NotWritten ||
+                   (pack.outcome == library::ImportOutcome::Pending &&
+                    pack.file == library::copy_request_name) ||
                    (pack.outcome == library::ImportOutcome::Refused &&
-                    (pack.file == library::settings_file_name || pack.file == library::report_request_name));
+                    (pack.file == library::settings_file_name || pack.file == library::report_request_name ||
+                     pack.file == library::copy_request_name || pack.file == library::kiosk_copy_name));
         });
     return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
 }
@@ -166,7 +169,7 @@ NoticeText notice_text(const library::ImportReport& report, std::size_t max_line
                     .lines = lines_of(report, max_lines),
                     .ring = false,
                     .remark = remark_of(report)};
-    if (text.lines.empty()) {
+    if (text.lines.empty() && text.remark.empty()) {
         text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
     }
     return text;

@@ -1,7 +1,7 @@
 #include "app/library/import_stick.h"
 
 #include "app/library/copy_stage.h"
-#include "app/library/import_teller.h"
+#include "app/library/import_reporter.h"
 #include "app/library/kiosk_keys.h"
 #include "app/library/library_folder.h"
 #include "app/library/next_set_file.h"
@@ -27,7 +27,7 @@ public:
     Import(FileTree& stick, WritableTree& library, const ImportRequest& request,
            const ImportEnvironment& outside)
         : stick_(stick), library_(library), request_(request), outside_(outside), set_(library),
-          keys_(request), in_vain_(request.limits), teller_(request, outside, contents_) {}
+          keys_(request), in_vain_(request.limits), reporter_(request, outside, contents_) {}
 
     /// Nothing if the exhibit has changed to another set than the one that the packs were weighed against: the
     /// import starts again.
@@ -56,13 +56,13 @@ private:
     SetOnDisk set_;
     KioskKeys keys_;
     WastedWorkBudget in_vain_;
-    ImportTeller teller_;
+    ImportReporter reporter_;
     bool shows_another_ = false; ///< than at the first look
 };
 
 ImportResult<void> Import::read_library() {
     TRY_VOID(set_.read());
-    teller_.set_number(set_.known().choice.set.number);
+    reporter_.set_number(set_.known().choice.set.number);
     TRY_VOID(set_.settle());
     keys_.read(set_.known());
     return remember_day();
@@ -82,7 +82,7 @@ ImportResult<void> Import::remember_day() {
 
 ImportResult<void> Import::look() {
     StickLook look(stick_, request_.limits, outside_, keys_, in_vain_);
-    teller_.tell(ImportStage::Found);
+    reporter_.tell(ImportStage::Found);
     return look.run(contents_, set_.known());
 }
 
@@ -109,7 +109,7 @@ ImportResult<void> Import::look_for_room() {
     for (const StickPack& pack : contents_.packs) {
         wanted += pack.is_wanted() ? pack.pack.bytes : 0;
     }
-    teller_.set_total_bytes(2 * wanted); // each byte is copied and checked
+    reporter_.set_total_bytes(2 * wanted); // each byte is copied and checked
     if (wanted == 0) {
         return {};
     }
@@ -127,11 +127,11 @@ ImportResult<void> Import::look_for_room() {
 }
 
 ImportResult<void> Import::copy() {
-    if (teller_.report().total_bytes > 0) {
-        teller_.tell(ImportStage::Copying);
+    if (reporter_.report().total_bytes > 0) {
+        reporter_.tell(ImportStage::Copying);
     }
     CopyStage stage(stick_, library_, request_.limits, outside_, in_vain_,
-                    [this](std::uint64_t bytes) { teller_.progress(bytes); });
+                    [this](std::uint64_t bytes) { reporter_.progress(bytes); });
     return stage.run(contents_.packs, keys_.trust());
 }
 
@@ -187,8 +187,8 @@ ImportResult<void> Import::switch_set() {
         contents_.exhibit_line->outcome = is_same ? ImportOutcome::AlreadyThere : ImportOutcome::Taken;
         contents_.exhibit_line->reason = of_ended_keys(installed);
     }
-    teller_.set_removed(std::move(planned.removed));
-    teller_.set_number(installed.number);
+    reporter_.set_removed(std::move(planned.removed));
+    reporter_.set_number(installed.number);
     return set_.is_unsure() ? failed(unsure_switch()) : ImportResult<void>();
 }
 
@@ -207,10 +207,10 @@ ImportResult<void> Import::all() {
 
 void Import::fail_whole(const ImportFailure& failure) {
     if (!set_.is_unsure()) { // nothing was taken, and every line says so
-        teller_.set_removed({});
+        reporter_.set_removed({});
         refuse_whole(contents_, failure);
     }
-    teller_.tell_failed(failure);
+    reporter_.tell_failed(failure);
 }
 
 std::optional<ImportReport> Import::run() {
@@ -219,16 +219,16 @@ std::optional<ImportReport> Import::run() {
         return std::nullopt;
     }
     if (outcome) {
-        teller_.set_all_done();
-        teller_.tell(ImportStage::MayTakeOut);
+        reporter_.set_all_done();
+        reporter_.tell(ImportStage::MayTakeOut);
     }
     set_.clear_away_if_sure();
     if (outcome) {
-        teller_.tell(ImportStage::Done);
+        reporter_.tell(ImportStage::Done);
     } else {
         fail_whole(outcome.error());
     }
-    return teller_.report();
+    return reporter_.report();
 }
 
 } // namespace

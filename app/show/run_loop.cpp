@@ -189,6 +189,9 @@ private:
         if (state.calibrate && options_.calibrate) {
             options_.calibrate();
         }
+        if (state.reset && options_.reset) {
+            options_.reset();
+        }
         fault_since_ = state.state != exhibit::State::Fault ? std::nullopt
                        : fault_since_                       ? fault_since_
                                                             : now;

@@ -19,15 +19,23 @@ std::string namespace_of(const fs::path& path) {
     return parts.at(1) == "base" ? "frustumscreen" : "frustumscreen::" + parts.at(1).string();
 }
 
-/// The house's namespaces that a source opens, with those nested in one line.
+bool is_declaration(const std::string& line) {
+    return (line.rfind("class ", 0) == 0 || line.rfind("struct ", 0) == 0) && line.back() == ';';
+}
+
+/// The house's namespaces that a source opens, with those nested in one line; not one in which it only declares
+/// another room's class.
 std::vector<std::string> namespaces_in(const fs::path& file) {
     const std::string begin = "namespace ";
     std::vector<std::string> opened;
     std::ifstream text(file);
+    std::string name; ///< of a namespace that the line before opens
     for (std::string line; std::getline(text, line);) {
-        if (line.rfind(begin + "frustumscreen", 0) == 0) {
-            opened.push_back(line.substr(begin.size(), line.find(" {") - begin.size()));
+        if (!name.empty() && !is_declaration(line)) {
+            opened.push_back(name);
         }
+        const bool opens = line.rfind(begin + "frustumscreen", 0) == 0;
+        name = opens ? line.substr(begin.size(), line.find(" {") - begin.size()) : "";
     }
     return opened;
 }

@@ -160,6 +160,7 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
                 view.presses.fill(123);
                 view.kept = k % 2 == 0;
                 view.stays = k % 3 == 0;
+                view.resets = k % 2 == 0;
                 const image::Image8 below = staff_background(view, scene, *typesetter);
                 const image::Image8 shown = page(view);
                 const int edge = height / 50;

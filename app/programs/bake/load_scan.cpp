@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
+#include "assets_baked/bake/reduce_scan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,15 +23,22 @@ bool has_colours(const bake::SourceMesh& mesh) {
 
 } // namespace
 
-Result<bake::SourceMesh> load_scan(const BakeRequest& request) {
+Result<bake::SourceMesh> load_scan(const BakeRequest& request,
+                                   const std::function<void(std::string_view step, double done)>& progress) {
+    constexpr double read_share = 0.6; // of a scan of many triangles
+    const auto reading = [&](double done) { progress("reading the scan", read_share * done); };
     TRY(bake::SourceMesh mesh,
-        bake::load_mesh(request.scan, {request.texture, bake::useful_picture_texels(request.options.size)}));
+        bake::load_mesh(request.scan,
+                        {request.texture, bake::useful_picture_texels(request.options.size), reading}));
+    progress("fewer triangles", read_share);
     if (request.options.unlit && !has_colours(mesh)) {
         mesh.notes.push_back(
             {bake::SourceNote::Kind::Lost,
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
+    bake::reduce_scan(mesh);
+    progress("a last look at the scan", 0.9);
     bake::Scraps scraps = bake::find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(

@@ -18,6 +18,7 @@ struct RunRequest {
     std::filesystem::path status_file;
     std::filesystem::path staff_socket;
     std::filesystem::path calibrate_file;
+    std::filesystem::path reset_file;
     std::filesystem::path record;
     show::ArtifactShowOptions show;
     show::Trust trust = show::Trust::Newest; ///< in the installed sets

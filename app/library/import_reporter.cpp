@@ -1,4 +1,4 @@
-#include "app/library/import_teller.h"
+#include "app/library/import_reporter.h"
 
 #include "firmware_host/base/printable.h"
 
@@ -12,28 +12,28 @@ constexpr Nanoseconds between_reports = std::chrono::milliseconds(100); ///< dur
 
 } // namespace
 
-ImportTeller::ImportTeller(const ImportRequest& request, const ImportEnvironment& outside,
+ImportReporter::ImportReporter(const ImportRequest& request, const ImportEnvironment& outside,
                            const StickContents& contents)
     : request_(request), outside_(outside), contents_(contents) {
     report_.import_id = request.import_id;
     report_.stick = printable(request.stick);
 }
 
-void ImportTeller::tell(ImportStage stage) {
+void ImportReporter::tell(ImportStage stage) {
     report_.stage = stage;
     told_ = outside_.now();
     report_.packs = lines_of(contents_, request_, removed_);
     outside_.tell(report_);
 }
 
-void ImportTeller::progress(std::uint64_t bytes) {
+void ImportReporter::progress(std::uint64_t bytes) {
     report_.done_bytes = std::min(bytes, report_.total_bytes);
     if (outside_.now() - told_ >= between_reports) {
         tell(ImportStage::Copying);
     }
 }
 
-void ImportTeller::tell_failed(const ImportFailure& failure) {
+void ImportReporter::tell_failed(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
     tell(ImportStage::Failed);

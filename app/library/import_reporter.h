@@ -12,10 +12,10 @@
 
 namespace frustumscreen::library {
 
-class ImportTeller {
+class ImportReporter {
 public:
-    /// The references must outlive the teller. Each report has the lines of `contents` at that time.
-    ImportTeller(const ImportRequest& request, const ImportEnvironment& outside,
+    /// The references must outlive the reporter. Each report has the lines of `contents` at that time.
+    ImportReporter(const ImportRequest& request, const ImportEnvironment& outside,
                  const StickContents& contents);
 
     void tell(ImportStage stage);
