@@ -7,6 +7,7 @@
 #include "assets_baked/bake/file_normals.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
+#include "assets_baked/bake/reduction_error.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
@@ -62,11 +63,12 @@ public:
     Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
         : options_(options), frame_(frame), points_(in_box(mesh, frame)), source_(mesh, points_),
           normals_(mesh, frame), welded_(weld(mesh, points_)),
-          texel_box_(1.0F / static_cast<float>(options.size)) {}
+          texel_box_(1.0F / static_cast<float>(options.size)), reduction_(reduction_error(mesh, frame)) {}
 
     [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
+    [[nodiscard]] const LevelError& reduction() const { return reduction_; }
 
     /// From fine to coarse.
     std::vector<Surface> surfaces() {
@@ -130,10 +132,14 @@ public:
     /// The pack's reliefs, in addition to the levels.
     [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
         options_.progress("relief to be cast", 0.9);
-        return bake_reliefs({meshes.levels.front(), meshes.texture, frame_.box_size,
-                             directions_of(options_.prop.shape), source_, samples_, options_.prop.zone,
-                             options_.unlit},
-                            options_.size);
+        std::vector<MeasuredRelief> made = bake_reliefs(
+            {meshes.levels.front(), meshes.texture, frame_.box_size, directions_of(options_.prop.shape),
+             source_, samples_, options_.prop.zone, options_.unlit},
+            options_.size);
+        for (MeasuredRelief& relief : made) {
+            add_reduction(reduction_, relief.error);
+        }
+        return made;
     }
 
 private:
@@ -153,6 +159,7 @@ private:
     [[nodiscard]] Surface measured(const TriangleMesh& mesh, float tolerance_box) const {
         Surface surface{on_codes(mesh, frame_.box_size), tolerance_box, {}};
         surface.error = measure_shape(surface.mesh, source_, samples_);
+        add_reduction(reduction_, surface.error);
         return surface;
     }
 
@@ -181,6 +188,7 @@ private:
     FileNormals normals_;
     TriangleMesh welded_;
     float texel_box_;
+    LevelError reduction_; ///< of the source itself
     TriangleMesh finest_;
     TriangleMesh visible_;
     SourceSamples samples_;
@@ -320,7 +328,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.box_size = frame.box_size;
     pack.box_from_file = frame.box_from_file;
     pack.scale = options.scale;
-    pack.provenance.source_triangles = mesh.triangles.size();
+    pack.provenance.source_triangles =
+        mesh.reduced_from ? mesh.reduced_from->triangles : mesh.triangles.size();
     std::vector<glm::dvec3> used;
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
@@ -336,7 +345,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     options.progress("choice of the level", 0.98);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    add_reduction(bakery.reduction(), seen);
     put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);

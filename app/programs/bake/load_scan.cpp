@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
+#include "assets_baked/bake/reduce_scan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,6 +32,7 @@ Result<SourceMesh> load_scan(const BakeRequest& request) {
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
+    reduce_scan(mesh);
     Scraps scraps = find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(
