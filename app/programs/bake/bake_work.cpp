@@ -13,19 +13,39 @@
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/open_file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace frustumscreen {
 
 namespace {
+
+/// Piece by piece, because the scan may be large.
+Result<std::string> sha256_of(const std::filesystem::path& path) {
+    TRY(const OpenFile file, OpenFile::open(path, std::numeric_limits<std::uint64_t>::max()));
+    constexpr std::uint64_t piece = std::uint64_t{16} << 20U;
+    Sha256 hash;
+    Bytes bytes;
+    for (std::uint64_t at = 0; at < file.bytes(); at += bytes.size()) {
+        bytes.resize(static_cast<std::size_t>(std::min(piece, file.bytes() - at)));
+        if (!file.read(at, bytes)) {
+            return bad_input("bake.scan_changed", "{}: it became shorter during the bake, or its disk fails",
+                             path.string());
+        }
+        hash.add(bytes);
+    }
+    return hash.hex();
+}
 
 Result<void> describe(Pack& pack, const BakeRequest& request) {
     pack.id = request.id;
@@ -34,9 +54,8 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     for (const PackCaption& caption : pack.captions) {
         pack.languages.push_back(caption.language);
     }
-    TRY(const Bytes source, read_file(request.scan));
     pack.provenance.source_name = request.scan.filename().string();
-    pack.provenance.source_sha256 = sha256_hex(source);
+    TRY(pack.provenance.source_sha256, sha256_of(request.scan));
     put_scan_rights(pack, request.rights);
     return {};
 }
