@@ -74,7 +74,7 @@ public:
     std::vector<Surface> surfaces() {
         finest_ =
             welded_.triangle_count() > max_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
-        options_.progress("what visitors can see", 0.02);
+        options_.progress("what visitors can see", 0.1);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // no part is visible from the zone: a sheet flat on the table
@@ -87,7 +87,7 @@ public:
         std::size_t last = finest_.triangle_count();
         for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
             options_.progress("simplified levels",
-                              0.1 + 0.4 * static_cast<double>(k) / mesh_tolerances.size());
+                              0.22 + 0.12 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.triangle_count() * 20 > last * 19) {
                 continue; // less than 5 % fewer than the last: not worth a level
@@ -103,7 +103,7 @@ public:
 
     /// `surfaces` from fine to coarse.
     TexturedLevels mesh_levels(const std::vector<Surface>& surfaces) {
-        options_.progress("colours", 0.5);
+        options_.progress("colours", 0.34);
         SharedCharts charts(texel_box_, 4 * options_.size);
         for (auto surface = surfaces.rbegin(); surface != surfaces.rend(); ++surface) {
             const auto coarser = surface == surfaces.rbegin() ? surface : std::prev(surface);
@@ -131,10 +131,12 @@ public:
 
     /// The pack's reliefs, in addition to the levels.
     [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
-        options_.progress("relief to be cast", 0.9);
+        const auto progress = [this](double done) {
+            options_.progress("relief to be cast", 0.55 + 0.38 * done);
+        };
         std::vector<MeasuredRelief> made = bake_reliefs(
             {meshes.levels.front(), meshes.texture, frame_.box_size, directions_of(options_.prop.shape),
-             source_, samples_, options_.prop.zone, options_.unlit},
+             source_, samples_, options_.prop.zone, options_.unlit, progress},
             options_.size);
         for (MeasuredRelief& relief : made) {
             add_reduction(reduction_, relief.error);
@@ -170,6 +172,7 @@ private:
     Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
                const Image<float>& coverage) {
         if (!options_.unlit) {
+            options_.progress("light", 0.42);
             multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
         }
         return finish(colour, texels, coverage);
@@ -342,7 +345,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     }
     pack.extremes = profile_extremes(used);
     keep(pack, std::move(meshes));
-    options.progress("choice of the level", 0.98);
+    options.progress("choice of the level", 0.93);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
     SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);

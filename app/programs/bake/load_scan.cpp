@@ -23,9 +23,13 @@ bool has_colours(const SourceMesh& mesh) {
 
 } // namespace
 
-Result<SourceMesh> load_scan(const BakeRequest& request) {
+Result<SourceMesh> load_scan(const BakeRequest& request,
+                             const std::function<void(std::string_view step, double done)>& progress) {
+    constexpr double read_share = 0.6; // of a scan of many triangles
+    const auto reading = [&](double done) { progress("reading the scan", read_share * done); };
     TRY(SourceMesh mesh,
-        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size)}));
+        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size), reading}));
+    progress("fewer triangles", read_share);
     if (request.options.unlit && !has_colours(mesh)) {
         mesh.notes.push_back(
             {SourceNote::Kind::Lost,
@@ -33,6 +37,7 @@ Result<SourceMesh> load_scan(const BakeRequest& request) {
              "--unlit it is lit as in a museum"});
     }
     reduce_scan(mesh);
+    progress("a last look at the scan", 0.9);
     Scraps scraps = find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(
