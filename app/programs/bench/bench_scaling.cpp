@@ -1,8 +1,8 @@
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/scaling.h"
+#include "app/bench/measures/scaling_bakes.h"
 #include "app/bench/measures/verdicts.h"
 #include "app/programs/bench/bench_command.h"
-#include "app/programs/bench/scaling_bakes.h"
 #include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>

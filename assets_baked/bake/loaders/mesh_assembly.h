@@ -10,9 +10,9 @@
 
 namespace frustumscreen {
 
-/// Limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a small file
+/// Limits of what a curator's computer can bake: 60 million triangles are 2.5 GiB of mesh. They also stop a small file
 /// that repeats its parts endlessly.
-inline constexpr std::size_t max_triangles = 50'000'000;
+inline constexpr std::size_t max_triangles = 60'000'000;
 inline constexpr std::size_t max_source_vertices = 100'000'000;
 /// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.
 inline constexpr double largest_coordinate = 1e30;

@@ -1,4 +1,4 @@
-#include "app/programs/bench/scaling_bakes.h"
+#include "app/bench/measures/scaling_bakes.h"
 
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/run_program.h"
