@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::int64_t fewest_triangles = 1'000;
-constexpr std::int64_t max_triangles = 20'000'000;
+constexpr std::int64_t max_triangles = 50'000'000;
 
 } // namespace
 

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 [[nodiscard]] std::vector<std::string_view> builtin_names(); ///< "amphora", ...
 
-/// About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 2e7
+/// About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 5e7
 /// triangles.
 [[nodiscard]] Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 

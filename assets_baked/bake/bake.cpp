@@ -7,6 +7,7 @@
 #include "assets_baked/bake/file_normals.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
+#include "assets_baked/bake/reduction_error.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
@@ -62,17 +63,18 @@ public:
     Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
         : options_(options), frame_(frame), points_(in_box(mesh, frame)), source_(mesh, points_),
           normals_(mesh, frame), welded_(weld(mesh, points_)),
-          texel_box_(1.0F / static_cast<float>(options.size)) {}
+          texel_box_(1.0F / static_cast<float>(options.size)), reduction_(reduction_error(mesh, frame)) {}
 
     [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
+    [[nodiscard]] const LevelError& reduction() const { return reduction_; }
 
     /// From fine to coarse.
     std::vector<Surface> surfaces() {
         finest_ =
             welded_.triangle_count() > max_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
-        options_.progress("what visitors can see", 0.02);
+        options_.progress("what visitors can see", 0.1);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // no part is visible from the zone: a sheet flat on the table
@@ -85,7 +87,7 @@ public:
         std::size_t last = finest_.triangle_count();
         for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
             options_.progress("simplified levels",
-                              0.1 + 0.4 * static_cast<double>(k) / mesh_tolerances.size());
+                              0.22 + 0.12 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.triangle_count() * 20 > last * 19) {
                 continue; // less than 5 % fewer than the last: not worth a level
@@ -101,7 +103,7 @@ public:
 
     /// `surfaces` from fine to coarse.
     TexturedLevels mesh_levels(const std::vector<Surface>& surfaces) {
-        options_.progress("colours", 0.5);
+        options_.progress("colours", 0.34);
         SharedCharts charts(texel_box_, 4 * options_.size);
         for (auto surface = surfaces.rbegin(); surface != surfaces.rend(); ++surface) {
             const auto coarser = surface == surfaces.rbegin() ? surface : std::prev(surface);
@@ -129,11 +131,17 @@ public:
 
     /// The pack's reliefs, in addition to the levels.
     [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
-        options_.progress("relief to be cast", 0.9);
-        return bake_reliefs({meshes.levels.front(), meshes.texture, frame_.box_size,
-                             directions_of(options_.prop.shape), source_, samples_, options_.prop.zone,
-                             options_.unlit},
-                            options_.size);
+        const auto progress = [this](double done) {
+            options_.progress("relief to be cast", 0.55 + 0.38 * done);
+        };
+        std::vector<MeasuredRelief> made = bake_reliefs(
+            {meshes.levels.front(), meshes.texture, frame_.box_size, directions_of(options_.prop.shape),
+             source_, samples_, options_.prop.zone, options_.unlit, progress},
+            options_.size);
+        for (MeasuredRelief& relief : made) {
+            add_reduction(reduction_, relief.error);
+        }
+        return made;
     }
 
 private:
@@ -153,6 +161,7 @@ private:
     [[nodiscard]] Surface measured(const TriangleMesh& mesh, float tolerance_box) const {
         Surface surface{on_codes(mesh, frame_.box_size), tolerance_box, {}};
         surface.error = measure_shape(surface.mesh, source_, samples_);
+        add_reduction(reduction_, surface.error);
         return surface;
     }
 
@@ -163,6 +172,7 @@ private:
     Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
                const Image<float>& coverage) {
         if (!options_.unlit) {
+            options_.progress("light", 0.42);
             multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
         }
         return finish(colour, texels, coverage);
@@ -181,6 +191,7 @@ private:
     FileNormals normals_;
     TriangleMesh welded_;
     float texel_box_;
+    LevelError reduction_; ///< of the source itself
     TriangleMesh finest_;
     TriangleMesh visible_;
     SourceSamples samples_;
@@ -320,7 +331,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.box_size = frame.box_size;
     pack.box_from_file = frame.box_from_file;
     pack.scale = options.scale;
-    pack.provenance.source_triangles = mesh.triangles.size();
+    pack.provenance.source_triangles =
+        mesh.reduced_from ? mesh.reduced_from->triangles : mesh.triangles.size();
     std::vector<glm::dvec3> used;
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
@@ -333,10 +345,11 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     }
     pack.extremes = profile_extremes(used);
     keep(pack, std::move(meshes));
-    options.progress("choice of the level", 0.98);
+    options.progress("choice of the level", 0.93);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    add_reduction(bakery.reduction(), seen);
     put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);

@@ -4,7 +4,8 @@
 /// Frame    in: the file's; out: the box (pack.h).
 /// Errors   one line for the curator.
 /// Threads  uses all cores; `progress` is called on the caller's thread.
-/// Memory   at most about 1.5 kB for each source triangle, and 30 B for each texel of an atlas.
+/// Memory   about 0.4 kB for each of a million source triangles or more, and 30 B for each texel of an atlas; the caller
+///          reduces a larger scan first (reduce_scan.h).
 #pragma once
 
 #include "app/geometry/prop_shape.h"

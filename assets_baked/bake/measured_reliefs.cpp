@@ -32,7 +32,15 @@ std::vector<int> relief_texels(int size) {
 
 std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
     std::vector<MeasuredRelief> reliefs;
+    const auto work = [](double texels) { return texels * texels; };
+    double all = 0.0;
     for (const int texels : relief_texels(size)) {
+        all += work(texels);
+    }
+    double done = 0.0;
+    for (const int texels : relief_texels(size)) {
+        source.progress(done / all);
+        done += work(texels);
         const Image8 texture = mip_for(source.texture, size, texels);
         const SourceMesh mesh = textured_source(source.finest, texture, source.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);

@@ -14,6 +14,7 @@
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/level.h"
 
+#include <functional>
 #include <vector>
 
 namespace frustumscreen {
@@ -31,6 +32,7 @@ struct ReliefSource {
     const SourceSamples& samples; ///< of the source, for colour
     const ViewingZone& zone;
     bool compare_colour = false; ///< false for baked light, which is not an error
+    std::function<void(double done)> progress = [](double) {}; ///< the share of the work, 0..1
 };
 [[nodiscard]] std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,14 @@ struct SourceContents {
     std::vector<glm::ivec2> picture_sizes; ///< of each picture of colours, texels, as in the file
 };
 
+/// A scan before it was reduced to what a bake uses (reduce_scan.h), and how far the two surfaces lie apart: of points
+/// spread over both, each point's distance from the other surface, in the file's units.
+struct SourceReduction {
+    std::size_t triangles = 0;
+    std::size_t points = 0; ///< different ones that triangles use
+    double mean = 0.0, p95 = 0.0, max = 0.0;
+};
+
 /// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
@@ -67,6 +76,7 @@ struct SourceMesh {
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
     SourceAbout about;
     SourceContents contents;
+    std::optional<SourceReduction> reduced_from;
     bool is_unlit = false; ///< the file's colours are shown as they are, without light
     char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };

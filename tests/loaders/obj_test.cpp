@@ -119,6 +119,59 @@ TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
     }
 }
 
+/// Faces in the tiles 1001, 1002 and 1011, each a triangle with a vertex of its own on the tile's edge.
+const std::string three_tiles = square + "vt 0.1 0.1\nvt 1 0.1\nvt 0.1 0.9\n"
+                                         "vt 1.1 0.1\nvt 1.9 0.1\nvt 1 0.9\n"
+                                         "vt 0.1 1.1\nvt 0.9 1\nvt 0.1 1.9\n"
+                                         "usemtl wood\nf 1/1 2/2 3/3\nf 1/4 2/5 3/6\nf 1/7 2/8 3/9\n";
+
+std::string plain_png(std::uint8_t red) {
+    return std::string(as_text(encode_png(Image8(2, 2, glm::u8vec4(red, 0, 0, 255)))));
+}
+
+TEST(Obj, TilesOfTextureCoordinatesHavePicturesOfTheirOwn) {
+    for (const char* map : {"skin.<UDIM>.png", "skin.1001.png"}) {
+        SCOPED_TRACE(map);
+        const TemporaryFolder folder;
+        for (const auto& [tile, red] : {std::pair(1001, 10), {1002, 20}, {1011, 30}}) {
+            folder.write(fmt::format("skin.{}.png", tile), plain_png(static_cast<std::uint8_t>(red)));
+        }
+        folder.write("model.mtl", std::string("newmtl wood\nmap_Kd ") + map + "\n");
+        const Result<SourceMesh> mesh =
+            load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + three_tiles));
+        ASSERT_TRUE(mesh) << mesh.error().message;
+        ASSERT_EQ(mesh->triangle_materials.size(), 3U);
+        for (std::size_t t = 0; t < 3; ++t) {
+            const SourceMaterial& material = mesh->materials[mesh->triangle_materials[t]];
+            ASSERT_GE(material.texture, 0);
+            const Image8& picture = *mesh->textures[static_cast<std::size_t>(material.texture)].image;
+            EXPECT_EQ(picture.at(0, 0).r, 10 * (t + 1));
+        }
+        EXPECT_EQ(mesh->side_files.size(), 4U);
+    }
+}
+
+TEST(Obj, APictureWithoutOthersBesideItIsRepeatedWhateverItsNumber) {
+    const TemporaryFolder folder;
+    folder.write("skin.1001.png", plain_png(10));
+    folder.write("model.mtl", "newmtl wood\nmap_Kd skin.1001.png\n");
+    const Result<SourceMesh> mesh = load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + three_tiles));
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    for (const std::uint32_t number : mesh->triangle_materials) {
+        const auto texture = static_cast<std::size_t>(mesh->materials[number].texture);
+        EXPECT_EQ(mesh->textures[texture].image->at(0, 0).r, 10);
+    }
+}
+
+TEST(Obj, ATileWithoutItsPictureIsRefused) {
+    const TemporaryFolder folder;
+    folder.write("skin.1001.png", plain_png(10));
+    folder.write("model.mtl", "newmtl wood\nmap_Kd skin.<UDIM>.png\n");
+    const std::string error =
+        error_of(load_mesh(folder.write("model.obj", "mtllib model.mtl\n" + three_tiles)));
+    EXPECT_NE(error.find("skin.1002.png"), std::string::npos) << error;
+}
+
 TEST(Obj, PicturesAreShrunkUntilAllOfThemFit) {
     const TemporaryFolder folder;
     const std::array<int, 3> sides{64, 64, 16};

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace frustumscreen {
@@ -66,6 +67,22 @@ TEST_F(BakeCommand, WritesAPackAndReplacesAPack) {
     }
 }
 
+TEST_F(BakeCommand, AKilledBakeLeavesAWholePackAndTheNextOneClearsUp) {
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    for (const char* seconds : {"0.02", "0.1", "0.2", "0.3", "0.5"}) {
+        const std::string command = fmt::format("cd '{}' && timeout -s KILL {} '{}'/frustumscreen-bake "
+                                                "scan.obj --size 32 -o scan.fspack >out.txt 2>&1",
+                                                folder.string(), seconds, bin_dir());
+        (void)std::system(command.c_str());
+        EXPECT_TRUE(load_pack(folder / "scan.fspack")) << seconds;
+    }
+    put("scan.fspack.part4194303", "half"); // of a process that is no more
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+    }
+}
+
 TEST_F(BakeCommand, SaysWhatItMadeOnOneScreen) {
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     EXPECT_EQ(text("err.txt"), "");
@@ -84,6 +101,8 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     const Result<VerifiedPack> pack = load_pack(folder / "scan.fspack");
     ASSERT_TRUE(pack) << pack.error().message;
     EXPECT_EQ(report["bytes"], fs::file_size(folder / "scan.fspack"));
+    EXPECT_GT(report["processor_seconds"], 0.0);
+    EXPECT_GT(report["memory_bytes"], 5'000'000U);
     EXPECT_EQ(report["up"], "+z");
     EXPECT_EQ(report["turn_deg"], 30.0);
     EXPECT_EQ(report["levels"].size(), (*pack)->levels.size());

@@ -214,6 +214,8 @@ Json report_json(const BakeResult& result) {
                    {"bytes", result.file_bytes},
                    {"title", result.pack.title},
                    {"seconds", result.seconds},
+                   {"processor_seconds", result.used.processor_s},
+                   {"memory_bytes", result.used.memory_bytes},
                    {"prop", result.pack.prop_kind},
                    {"size_m", {size.x, size.y, size.z}},
                    {"up", signed_axis(result.up)},

@@ -7,6 +7,7 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_contents.h"
+#include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/scan_summary.h"
 #include "app/programs/preview/preview_page.h"
 #include "assets_baked/bake/bake.h"
@@ -37,6 +38,7 @@ struct BakeResult {
     ScanRights rights;
     std::vector<std::string> missing; ///< facts that the curator should add, a sentence each
     double seconds = 0.0;
+    UsedMachine used;
     std::filesystem::path page; ///< the preview page; empty: none
     std::uint64_t page_bytes = 0;
 };
@@ -45,7 +47,7 @@ struct BakeResult {
 [[nodiscard]] PreviewFacts preview_facts(const BakeResult& result);
 /// Ends with a line break.
 [[nodiscard]] std::string report_text(const BakeResult& result);
-/// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
+/// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
 /// guessed: [], taken: [], missing: [], scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);

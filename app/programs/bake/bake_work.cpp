@@ -1,7 +1,6 @@
 #include "app/programs/bake/bake_work.h"
 
 #include "app/pack/attribution.h"
-#include "app/pack/container/sha256.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
@@ -9,6 +8,8 @@
 #include "app/programs/bake/check_scan.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
+#include "app/programs/bake/used_machine.h"
+#include "app/programs/batch/content_hash.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
@@ -18,9 +19,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen {
@@ -34,9 +38,8 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     for (const PackCaption& caption : pack.captions) {
         pack.languages.push_back(caption.language);
     }
-    TRY(const Bytes source, read_file(request.scan));
     pack.provenance.source_name = request.scan.filename().string();
-    pack.provenance.source_sha256 = sha256_hex(source);
+    TRY(pack.provenance.source_sha256, hash_of_file(request.scan));
     put_scan_rights(pack, request.rights);
     return {};
 }
@@ -62,9 +65,29 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOption
     return words;
 }
 
+/// The share of a whole bake that goes by until a scan of this size is read; it decides on the time left alone.
+double reading_share(const std::filesystem::path& scan) {
+    constexpr double bytes_a_second = 4e7;
+    constexpr double small_bake_s = 8.0;
+    constexpr double large_bake_s = 60.0;
+    constexpr double large_bytes = 1e8;
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(scan, unknown);
+    const double bytes = unknown ? 0.0 : static_cast<double>(size);
+    const double reading_s = bytes / bytes_a_second;
+    const double bake_s = std::lerp(small_bake_s, large_bake_s, std::min(1.0, bytes / large_bytes));
+    return reading_s / (reading_s + bake_s);
+}
+
 Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    TRY(const SourceMesh mesh, load_scan(written));
+    const double read = reading_share(written.scan);
+    const auto progress = std::exchange(options.progress, {});
+    TRY(const SourceMesh mesh,
+        load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
+    options.progress = [&](std::string_view step, double done) {
+        progress(step, std::lerp(read, 1.0, done));
+    };
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
@@ -128,6 +151,7 @@ Result<BakeResult> bake_pack(const BakeRequest& request) {
     TRY(result.parts, at(request.output.string(), list_pack_parts(bytes)));
     result.file_bytes = bytes.size();
     TRY_VOID(write_file(request.output, bytes));
+    result.used = used_machine();
     return result;
 }
 

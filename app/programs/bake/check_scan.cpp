@@ -49,8 +49,8 @@ ScanSummary summary_of(const SourceMesh& mesh, const ScanMeasures& measures) {
     ScanSummary summary;
     const glm::dvec3& extents = measures.extents;
     summary.format = mesh.contents.format;
-    summary.triangles = mesh.triangles.size();
-    summary.vertices = measures.points;
+    summary.triangles = mesh.reduced_from ? mesh.reduced_from->triangles : mesh.triangles.size();
+    summary.vertices = mesh.reduced_from ? mesh.reduced_from->points : measures.points;
     for (const glm::ivec2& size : mesh.contents.picture_sizes) {
         summary.pictures.push_back({size.x, size.y});
     }

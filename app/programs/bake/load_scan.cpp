@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
+#include "assets_baked/bake/reduce_scan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,15 +23,21 @@ bool has_colours(const SourceMesh& mesh) {
 
 } // namespace
 
-Result<SourceMesh> load_scan(const BakeRequest& request) {
+Result<SourceMesh> load_scan(const BakeRequest& request,
+                             const std::function<void(std::string_view step, double done)>& progress) {
+    constexpr double read_share = 0.6; // of a scan of many triangles
+    const auto reading = [&](double done) { progress("reading the scan", read_share * done); };
     TRY(SourceMesh mesh,
-        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size)}));
+        load_mesh(request.scan, {request.texture, useful_picture_texels(request.options.size), reading}));
+    progress("fewer triangles", read_share);
     if (request.options.unlit && !has_colours(mesh)) {
         mesh.notes.push_back(
             {SourceNote::Kind::Lost,
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
+    reduce_scan(mesh);
+    progress("a last look at the scan", 0.9);
     Scraps scraps = find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(

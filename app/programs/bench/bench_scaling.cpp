@@ -1,5 +1,6 @@
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/scaling.h"
+#include "app/bench/measures/scaling_bakes.h"
 #include "app/bench/measures/verdicts.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
@@ -17,7 +18,32 @@ struct Arguments {
     BenchPlace place;
     ScalingOptions options;
     bool no_peers = false;
+    bool bakes = false;
+    bool longer = false;
 };
+
+/// Bakes alone, each in a program of its own.
+Result<void> measure_bakes(const Arguments& arguments, BenchProgress& progress) {
+    std::vector<std::int64_t> counts = arguments.options.triangles;
+    counts.push_back(20'000'000);
+    if (arguments.longer) {
+        counts.push_back(50'000'000);
+    }
+    std::error_code failed;
+    const std::filesystem::path programs =
+        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    std::filesystem::create_directories(arguments.place.out, failed);
+    std::vector<ScalingBake> bakes;
+    for (const std::int64_t count : counts) {
+        progress.show(fmt::format("bake of {} triangles", count), 0.0);
+        TRY(const ScalingBake bake,
+            bake_of_amphora(count, arguments.options.size, programs, arguments.place.out));
+        bakes.push_back(bake);
+    }
+    progress.clear();
+    fmt::print("{}", bakes_table(bakes));
+    return write_all(arguments.place.out, {{"scaling_bakes.csv", bakes_csv(bakes)}});
+}
 
 /// Makes the files of one set-up: cost against size, and for each amphora that is large enough the comparison
 /// with the two-pass method at each of its eye images.
@@ -55,6 +81,9 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    if (arguments.bakes || arguments.longer) {
+        return measure_bakes(arguments, progress);
+    }
     TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
     TRY(const std::vector<ScalingSource> sources,
         bake_amphoras(arguments.options,
@@ -85,6 +114,11 @@ BenchCommand scaling_command(CommandLine& app) {
     command.add_flag("--same-surface", arguments->options.same_surface,
                      "use the first amphora only, and subdivide its triangles into four until each number is "
                      "reached: more triangles, the same detail");
+    command.add_flag(
+        "--bakes", arguments->bakes,
+        "bakes alone, each in a program of its own: time, memory and bytes of the pack at each count, "
+        "and at 20 million triangles");
+    command.add_flag("--long", arguments->longer, "as --bakes, and at 50 million triangles");
     command
         .add_option("--size", arguments->options.size,
                     "texels along the longest edge of a face, for the bakes")

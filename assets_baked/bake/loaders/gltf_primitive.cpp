@@ -315,6 +315,7 @@ void GltfPrimitives::draw_corners(const Streams& streams, const GltfPlacement& p
                                       : placement.scene_from_mesh_by_joint.front();
     const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
     const std::size_t triangles = triangles_in(streams.mode, streams.corner_count());
+    mesh_.expect_triangles(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         std::array<std::uint32_t, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -342,6 +343,7 @@ void GltfPrimitives::draw(const GltfPrimitive& primitive, const GltfPlacement& p
         return;
     }
     begin_vertices(streams.position->count());
+    mesh_.expect_vertices(streams.position->count());
     draw_corners(streams, placement, material_of_(primitive.material));
 }
 

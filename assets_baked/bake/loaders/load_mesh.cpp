@@ -5,6 +5,7 @@
 #include "assets_baked/bake/loaders/load_obj.h"
 #include "assets_baked/bake/loaders/load_ply.h"
 #include "assets_baked/bake/loaders/load_stl.h"
+#include "assets_baked/bake/loaders/model_file.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/trimmed.h"
 
@@ -89,7 +90,7 @@ SourceMesh read(ByteView file, const std::filesystem::path& path, ModelFiles& fi
     case Format::Ply:
         return named(load_ply(file, files), "PLY");
     case Format::Stl:
-        return named(load_stl(file, files.notes), "STL");
+        return named(load_stl(file, files), "STL");
     default:
         return named(load_obj(file, files), "OBJ");
     }
@@ -112,8 +113,9 @@ void wear_curators_picture(SourceMesh& mesh, PictureStore& pictures) {
     }
 }
 
-SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOptions& options) {
-    ModelFiles files(path.parent_path(), options);
+SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOptions& options,
+                const ModelFiles::Passed& passed) {
+    ModelFiles files(path.parent_path(), options, passed);
     SourceMesh mesh = read(file, path, files);
     if (files.pictures.has_curators()) {
         wear_curators_picture(mesh, files.pictures);
@@ -143,15 +145,13 @@ std::string one_line(std::string message) {
     return message.size() <= most ? message : message.substr(0, most) + "...";
 }
 
-} // namespace
-
-Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
-                                   const LoadOptions& options) {
+/// The result of `load`, which may throw.
+template <typename Load> Result<SourceMesh> loaded(const std::filesystem::path& path, const Load& load) {
     const auto refused = [&](MessageId id, const std::string& message) {
         return bad_input(id, one_line(path.string() + ": " + message));
     };
     try {
-        return load(file, path, options);
+        return load();
     } catch (const Refusal& refusal) {
         return refused(refusal.error.id, refusal.error.message);
     } catch (const std::bad_alloc&) {
@@ -163,10 +163,25 @@ Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& p
     }
 }
 
+} // namespace
+
+Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
+                                   const LoadOptions& options) {
+    return loaded(path, [&] { return load(file, path, options, [](std::size_t) {}); });
+}
+
 Result<SourceMesh> load_mesh(const std::filesystem::path& path, const LoadOptions& options) {
-    const Result<Bytes> file = read_file(path);
-    return file ? load_mesh_bytes(*file, path, options)
-                : Result<SourceMesh>(bad_input(file.error().id, one_line(file.error().message)));
+    return loaded(path, [&]() -> Result<SourceMesh> {
+        Result<ModelFile> file = ModelFile::read(path);
+        if (!file) {
+            return bad_input(file.error().id, one_line(file.error().message));
+        }
+        const auto size = static_cast<double>(file->bytes().size());
+        return load(file->bytes(), path, options, [&](std::size_t offset) {
+            file->passed(offset);
+            options.progress(static_cast<double>(offset) / size);
+        });
+    });
 }
 
 } // namespace frustumscreen

@@ -5,6 +5,7 @@
 #include "assets_baked/bake/loaders/polygon.h"
 #include "assets_baked/bake/loaders/source_about.h"
 #include "assets_baked/bake/loaders/text.h"
+#include "assets_baked/bake/loaders/vertex_numbers.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
 
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <unordered_map>
 
 namespace frustumscreen {
 
@@ -29,28 +29,19 @@ bool is_passed_over(std::string_view keyword) {
     return keyword.starts_with('#') || std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
 }
 
-/// A vertex of the mesh: the file's numbers of its position, texture coordinate and normal.
-struct ObjCorner {
-    std::uint32_t position, uv, normal;
-    [[nodiscard]] bool operator==(const ObjCorner&) const = default;
-};
-struct ObjCornerHash {
-    std::size_t operator()(const ObjCorner& corner) const noexcept {
-        constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U; // 2^64 / golden ratio
-        const std::uint64_t two = (std::uint64_t{corner.position} << 32U) | corner.uv;
-        const std::uint64_t mixed = (two ^ (two >> 29U)) * odd + corner.normal;
-        return static_cast<std::size_t>((mixed ^ (mixed >> 32U)) * odd);
-    }
-};
-
 class ObjReader {
 public:
     ObjReader(std::string_view text, ModelFiles& files)
-        : text_(text), notes_(files.notes), about_(files.about), materials_(files, mesh_) {}
+        : text_(text), size_(text.size()), passed_(files.passed), notes_(files.notes), about_(files.about),
+          materials_(files, mesh_) {}
 
     SourceMesh read() {
         while (!text_.empty()) {
             read_line(next_line());
+            constexpr std::size_t lines = std::size_t{1} << 16U;
+            if (line_ % lines == 0) {
+                passed_(size_ - text_.size());
+            }
         }
         note_losses();
         if (!colours_.empty() && mesh_.codes_to_linear()) {
@@ -109,8 +100,8 @@ private:
         } else if (keyword == "v") {
             read_position(words);
         } else if (keyword == "vt") {
-            const std::vector<double> uv = numbers(words, 1);
-            uvs_.emplace_back(uv[0], uv.size() > 1 ? 1.0 - uv[1] : 1.0);
+            const std::vector<double>& uv = numbers(words, 1);
+            uvs_.push_back(MeshAssembly::finite_uv({uv[0], uv.size() > 1 ? 1.0 - uv[1] : 1.0}));
         } else if (keyword == "vn") {
             read_normal(words);
         } else if (keyword == "f") {
@@ -126,8 +117,10 @@ private:
         }
     }
 
-    std::vector<double> numbers(WordReader& words, std::size_t least) {
-        std::vector<double> values;
+    /// The next call overwrites them.
+    const std::vector<double>& numbers(WordReader& words, std::size_t least) {
+        std::vector<double>& values = numbers_;
+        values.clear();
         for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#');
              word = words.next()) {
             const std::optional<double> value = number_from(word);
@@ -143,7 +136,7 @@ private:
     }
 
     void read_position(WordReader& words) {
-        const std::vector<double> values = numbers(words, 3);
+        const std::vector<double>& values = numbers(words, 3);
         const glm::dvec3 position(values[0], values[1], values[2]);
         if (!(glm::length(position) < largest_coordinate)) {
             refuse_contradiction("line {}: vertex {} is not a finite point within 1e30", line_,
@@ -189,7 +182,7 @@ private:
         std::string_view rest = word.substr(std::min(slash + 1, word.size()));
         const std::size_t second = std::min(rest.find('/'), rest.size());
         const std::string_view normal = rest.substr(std::min(second + 1, rest.size()));
-        return vertex({position, uv_from(rest.substr(0, second)), normal_from(normal)});
+        return vertex(position, uv_from(rest.substr(0, second)), normal_from(normal));
     }
 
     /// A number that no normal has counts as none.
@@ -212,22 +205,22 @@ private:
         return index_from(word, uvs_.size(), "texture coordinate");
     }
 
-    std::uint32_t vertex(const ObjCorner& corner) {
-        const auto [known, is_new] = vertices_.try_emplace(corner, 0U);
+    /// The vertex of these numbers in the file; `none` for a missing texture coordinate or normal.
+    std::uint32_t vertex(std::uint32_t position, std::uint32_t uv, std::uint32_t normal) {
+        const auto [vertex, is_new] = vertices_.number_of({position, uv, normal});
         if (is_new) {
-            known->second =
-                mesh_.add_vertex(positions_[corner.position], "vertex", corner.position + std::size_t{1});
-            if (corner.uv != none) {
-                mesh_.set_uv(uvs_[corner.uv]);
+            (void)mesh_.add_vertex(positions_[position], "vertex", position + std::size_t{1});
+            if (uv != none) {
+                mesh_.set_uv(glm::dvec2(uvs_[uv]));
             }
-            if (corner.position < colours_.size()) {
-                mesh_.set_colour_code(colours_[corner.position]);
+            if (position < colours_.size()) {
+                mesh_.set_colour_code(colours_[position]);
             }
-            if (corner.normal != none) {
-                mesh_.set_normal(normals_[corner.normal]);
+            if (normal != none) {
+                mesh_.set_normal(normals_[normal]);
             }
         }
-        return known->second;
+        return vertex;
     }
 
     void read_face(WordReader& words) {
@@ -244,15 +237,26 @@ private:
             ++faces_without_area_;
             return;
         }
-        const std::uint32_t material = materials_.number_of(material_);
+        const std::uint32_t material = materials_.number_of(material_, middle_uv());
         for (const auto& [a, b, c] : triangles_) {
             mesh_.add_triangle(corners_[a], corners_[b], corners_[c], material);
         }
     }
 
+    /// Of the face that is read.
+    [[nodiscard]] glm::vec2 middle_uv() const {
+        glm::vec2 sum(0.0F);
+        for (const std::uint32_t corner : corners_) {
+            sum += mesh_.uv(corner);
+        }
+        return sum / static_cast<float>(corners_.size());
+    }
+
     static constexpr std::uint32_t none = 0xffffffffU;
 
-    std::string_view text_;
+    std::string_view text_; ///< what is left
+    std::size_t size_;      ///< of the whole text
+    const ModelFiles::Passed& passed_;
     std::string joined_;
     std::size_t line_ = 0;
     LoadNotes& notes_;
@@ -265,10 +269,11 @@ private:
     std::size_t corners_at_0_ = 0;          ///< corners whose texture coordinate has the number 0
     std::set<std::string> unknown_;         ///< keywords
     std::vector<glm::dvec3> positions_;
-    std::vector<glm::dvec2> uvs_;
+    std::vector<glm::vec2> uvs_;
     std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; may be fewer
     std::vector<glm::dvec3> normals_;
-    std::unordered_map<ObjCorner, std::uint32_t, ObjCornerHash> vertices_;
+    VertexNumbers vertices_;      ///< those of the mesh
+    std::vector<double> numbers_; ///< of the line that is read
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;

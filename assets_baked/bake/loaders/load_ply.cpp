@@ -69,6 +69,13 @@ public:
     }
 
 private:
+    void tell_passed(std::uint64_t row) const {
+        constexpr std::uint64_t rows = 1U << 16U;
+        if (row % rows == 0) {
+            files_.passed(values_.passed());
+        }
+    }
+
     void read_vertices(const PlyElement& element) {
         const PlyRoles roles = roles_of_vertices(element);
         for (const PlyRole axis : {PlyRole::X, PlyRole::Y, PlyRole::Z}) {
@@ -84,7 +91,9 @@ private:
             files_.notes.lost("the colours at its points: red, green and blue are not all there");
         }
         note_unknown("points", roles.unknown);
+        mesh_.expect_vertices(static_cast<std::size_t>(values_.possible_rows(element)));
         for (std::uint64_t row = 0; row < element.count; ++row) {
+            tell_passed(row);
             PlyVertex vertex;
             for (std::size_t i = 0; i < roles.of.size(); ++i) {
                 read_vertex_property(element, i, roles.of[i], row, vertex);
@@ -173,7 +182,12 @@ private:
         const bool strips = element.name == "tristrips";
         const std::size_t corner_list = corner_list_of(element);
         note_unread(element, faces || strips, corner_list);
+        if (faces) {
+            corners_.reserve(
+                3 * std::min(static_cast<std::size_t>(values_.possible_rows(element)), max_triangles));
+        }
         for (std::uint64_t row = 0; row < element.count; ++row) {
+            tell_passed(row);
             const std::size_t first = corners_.size();
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const PlyProperty& property = element.properties[i];
@@ -235,7 +249,8 @@ private:
     }
 
     void read_corners(const PlyElement& element, const PlyProperty& property, std::uint64_t row, bool strip) {
-        std::vector<std::int64_t> corners;
+        std::vector<std::int64_t>& corners = row_;
+        corners.clear();
         for (std::int64_t left = list_length(element, property, row); left > 0; --left) {
             corners.push_back(values_.next_whole(property.type, element, row));
         }
@@ -263,13 +278,27 @@ private:
             }
             corners_.push_back(static_cast<std::uint32_t>(corner));
         }
-        polygon_ends_.push_back(corners_.size());
+        add_size(static_cast<std::uint32_t>(corners.size()));
+    }
+
+    /// Sizes are kept only once there is a polygon that is no triangle.
+    void add_size(std::uint32_t size) {
+        if (sizes_.empty() && size != 3) {
+            sizes_.assign(polygons_, 3);
+        }
+        if (!sizes_.empty() || size != 3) {
+            sizes_.push_back(size);
+        }
+        ++polygons_;
+    }
+    [[nodiscard]] std::size_t size_of_polygon(std::size_t polygon) const {
+        return sizes_.empty() ? 3 : sizes_[polygon];
     }
 
     void check_corners() const {
         std::size_t corner = 0;
-        for (std::size_t polygon = 0; polygon < polygon_ends_.size(); ++polygon) {
-            for (; corner < polygon_ends_[polygon]; ++corner) {
+        for (std::size_t polygon = 0; polygon < polygons_; ++polygon) {
+            for (const std::size_t end = corner + size_of_polygon(polygon); corner < end; ++corner) {
                 if (corners_[corner] >= mesh_.positions().size()) {
                     refuse_contradiction("face {}: vertex {} is out of range, the file has {}", polygon,
                                          corners_[corner], mesh_.positions().size());
@@ -285,8 +314,9 @@ private:
         std::vector<std::array<std::uint32_t, 3>> triangles;
         std::size_t faces_without_area = 0;
         std::size_t begin = 0;
-        for (const std::size_t end : polygon_ends_) {
-            const auto corners = std::span(corners_).subspan(begin, end - begin);
+        mesh_.expect_triangles(polygons_);
+        for (std::size_t polygon = 0; polygon < polygons_; ++polygon) {
+            const auto corners = std::span(corners_).subspan(begin, size_of_polygon(polygon));
             points.clear();
             triangles.clear();
             for (const std::uint32_t corner : corners) {
@@ -299,7 +329,7 @@ private:
             for (const auto& [a, b, c] : triangles) {
                 mesh_.add_triangle(corners[a], corners[b], corners[c], material);
             }
-            begin = end;
+            begin += corners.size();
         }
         if (faces_without_area > 0) {
             files_.notes.lost("{} of fewer than three corners", counted(faces_without_area, "face", "faces"));
@@ -312,7 +342,9 @@ private:
     MeshAssembly mesh_{'y'};
     PlySurface surface_;
     std::vector<std::uint32_t> corners_;
-    std::vector<std::size_t> polygon_ends_;
+    std::size_t polygons_ = 0;
+    std::vector<std::uint32_t> sizes_; ///< of all polygons; empty while they are triangles
+    std::vector<std::int64_t> row_;    ///< corners of the row that is read
 };
 
 } // namespace

@@ -2,10 +2,13 @@
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/text.h"
+#include "assets_baked/bake/loaders/vertex_numbers.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/trimmed.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 namespace frustumscreen {
 
@@ -20,7 +23,13 @@ bool is_word(std::string_view word, std::string_view lower) {
     });
 }
 
-SourceMesh load_binary(ByteView file, LoadNotes& notes) {
+/// The bits of a position; -0 counts as 0.
+VertexNumbers::Key key_of(const glm::vec3& p) {
+    return {std::bit_cast<std::uint32_t>(p.x + 0.0F), std::bit_cast<std::uint32_t>(p.y + 0.0F),
+            std::bit_cast<std::uint32_t>(p.z + 0.0F)};
+}
+
+SourceMesh load_binary(ByteView file, ModelFiles& files) {
     if (file.size() < header_size) {
         refuse_cut_short("a binary STL begins with {} bytes, the file has {}", header_size, file.size());
     }
@@ -30,16 +39,25 @@ SourceMesh load_binary(ByteView file, LoadNotes& notes) {
                          (file.size() - header_size) / facet_size);
     }
     if (as_text(file.subspan(0, header_size)).find("COLOR=") != std::string_view::npos) {
-        notes.lost("the colours: those of STL files are not read; export it as PLY, OBJ or glTF");
+        files.notes.lost("the colours: those of STL files are not read; export it as PLY, OBJ or glTF");
     }
     MeshAssembly mesh('z');
+    mesh.expect_triangles(static_cast<std::size_t>(count));
+    VertexNumbers numbers; // an STL repeats each vertex about six times
     for (std::size_t facet = 0; facet < count; ++facet) {
+        if (facet % (std::size_t{1} << 16U) == 0) {
+            files.passed(header_size + facet * facet_size);
+        }
         const ByteView corners = file.subspan(header_size + facet * facet_size + 12, 36);
         std::array<std::uint32_t, 3> vertices{};
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::vec3 p(load_little<float>(corners, i * 12), load_little<float>(corners, i * 12 + 4),
                               load_little<float>(corners, i * 12 + 8));
-            vertices[i] = mesh.add_vertex(glm::dvec3(p), "vertex", facet * 3 + i);
+            const auto [vertex, is_new] = numbers.number_of(key_of(p));
+            if (is_new) {
+                (void)mesh.add_vertex(glm::dvec3(p), "vertex", facet * 3 + i);
+            }
+            vertices[i] = vertex;
         }
         mesh.add_triangle(vertices[0], vertices[1], vertices[2], 0);
     }
@@ -59,7 +77,7 @@ double coordinate(WordReader& words) {
 }
 
 /// Only `vertex`, `endloop` and `endsolid` matter; other words are skipped.
-SourceMesh load_ascii(std::string_view text) {
+SourceMesh load_ascii(std::string_view text, ModelFiles& files) {
     WordReader words(text);
     (void)words.next();
     (void)words.rest_of_line(); // the solid's name
@@ -80,6 +98,9 @@ SourceMesh load_ascii(std::string_view text) {
             const auto end = static_cast<std::uint32_t>(mesh.positions().size());
             mesh.add_triangle(end - 3, end - 2, end - 1, 0);
             in_loop = 0;
+            if (end % (3U << 16U) == 0) {
+                files.passed(words.position());
+            }
         } else if (is_word(word, "endsolid") || is_word(word, "solid")) {
             ended = is_word(word, "endsolid");
             (void)words.rest_of_line();
@@ -99,10 +120,11 @@ bool has_length_of_binary_stl(ByteView file) {
                header_size + facet_size * std::uint64_t{load_little<std::uint32_t>(file, header_size - 4)};
 }
 
-SourceMesh load_stl(ByteView file, LoadNotes& notes) {
+SourceMesh load_stl(ByteView file, ModelFiles& files) {
     const std::string_view text = trimmed(as_text(file.subspan(0, std::min<std::size_t>(file.size(), 1024))));
     const bool is_text = text.size() >= 5 && is_word(text.substr(0, 5), "solid");
-    return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file)) : load_binary(file, notes);
+    return is_text && !has_length_of_binary_stl(file) ? load_ascii(as_text(file), files)
+                                                      : load_binary(file, files);
 }
 
 } // namespace frustumscreen

@@ -5,12 +5,12 @@
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
-#include "assets_baked/bake/loaders/load_notes.h"
+#include "assets_baked/bake/loaders/model_files.h"
 
 namespace frustumscreen {
 
 /// True if the length is 84 bytes plus 50 for each triangle that the header declares.
 [[nodiscard]] bool has_length_of_binary_stl(ByteView file);
-[[nodiscard]] SourceMesh load_stl(ByteView file, LoadNotes& notes);
+[[nodiscard]] SourceMesh load_stl(ByteView file, ModelFiles& files);
 
 } // namespace frustumscreen

@@ -2,6 +2,7 @@
 
 #include "assets_baked/bake/loaders/refusal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,7 +22,33 @@ float colour_factor(float value) {
     return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 1.0F;
 }
 
+/// At least doubles the room if there is too little, because a file may have many small parts.
+template <typename Value>
+void make_room(std::vector<Value>& values, std::size_t more, std::size_t most) {
+    const std::size_t needed = std::min(values.size() + more, most);
+    if (needed > values.capacity()) {
+        values.reserve(std::max(needed, std::min(2 * values.capacity(), most)));
+    }
+}
+
+/// As many of an attribute as there will be positions, so that no growing vector is copied.
+template <typename Attribute>
+void resize_like(std::vector<Attribute>& values, const std::vector<glm::dvec3>& positions,
+                 const Attribute& missing) {
+    values.reserve(positions.capacity());
+    values.resize(positions.size(), missing);
+}
+
 } // namespace
+
+void MeshAssembly::expect_vertices(std::size_t more) {
+    make_room(mesh_.positions, more, max_source_vertices);
+}
+
+void MeshAssembly::expect_triangles(std::size_t more) {
+    make_room(mesh_.triangles, more, max_triangles);
+    make_room(mesh_.triangle_materials, more, max_triangles);
+}
 
 std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* place, std::size_t number) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,7 +79,7 @@ std::uint32_t MeshAssembly::copy_vertex(std::uint32_t vertex) {
 }
 
 void MeshAssembly::set_uv(std::uint32_t vertex, const glm::dvec2& uv) {
-    mesh_.uvs.resize(mesh_.positions.size(), glm::vec2(0.0F));
+    resize_like(mesh_.uvs, mesh_.positions, glm::vec2(0.0F));
     mesh_.uvs[vertex] = finite_uv(uv);
 }
 
@@ -61,7 +88,7 @@ glm::vec2 MeshAssembly::finite_uv(const glm::dvec2& uv) {
 }
 
 void MeshAssembly::set_colour(const glm::vec4& linear) {
-    mesh_.colours.resize(mesh_.positions.size(), glm::vec4(1.0F));
+    resize_like(mesh_.colours, mesh_.positions, glm::vec4(1.0F));
     mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g),
                                      colour_factor(linear.b), colour_factor(linear.a));
 }
@@ -69,13 +96,13 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
 void MeshAssembly::set_normal(const glm::dvec3& normal) {
     const double length = glm::length(normal);
     const bool is_direction = length > 1e-12 && length < largest_coordinate;
-    mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0.0F));
+    resize_like(mesh_.normals, mesh_.positions, glm::vec3(0.0F));
     mesh_.normals.back() = is_direction ? glm::vec3(normal / length) : glm::vec3(0.0F);
 }
 
 void MeshAssembly::set_colour_code(const glm::vec4& code) {
-    mesh_.colours.resize(mesh_.positions.size(),
-                         glm::vec4(std::numeric_limits<float>::infinity())); // a missing colour: white
+    resize_like(mesh_.colours, mesh_.positions,
+                glm::vec4(std::numeric_limits<float>::infinity())); // a missing colour: white
     mesh_.colours.back() = code;
     for (int i = 0; i < 3; ++i) {
         if (std::isfinite(code[i])) {

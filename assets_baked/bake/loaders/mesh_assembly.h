@@ -10,9 +10,9 @@
 
 namespace frustumscreen {
 
-/// Limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a small file
+/// Limits of what a curator's computer can bake: 60 million triangles are 2.5 GiB of mesh. They also stop a small file
 /// that repeats its parts endlessly.
-inline constexpr std::size_t max_triangles = 50'000'000;
+inline constexpr std::size_t max_triangles = 60'000'000;
 inline constexpr std::size_t max_source_vertices = 100'000'000;
 /// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.
 inline constexpr double largest_coordinate = 1e30;
@@ -20,6 +20,10 @@ inline constexpr double largest_coordinate = 1e30;
 class MeshAssembly {
 public:
     explicit MeshAssembly(char default_up) { mesh_.default_up = default_up; }
+
+    /// Makes room for more of them; no more than the file backs with data.
+    void expect_vertices(std::size_t more);
+    void expect_triangles(std::size_t more);
 
     /// `place` names the vertex's origin in messages, for example "vertex".
     std::uint32_t add_vertex(const glm::dvec3& position, const char* place, std::size_t number);
@@ -49,6 +53,9 @@ public:
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
+    [[nodiscard]] glm::vec2 uv(std::uint32_t vertex) const {
+        return vertex < mesh_.uvs.size() ? mesh_.uvs[vertex] : glm::vec2(0.0F);
+    }
     /// Refuses a mesh without triangles. `has_points`: the file has points that belong to no triangle.
     [[nodiscard]] SourceMesh finish(bool has_points = false);
 

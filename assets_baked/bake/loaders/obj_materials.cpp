@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <vector>
 
@@ -32,6 +33,35 @@ glm::vec4 colour_of(const tinyobj::real_t (&colour)[3]) {
 
 bool is_black(const glm::vec4& colour) {
     return glm::vec3(colour) == glm::vec3(0.0F);
+}
+
+constexpr int first_tile = 1001;
+constexpr std::string_view first_tile_digits = "1001";
+constexpr std::string_view tile_mark = "<UDIM>";
+
+/// Where the name of a file has the number of the first tile, as a number of its own; npos if it has not.
+std::size_t first_tile_in(std::string_view name) {
+    const auto is_digit = [&](std::size_t k) { return k < name.size() && name[k] >= '0' && name[k] <= '9'; };
+    const std::size_t begin = name.size() - last_part(name).size();
+    const std::size_t found = name.rfind(first_tile_digits);
+    const bool is_whole = found != std::string_view::npos && found >= begin &&
+                          !(found > 0 && is_digit(found - 1)) && !is_digit(found + first_tile_digits.size());
+    return is_whole ? found : std::string_view::npos;
+}
+
+bool may_be_tiled(const tinyobj::material_t& material) {
+    const auto may = [](const std::string& name) {
+        return name.find(tile_mark) != std::string::npos || first_tile_in(name) != std::string::npos;
+    };
+    return may(material.diffuse_texname) || may(material.emissive_texname);
+}
+
+/// The tile of a place in texture coordinates, v from the top; the first one for places that have no tile.
+int tile_at(const glm::vec2& uv) {
+    const float column = std::floor(uv.x);
+    const float row = std::floor(1.0F - uv.y);
+    const bool is_tile = column >= 0.0F && column < 10.0F && row >= 0.0F && row < 100.0F;
+    return is_tile ? first_tile + static_cast<int>(column) + 10 * static_cast<int>(row) : first_tile;
 }
 
 /// The existing files that a line `mtllib` names: the whole line as one name, otherwise the longest runs of words that
@@ -149,13 +179,20 @@ const ObjMaterials::Material* ObjMaterials::find(const std::string& name) {
     return name.empty() || like == known_.end() ? nullptr : &like->second;
 }
 
-std::uint32_t ObjMaterials::number_of(const std::string& name) {
-    if (const auto used = used_.find(name); used != used_.end()) {
-        return used->second;
+std::uint32_t ObjMaterials::number_of(const std::string& name, const glm::vec2& uv) {
+    const auto [entry, is_new] = used_.try_emplace(name);
+    Used& used = entry->second;
+    const Material* const known = is_new || used.is_tiled ? find(name) : nullptr;
+    if (is_new) {
+        used.is_tiled = known != nullptr && may_be_tiled(known->source);
+    }
+    const int tile = used.is_tiled ? tile_at(uv) : first_tile;
+    if (const auto made = used.number_of_tile.find(tile); made != used.number_of_tile.end()) {
+        return made->second;
     }
     SourceMaterial made;
-    if (const Material* known = find(name)) {
-        made = made_from(*known);
+    if (known != nullptr) {
+        made = made_from(*known, tile);
         note_unshown(*known);
     } else if (!name.empty()) {
         note_unknown(name);
@@ -163,7 +200,20 @@ std::uint32_t ObjMaterials::number_of(const std::string& name) {
         files_.notes.lost("the colours of faces that name no material: the file of materials (.mtl) has {}",
                           known_.size());
     }
-    return used_[name] = mesh_.add_material(made);
+    return used.number_of_tile[tile] = mesh_.add_material(made);
+}
+
+std::string ObjMaterials::picture_of_tile(const Material& material, const std::string& name, int tile) const {
+    if (const std::size_t mark = name.find(tile_mark); mark != std::string::npos) {
+        return std::string(name).replace(mark, tile_mark.size(), std::to_string(tile));
+    }
+    const std::size_t number = first_tile_in(name);
+    if (tile == first_tile || number == std::string::npos) {
+        return name;
+    }
+    std::string other = name;
+    other.replace(number, first_tile_digits.size(), std::to_string(tile));
+    return files_.sidecars.exists(picture_name(material, other)) ? other : name;
 }
 
 void ObjMaterials::note_unknown(const std::string& name) {
@@ -199,13 +249,14 @@ void ObjMaterials::note_unshown(const Material& material) {
     }
 }
 
-SourceMaterial ObjMaterials::made_from(const Material& material) {
+SourceMaterial ObjMaterials::made_from(const Material& material, int tile) {
     const tinyobj::material_t& source = material.source;
     SourceMaterial made;
     made.base_colour = colour_of(source.diffuse);
     const bool has_picture = !source.diffuse_texname.empty();
     if (has_picture) {
-        made.texture = texture(material, source.diffuse_texname, source.diffuse_texopt, "map_Kd");
+        made.texture = texture(material, picture_of_tile(material, source.diffuse_texname, tile),
+                               source.diffuse_texopt, "map_Kd");
         if (is_black(
                 made.base_colour)) { // some exporters write a black Kd beside a picture and mean the picture alone
             made.base_colour = glm::vec4(1.0F);
@@ -226,7 +277,8 @@ SourceMaterial ObjMaterials::made_from(const Material& material) {
     made.base_colour = is_black(emission) ? glm::vec4(1.0F) : emission;
     made.has_own_light = true;
     if (!source.emissive_texname.empty()) {
-        made.texture = texture(material, source.emissive_texname, source.emissive_texopt, "map_Ke");
+        made.texture = texture(material, picture_of_tile(material, source.emissive_texname, tile),
+                               source.emissive_texopt, "map_Ke");
     }
     return made;
 }

@@ -37,6 +37,20 @@ public:
         return static_cast<std::int64_t>(value);
     }
 
+    /// The bytes of the file that are read.
+    [[nodiscard]] std::size_t passed() const {
+        return header_.size + (header_.is_text ? words_.position() : position_);
+    }
+    /// At most this many rows of the element can follow.
+    [[nodiscard]] std::uint64_t possible_rows(const PlyElement& element) const {
+        std::size_t least = 0; // bytes of a row; lists may be empty
+        for (const PlyProperty& property : element.properties) {
+            least += header_.is_text ? 2 : size_of(property.list_count.value_or(property.type));
+        }
+        const std::size_t left = data_.size() - (header_.is_text ? words_.position() : position_);
+        return std::min<std::uint64_t>(element.count, left / std::max<std::size_t>(least, 1));
+    }
+
 private:
     [[noreturn]] static void refuse_end(const PlyElement& element, std::uint64_t row) {
         refuse_cut_short("at {} {} of {}", element.name, row, element.count);

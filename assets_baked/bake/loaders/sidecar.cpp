@@ -127,8 +127,10 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
                "it names the file \"{}\", but there is no such file beside it; put it there ({})",
                printable(last_part(name)), place);
     }
-    if (const auto known = read_.find(*path); known != read_.end() && known->second) {
-        return known->second;
+    if (const auto known = read_.find(*path); known != read_.end()) {
+        if (std::shared_ptr<const Bytes> held = known->second.lock()) {
+            return held;
+        }
     }
     const std::string relative = path->lexically_relative(folder_.empty() ? "." : folder_).string();
     if (std::filesystem::path(with_slashes(name)).lexically_normal() != relative) {

@@ -24,8 +24,8 @@ public:
     /// `notes` receives files that were found under a different name than the model's.
     Sidecars(std::filesystem::path folder, LoadNotes& notes) : folder_(std::move(folder)), notes_(notes) {}
 
-    /// Bytes of the file called `name` (plain, not percent-encoded). Each file is read once, however often it
-    /// is named. A refusal's message begins with `place`.
+    /// Bytes of the file called `name` (plain, not percent-encoded). They are read again only where nobody holds them any
+    /// more: sixteen large pictures do not fit into memory. A refusal's message begins with `place`.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name) const { return find(name).has_value(); }
     /// True if the whole path, not only its last part, leads to a file in the model's folder.
@@ -47,7 +47,7 @@ private:
 
     std::filesystem::path folder_;
     LoadNotes& notes_;
-    std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_; ///< null: only mentioned
+    std::map<std::filesystem::path, std::weak_ptr<const Bytes>> read_; ///< or mentioned
 };
 
 /// The last part of a path of any system.

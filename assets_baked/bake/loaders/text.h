@@ -17,6 +17,8 @@ public:
     /// The rest of the current line, without its end.
     [[nodiscard]] std::string_view rest_of_line();
     [[nodiscard]] std::size_t line() const { return line_; }
+    /// In the text, in bytes.
+    [[nodiscard]] std::size_t position() const { return position_; }
 
 private:
     std::string_view text_;

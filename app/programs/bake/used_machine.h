@@ -1,0 +1,16 @@
+/// What this process has used of the machine so far.
+///
+/// Threads  any.
+#pragma once
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+struct UsedMachine {
+    double processor_s = 0.0;       ///< of all cores together
+    std::uint64_t memory_bytes = 0; ///< the most at a time; 0 where the system does not say
+};
+[[nodiscard]] UsedMachine used_machine();
+
+} // namespace frustumscreen
