@@ -112,7 +112,8 @@ std::string remark_of(const ImportReport& report) {
     const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
         return pack.outcome == ImportOutcome::NotWritten ||
                (pack.outcome == ImportOutcome::Refused &&
-                (pack.file == settings_file_name || pack.file == report_request_name));
+                (pack.file == settings_file_name || pack.file == report_request_name ||
+                 pack.file == copy_request_name || pack.file == kiosk_copy_name));
     });
     return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
 }

@@ -78,6 +78,7 @@ private:
     std::optional<ImportedPack> misnamed_;         ///< a file that may be meant as set file
     std::optional<ImportedPack> misnamed_settings_;
     std::optional<ImportedPack> misnamed_request_;
+    std::vector<ImportedPack> misnamed_copy_;
     std::vector<StickPack> packs_;
     std::vector<InstalledPack> removed_;
     std::optional<ImportedPack> exhibit_line_;
@@ -100,6 +101,9 @@ void Import::tell(ImportStage stage) {
     if (request_.settings) {
         report_.packs.push_back(*request_.settings);
     }
+    if (request_.copy) {
+        report_.packs.push_back(*request_.copy);
+    }
     report_.packs.insert(report_.packs.end(), request_.stick_report.begin(), request_.stick_report.end());
     if (exhibit_line_) {
         report_.packs.push_back(*exhibit_line_);
@@ -116,6 +120,9 @@ void Import::tell(ImportStage stage) {
     }
     if (misnamed_request_ && request_.writes_reports && request_.stick_report.empty()) {
         report_.packs.push_back(*misnamed_request_);
+    }
+    if (request_.takes_settings) {
+        report_.packs.insert(report_.packs.end(), misnamed_copy_.begin(), misnamed_copy_.end());
     }
     for (const InstalledPack& pack : removed_) {
         report_.packs.push_back(removed_line(pack));
@@ -226,6 +233,7 @@ Outcome Import::look() {
     misnamed_ = std::move(files.misnamed);
     misnamed_settings_ = std::move(files.misnamed_settings);
     misnamed_request_ = std::move(files.misnamed_request);
+    misnamed_copy_ = std::move(files.misnamed_copy);
     return read_exhibit_file(files.has_exhibit_file).and_then([&] { return look_at_packs(files.packs); });
 }
 

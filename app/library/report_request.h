@@ -16,6 +16,11 @@ namespace frustumscreen {
 
 inline constexpr std::string_view report_request_name = "frustumscreen-report.toml";
 inline constexpr std::size_t max_report_request_bytes = 4096;
+/// The signed request for a copy of the kiosk, and that copy as another kiosk takes it (kiosk_copy/).
+inline constexpr std::string_view copy_request_name = "frustumscreen-request.toml";
+inline constexpr std::string_view copy_request_signature = "frustumscreen-request.toml.minisig";
+inline constexpr std::size_t max_copy_request_bytes = 4096;
+inline constexpr std::string_view kiosk_copy_name = "kiosk.fsk";
 
 /// The lines of the stick's report, if it asks for one: `written`, and what is wrong with the file. `written`: the
 /// lines of the unit that writes; empty: it left none, which is told if the file is one that counts.

@@ -1,5 +1,6 @@
 #include "app/programs/import/import_command.h"
 
+#include "app/kiosk_copy/take_kiosk_copy.h"
 #include "app/library/import_end.h"
 #include "app/library/import_report_file.h"
 #include "app/library/import_stick.h"
@@ -128,23 +129,37 @@ std::uint64_t set_number(const ImportArguments& arguments) {
     return installed(arguments.into).map([](const Installed& found) { return found.set.number; }).value_or(0);
 }
 
-/// Takes the stick's settings before the keys are read from them, because the stick may bring other keys.
-std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
-                                             const ImportArguments& arguments, std::chrono::sys_days clock) {
+std::optional<ImportedPack> take_copy_of(FileTree& stick, WritableTree& settings,
+                                         const ImportArguments& arguments,
+                                         std::optional<std::chrono::sys_days> today) {
+    const Result<std::unique_ptr<WritableTree>> calibration = open_tree(arguments.calibration);
+    if (arguments.counts.empty() || !calibration) {
+        return std::nullopt; // this kiosk takes no copies
+    }
+    return take_kiosk_copy(stick, {settings, **calibration, arguments.counts}, today);
+}
+
+/// Takes the stick's settings before the keys are read from them, because the stick may bring other keys. Those in a copy
+/// come first: the stick's kiosk.toml is meant for this kiosk.
+void take_settings_of(FileTree& stick, WritableTree& library, const ImportArguments& arguments,
+                      ImportRequest& request) {
     const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
     if (!folder) {
-        return std::nullopt; // this kiosk has no settings to replace
+        return; // this kiosk has no settings to replace
     }
     const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
-    std::optional<ImportedPack> told =
-        take_settings(stick, **folder, day_here(clock, set ? set->latest_day : ""));
-    if (told && told->outcome == ImportOutcome::Taken && !arguments.report.empty()) {
+    const std::optional<std::chrono::sys_days> today = day_here(request.today, set ? set->latest_day : "");
+    request.copy = take_copy_of(stick, **folder, arguments, today);
+    request.settings = take_settings(stick, **folder, today);
+    const auto is_taken = [](const std::optional<ImportedPack>& line) {
+        return line && line->outcome == ImportOutcome::Taken;
+    };
+    if ((is_taken(request.copy) || is_taken(request.settings)) && !arguments.report.empty()) {
         const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
         if (const Result<void> marked = write_file(mark, {}); !marked) {
             complain("frustumscreen-import", marked.error());
         }
     }
-    return told;
 }
 
 /// The lines on the report that was written to the stick. The file of its outcome is read once.
@@ -168,6 +183,9 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     if (request.settings) {
         report.packs.push_back(*request.settings);
     }
+    if (request.copy) {
+        report.packs.push_back(*request.copy);
+    }
     report.packs.insert(report.packs.end(), request.stick_report.begin(), request.stick_report.end());
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
@@ -186,7 +204,7 @@ ImportReport import_from(const ImportArguments& arguments) {
     const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
     request.takes_settings = !arguments.settings.empty();
     if (stick && lock && library && request.takes_settings) {
-        request.settings = take_settings_of(**stick, **library, arguments, *request.today);
+        take_settings_of(**stick, **library, arguments, request);
     }
     request.writes_reports = !arguments.stick_report.empty();
     if (stick && request.writes_reports) {

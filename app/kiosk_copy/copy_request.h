@@ -1,0 +1,36 @@
+/// frustumscreen-request.toml on a stick: which of its things the kiosk is to write to the stick. It counts only with its
+/// signature, made with one of the keys that the kiosk's settings name.
+///
+/// Keys     what = ["settings", "calibration", "counts", "packs"], until = "2031-12-31", its last day. Both are needed.
+/// Errors   one sentence that begins with the file's name.
+/// Threads  one caller; parsing is pure.
+#pragma once
+
+#include "app/library/import_failure.h"
+#include "firmware_host/base/file_tree.h"
+#include "firmware_host/base/result.h"
+
+#include <chrono>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct CopyRequest {
+    bool settings = false;
+    bool calibration = false;
+    bool counts = false;
+    bool packs = false;
+    std::chrono::sys_days until{}; ///< its last day
+    [[nodiscard]] bool operator==(const CopyRequest&) const = default;
+};
+[[nodiscard]] Result<CopyRequest> parse_copy_request(std::string_view text);
+
+/// None: the stick has no such file. The file is parsed only after its signature is checked. `keys`: of the kiosk's
+/// settings. `today`: none: no last day is over.
+[[nodiscard]] tl::expected<std::optional<CopyRequest>, ImportFailure>
+read_copy_request(FileTree& stick, std::span<const TrustedKey> keys,
+                  std::optional<std::chrono::sys_days> today);
+
+} // namespace frustumscreen
