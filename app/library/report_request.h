@@ -1,5 +1,6 @@
-/// A stick's request for a report on the kiosk: an empty file of a fixed name in its root. Another unit of the image
-/// writes the report before the import; the importer tells the outcome with that of the packs.
+/// A stick's requests: for a report on the kiosk, an empty file of a fixed name in its root; for a copy of the kiosk, a
+/// signed one (kiosk_copy/copy_request.h). Another unit of the image writes both before the import; the importer tells the
+/// outcome with that of the packs.
 ///
 /// Threads  one caller.
 /// Errors   in the lines, one sentence each.
@@ -22,7 +23,7 @@ inline constexpr std::string_view copy_request_signature = "frustumscreen-reques
 inline constexpr std::size_t max_copy_request_bytes = 4096;
 inline constexpr std::string_view kiosk_copy_name = "kiosk.fsk";
 
-/// The lines of the stick's report, if it asks for one: `written`, and what is wrong with the file. `written`: the
+/// The lines of what the stick asks for: `written`, and what is wrong with the files. `written`: the
 /// lines of the unit that writes; empty: it left none, which is told if the file is one that counts.
 [[nodiscard]] std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
                                                               std::vector<ImportedPack> written);
