@@ -17,6 +17,8 @@ namespace frustumscreen {
 
 namespace {
 
+constexpr std::size_t max_machine_bytes = 64;
+
 struct Part {
     std::string_view word;
     bool CopyRequest::*wanted;
@@ -46,6 +48,7 @@ void read_all(TableReader& table, CopyRequest& request) {
     std::string until;
     read_what(table, words, request);
     table.any_text("until", until);
+    table.any_text("machine", request.machine);
     table.finish(); // a misspelt key is reported before a missing one
     table.require("copy_request.nothing", !words.empty(), "what",
                   "is missing or empty; name one or more of settings, calibration, counts and packs");
@@ -53,6 +56,11 @@ void read_all(TableReader& table, CopyRequest& request) {
     table.require("copy_request.until", day.has_value(), "until",
                   "is missing or not a day; allowed is the request's last day as a text, \"2031-12-31\"");
     request.until = day.value_or(std::chrono::sys_days());
+    table.require("copy_request.machine", request.machine == printable(request.machine, max_machine_bytes),
+                  "machine",
+                  "is not a machine's name; allowed is that of the kiosk's folder, \"frustumscreen-1a2b3c\", "
+                  "or leave it "
+                  "out");
 }
 
 tl::unexpected<ImportFailure> failed(ImportRefusal refusal, std::string_view reason) {
@@ -76,7 +84,7 @@ Result<CopyRequest> parse_copy_request(std::string_view text) {
 }
 
 tl::expected<std::optional<CopyRequest>, ImportFailure>
-read_copy_request(FileTree& stick, std::span<const TrustedKey> keys,
+read_copy_request(FileTree& stick, std::span<const TrustedKey> keys, std::string_view machine,
                   std::optional<std::chrono::sys_days> today) {
     TRY(const SignedText file, read_signed_text(stick, copy_request_name, max_copy_request_bytes));
     if (!file.text) {
@@ -93,6 +101,10 @@ read_copy_request(FileTree& stick, std::span<const TrustedKey> keys,
     if (!request) {
         return tl::unexpected<ImportFailure>(
             ImportFailure{ImportRefusal::NotAPack, request.error().message, false});
+    }
+    if (!request->machine.empty() && request->machine != machine) {
+        return failed(ImportRefusal::WrongKey, fmt::format("it is for the machine {}, and this is {}",
+                                                           request->machine, printable(machine, 64)));
     }
     if (today && *today > request->until) {
         return failed(

@@ -1,7 +1,8 @@
 /// frustumscreen-request.toml on a stick: which of its things the kiosk is to write to the stick. It counts only with its
 /// signature, made with one of the keys that the kiosk's settings name.
 ///
-/// Keys     what = ["settings", "calibration", "counts", "packs"], until = "2031-12-31", its last day. Both are needed.
+/// Keys     what = ["settings", "calibration", "counts", "packs"]; until = "2031-12-31", its last day; machine =
+///          "frustumscreen-1a2b3c", the host's name of the one kiosk that is meant. `machine` may be left out.
 /// Errors   one sentence that begins with the file's name.
 /// Threads  one caller; parsing is pure.
 #pragma once
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace frustumscreen {
@@ -23,14 +25,15 @@ struct CopyRequest {
     bool counts = false;
     bool packs = false;
     std::chrono::sys_days until{}; ///< its last day
+    std::string machine{};         ///< empty: each kiosk that trusts the signer's key
     [[nodiscard]] bool operator==(const CopyRequest&) const = default;
 };
 [[nodiscard]] Result<CopyRequest> parse_copy_request(std::string_view text);
 
 /// None: the stick has no such file. The file is parsed only after its signature is checked. `keys`: of the kiosk's
-/// settings. `today`: none: no last day is over.
+/// settings. `machine`: this one's host name. `today`: none: no last day is over.
 [[nodiscard]] tl::expected<std::optional<CopyRequest>, ImportFailure>
-read_copy_request(FileTree& stick, std::span<const TrustedKey> keys,
+read_copy_request(FileTree& stick, std::span<const TrustedKey> keys, std::string_view machine,
                   std::optional<std::chrono::sys_days> today);
 
 } // namespace frustumscreen

@@ -64,6 +64,8 @@ class ReportFolder(unittest.TestCase):
         self.stick("vfat", fat32())
         self.write("bin/date", b"#!/bin/sh\necho 2031-05-04-120000\n")
         (self.top / "bin/date").chmod(0o755)
+        self.write("bin/uname", b"#!/bin/sh\necho frustumscreen-1a2b3c\n")
+        (self.top / "bin/uname").chmod(0o755)
 
     def write(self, name, content):
         (self.top / name).write_bytes(content)
@@ -136,7 +138,7 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         for files in (f"echo what >{COPY}", f"echo what >{COPY}; touch {REQUEST}", f"echo what >{COPY}; mkdir {REQUEST}"):
             with self.subTest(files):
                 status, _, after = self.run_in(files, 'cat run/frustumscreen-report/stick1.name; "$3" close stick1')
-                self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-kiosk-2031-05-04-120000"))
+                self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-1a2b3c-2031-05-04-120000"))
         self.write("sys/class/block/sda1/ro", b"1\n")
         self.assert_left_alone(*self.run_in(f"echo what >{COPY}")[:2])
         self.assertIn("write-protected", self.told(COPY)[1])

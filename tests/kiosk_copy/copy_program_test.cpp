@@ -17,7 +17,7 @@ using namespace testing_copy;
 
 const std::string everything =
     "what = [\"settings\", \"calibration\", \"counts\", \"packs\"]\nuntil = \"2999-12-31\"\n";
-const std::string place = "stick/frustumscreen-kiosk-2031-05-04-120000";
+const std::string place = "stick/frustumscreen-1a2b3c-2031-05-04-120000";
 
 class CopyProgram : public ProgramFolder {
 protected:
@@ -90,7 +90,7 @@ TEST_F(CopyProgram, ANewDiskIsAsTheOldOneWas) {
     EXPECT_NE(text(place + "/counts.csv").find("Amphora"), std::string::npos);
     std::vector<ImportedPack> told = import_into("a"); // as the kiosk itself does next
     ASSERT_EQ(told.size(), 3U);
-    EXPECT_EQ(told[0].file, "frustumscreen-kiosk-2031-05-04-120000");
+    EXPECT_EQ(told[0].file, "frustumscreen-1a2b3c-2031-05-04-120000");
     EXPECT_EQ(told[0].outcome, ImportOutcome::Written);
     EXPECT_EQ(told[1].outcome, ImportOutcome::AlreadyThere);
 

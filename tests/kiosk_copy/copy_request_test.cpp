@@ -39,6 +39,8 @@ TEST(CopyRequest, SaysWhatIsWrong) {
     EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-02-30\"\n"), "copy_request.until");
     EXPECT_NE(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nreset = true\n"), "");
     EXPECT_NE(fault_of("what = \n"), "");
+    EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nmachine = \"a\\nb\"\n"),
+              "copy_request.machine");
 }
 
 class SignedRequest : public ::testing::Test {
@@ -49,7 +51,7 @@ protected:
     }
     /// None: the request counts.
     std::optional<ImportRefusal> refusal(std::chrono::sys_days today = first_day) {
-        const auto request = read_copy_request(stick, keys, today);
+        const auto request = read_copy_request(stick, keys, "frustumscreen-1a2b3c", today);
         EXPECT_TRUE(!request || *request);
         EXPECT_TRUE(request || request.error().reason.starts_with("frustumscreen-request.toml"));
         return request ? std::nullopt : std::optional(request.error().refusal);
@@ -60,7 +62,7 @@ protected:
 };
 
 TEST_F(SignedRequest, NoneIsNoFault) {
-    const auto request = read_copy_request(stick, keys, first_day);
+    const auto request = read_copy_request(stick, keys, "frustumscreen-1a2b3c", first_day);
     ASSERT_TRUE(request);
     EXPECT_FALSE(*request);
 }
@@ -87,6 +89,13 @@ TEST_F(SignedRequest, CountsUntilItsLastDay) {
     const std::chrono::sys_days last = std::chrono::year(2024) / 10 / 10;
     EXPECT_EQ(refusal(last), std::nullopt);
     EXPECT_EQ(refusal(last + std::chrono::days(1)), ImportRefusal::Older);
+}
+
+TEST_F(SignedRequest, CountsForTheMachineThatItNames) {
+    sign(good + "machine = \"frustumscreen-1a2b3c\"\n", key);
+    EXPECT_EQ(refusal(), std::nullopt);
+    sign(good + "machine = \"frustumscreen-000000\"\n", key);
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey);
 }
 
 TEST_F(SignedRequest, IsNotParsedBeforeItsSignatureIsRight) {
