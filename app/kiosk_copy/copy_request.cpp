@@ -47,10 +47,11 @@ void read_all(TableReader& table, CopyRequest& request) {
     std::vector<std::string> words;
     std::string until;
     read_what(table, words, request);
+    table.flag("reset", request.reset, {});
     table.any_text("until", until);
     table.any_text("machine", request.machine);
     table.finish(); // a misspelt key is reported before a missing one
-    table.require("copy_request.nothing", !words.empty(), "what",
+    table.require("copy_request.nothing", !words.empty() || request.reset, "what",
                   "is missing or empty; name one or more of settings, calibration, counts and packs");
     const std::optional<std::chrono::sys_days> day = parse_day(until);
     table.require("copy_request.until", day.has_value(), "until",

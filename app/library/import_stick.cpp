@@ -101,8 +101,10 @@ void Import::tell(ImportStage stage) {
     if (request_.settings) {
         report_.packs.push_back(*request_.settings);
     }
-    if (request_.copy) {
-        report_.packs.push_back(*request_.copy);
+    for (const std::optional<ImportedPack>& line : {request_.copy, request_.reset}) {
+        if (line) {
+            report_.packs.push_back(*line);
+        }
     }
     report_.packs.insert(report_.packs.end(), request_.stick_report.begin(), request_.stick_report.end());
     if (exhibit_line_) {

@@ -53,11 +53,14 @@ bool are_about(std::span<const ImportedPack> lines, std::string_view name) {
 
 } // namespace
 
-std::vector<ImportedPack> lines_of_stick_report(FileTree& stick, std::vector<ImportedPack> written) {
+std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
+                                                std::optional<std::vector<ImportedPack>> outcome) {
+    const bool has_word = outcome.has_value();
     static_assert(max_report_request_bytes == max_copy_request_bytes);
     const FileResult<std::string> report = read_text(stick, report_request_name, max_report_request_bytes);
     const FileResult<std::string> copy = read_text(stick, copy_request_name, max_copy_request_bytes);
-    if (written.empty() && (report || copy)) {
+    std::vector<ImportedPack> written = std::move(outcome).value_or(std::vector<ImportedPack>());
+    if (!has_word && (report || copy)) {
         written.push_back({std::string(report ? report_request_name : copy_request_name), "",
                            ImportOutcome::NotWritten, ImportRefusal::Unwritable,
                            "the kiosk stopped before the report was written; put the stick in again"});

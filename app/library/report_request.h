@@ -10,6 +10,7 @@
 #include "firmware_host/base/file_tree.h"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,9 +24,9 @@ inline constexpr std::string_view copy_request_signature = "frustumscreen-reques
 inline constexpr std::size_t max_copy_request_bytes = 4096;
 inline constexpr std::string_view kiosk_copy_name = "kiosk.fsk";
 
-/// The lines of what the stick asks for: `written`, and what is wrong with the files. `written`: the
-/// lines of the unit that writes; empty: it left none, which is told if the file is one that counts.
-[[nodiscard]] std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
-                                                              std::vector<ImportedPack> written);
+/// The lines of what the stick asks for: `outcome`, and what is wrong with the files. `outcome`: the
+/// lines of the unit that writes; none: it left no word, which is told if the file is one that counts.
+[[nodiscard]] std::vector<ImportedPack>
+lines_of_stick_report(FileTree& stick, std::optional<std::vector<ImportedPack>> outcome);
 
 } // namespace frustumscreen

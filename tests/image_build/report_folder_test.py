@@ -64,8 +64,7 @@ class ReportFolder(unittest.TestCase):
         self.stick("vfat", fat32())
         self.write("bin/date", b"#!/bin/sh\necho 2031-05-04-120000\n")
         (self.top / "bin/date").chmod(0o755)
-        self.write("bin/uname", b"#!/bin/sh\necho frustumscreen-1a2b3c\n")
-        (self.top / "bin/uname").chmod(0o755)
+        self.write("machine", b"frustumscreen-1a2b3c\n")
 
     def write(self, name, content):
         (self.top / name).write_bytes(content)
@@ -80,7 +79,7 @@ class ReportFolder(unittest.TestCase):
                               capture_output=True, text=True, check=False, timeout=60,
                               env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "REPORT_RUN": str(self.top / "run"),
                                    "REPORT_STICKS": str(self.top / "sticks"), "REPORT_SYS": str(self.top / "sys"),
-                                   "REPORT_MOUNTS": str(self.top / "mounts"), **environment})
+                                   "REPORT_MOUNTS": str(self.top / "mounts"), "REPORT_MACHINE": str(self.top / "machine"), **environment})
         self.assertEqual(done.returncode, 0, done.stderr)
         said, _, after = done.stdout.partition("---\n")
         status = next(line for line in said.splitlines() if line.startswith("open "))

@@ -167,6 +167,30 @@ TEST_F(CopyProgram, AKioskThatWasInterruptedSaysSo) {
     EXPECT_NE(told[0].reason.find("stopped before"), std::string::npos) << told[0].reason;
 }
 
+TEST_F(CopyProgram, TheStateOfDeliveryWaitsForTheStaff) {
+    ask("reset = true\nuntil = \"2999-12-31\"\n");
+    EXPECT_EQ(report_of_a(), 0) << "nothing is to be written";
+    EXPECT_FALSE(std::filesystem::exists(folder / place));
+    const std::vector<ImportedPack> told = import_into("a");
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0].file, "frustumscreen-request.toml");
+    EXPECT_EQ(told[0].outcome, ImportOutcome::Pending);
+    EXPECT_TRUE(std::filesystem::exists(folder / "report/reset-asked"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a/calibration/calibration-0001.toml"))
+        << "nothing is done yet";
+}
+
+TEST_F(CopyProgram, TheStateOfDeliveryNeedsASignature) {
+    put("stick/frustumscreen-request.toml", "reset = true\nuntil = \"2999-12-31\"\n");
+    EXPECT_EQ(report_of_a(), 1);
+    EXPECT_EQ(import_into("a").at(0).outcome, ImportOutcome::NotWritten);
+    EXPECT_FALSE(std::filesystem::exists(folder / "report/reset-asked"));
+    ask("reset = true\nuntil = \"2020-12-31\"\n");
+    EXPECT_EQ(report_of_a(), 1);
+    EXPECT_EQ(import_into("a").at(0).refusal, ImportRefusal::Older);
+    EXPECT_FALSE(std::filesystem::exists(folder / "report/reset-asked"));
+}
+
 TEST_F(CopyProgram, NearlyRightNamesAreTold) {
     put("stick/Frustumscreen-Request.toml.txt", everything);
     put("stick/kiosk (1).fsk", "");

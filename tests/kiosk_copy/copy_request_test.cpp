@@ -28,6 +28,11 @@ TEST(CopyRequest, NamesWhatIsWanted) {
     const Result<CopyRequest> all = parse_copy_request(
         "what = [\"counts\", \"calibration\", \"settings\", \"packs\"]\nuntil = \"2031-12-31\"\n");
     ASSERT_TRUE(all);
+    EXPECT_FALSE(all->reset);
+    const Result<CopyRequest> reset = parse_copy_request("reset = true\nuntil = \"2031-12-31\"\n");
+    ASSERT_TRUE(reset);
+    EXPECT_TRUE(reset->reset);
+    EXPECT_FALSE(reset->asks_for_copy());
     EXPECT_TRUE(all->settings && all->packs && all->calibration && all->counts);
 }
 
@@ -37,7 +42,10 @@ TEST(CopyRequest, SaysWhatIsWrong) {
     EXPECT_EQ(fault_of("what = [\"everything\"]\nuntil = \"2024-10-10\"\n"), "copy_request.what");
     EXPECT_EQ(fault_of("what = [\"packs\"]\n"), "copy_request.until");
     EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-02-30\"\n"), "copy_request.until");
-    EXPECT_NE(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nreset = true\n"), "");
+    EXPECT_EQ(fault_of("reset = false\nuntil = \"2024-10-10\"\n"), "copy_request.nothing");
+    EXPECT_EQ(fault_of("reset = true\n"), "copy_request.until");
+    EXPECT_NE(fault_of("reset = \"yes\"\nuntil = \"2024-10-10\"\n"), "");
+    EXPECT_NE(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nreboot = true\n"), "");
     EXPECT_NE(fault_of("what = \n"), "");
     EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nmachine = \"a\\nb\"\n"),
               "copy_request.machine");

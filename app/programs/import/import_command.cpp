@@ -1,10 +1,12 @@
 #include "app/programs/import/import_command.h"
 
+#include "app/kiosk_copy/copy_request.h"
 #include "app/kiosk_copy/take_kiosk_copy.h"
 #include "app/library/import_end.h"
 #include "app/library/import_report_file.h"
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
+#include "app/library/own_settings.h"
 #include "app/library/report_request.h"
 #include "app/library/stick_settings.h"
 #include "app/library/trusted_keys.h"
@@ -16,6 +18,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/host_name.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
@@ -139,6 +142,32 @@ std::optional<ImportedPack> take_copy_of(FileTree& stick, WritableTree& settings
     return take_kiosk_copy(stick, {settings, **calibration, arguments.counts}, today);
 }
 
+void leave_mark(const ImportArguments& arguments, std::string_view name) {
+    if (!arguments.report.empty()) {
+        if (const Result<void> marked = write_file(arguments.report.parent_path() / name, {}); !marked) {
+            complain("frustumscreen-import", marked.error());
+        }
+    }
+}
+
+/// A request for the state of delivery, which the staff must confirm; none: there is none that counts. Why one does not
+/// count is told by the unit that writes to the stick.
+std::optional<ImportedPack> reset_asked_for(FileTree& stick, WritableTree& settings,
+                                            std::optional<std::chrono::sys_days> today) {
+    const tl::expected<OwnSettings, ImportFailure> own = read_own_settings(settings);
+    if (!own) {
+        return std::nullopt;
+    }
+    const auto asked = read_copy_request(stick, own->keys, host_name(), today);
+    if (!asked || !*asked || !(*asked)->reset) {
+        return std::nullopt;
+    }
+    return ImportedPack{
+        std::string(copy_request_name), "", ImportOutcome::Pending, ImportRefusal::None,
+        "it asks for the state of delivery; to confirm, show the staff's picture within ten minutes, "
+        "and hold the first button for two seconds on its first page"};
+}
+
 /// Takes the stick's settings before the keys are read from them, because the stick may bring other keys. Those in a copy
 /// come first: the stick's kiosk.toml is meant for this kiosk.
 void take_settings_of(FileTree& stick, WritableTree& library, const ImportArguments& arguments,
@@ -149,16 +178,17 @@ void take_settings_of(FileTree& stick, WritableTree& library, const ImportArgume
     }
     const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
     const std::optional<std::chrono::sys_days> today = day_here(request.today, set ? set->latest_day : "");
+    request.reset = reset_asked_for(stick, **folder, today);
+    if (request.reset) {
+        leave_mark(arguments, "reset-asked");
+    }
     request.copy = take_copy_of(stick, **folder, arguments, today);
     request.settings = take_settings(stick, **folder, today);
     const auto is_taken = [](const std::optional<ImportedPack>& line) {
         return line && line->outcome == ImportOutcome::Taken;
     };
-    if ((is_taken(request.copy) || is_taken(request.settings)) && !arguments.report.empty()) {
-        const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
-        if (const Result<void> marked = write_file(mark, {}); !marked) {
-            complain("frustumscreen-import", marked.error());
-        }
+    if (is_taken(request.copy) || is_taken(request.settings)) {
+        leave_mark(arguments, "settings-taken");
     }
 }
 
@@ -167,7 +197,7 @@ std::vector<ImportedPack> stick_report_of(FileTree& stick, const ImportArguments
     const std::optional<ImportReport> written = read_import_report(arguments.stick_report);
     std::error_code ignored;
     std::filesystem::remove(arguments.stick_report, ignored);
-    return lines_of_stick_report(stick, written ? written->packs : std::vector<ImportedPack>());
+    return lines_of_stick_report(stick, written ? std::optional(written->packs) : std::nullopt);
 }
 
 /// Reports that nothing of the stick was read except what `request` tells of.
@@ -183,8 +213,10 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     if (request.settings) {
         report.packs.push_back(*request.settings);
     }
-    if (request.copy) {
-        report.packs.push_back(*request.copy);
+    for (const std::optional<ImportedPack>& line : {request.copy, request.reset}) {
+        if (line) {
+            report.packs.push_back(*line);
+        }
     }
     report.packs.insert(report.packs.end(), request.stick_report.begin(), request.stick_report.end());
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());

@@ -10,11 +10,10 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/host_name.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <array>
 #include <string>
 #include <utility>
 
@@ -26,11 +25,6 @@ template <typename T> using Outcome = tl::expected<T, ImportFailure>;
 
 tl::unexpected<ImportFailure> failed(const Error& error) {
     return tl::unexpected<ImportFailure>(ImportFailure{ImportRefusal::Unwritable, error.message, false});
-}
-
-std::string machine_name() {
-    std::array<char, 256> name{};
-    return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 
 /// The day that counts on this machine, as for packs.
@@ -98,7 +92,7 @@ Outcome<std::optional<CopyRequest>> copy_asked_for(const CopyPlaces& places, std
     if (!settings) {
         return failed(settings.error());
     }
-    return read_copy_request(**stick, (*settings)->exhibit.keys, machine_name(), today_of(places, clock));
+    return read_copy_request(**stick, (*settings)->exhibit.keys, host_name(), today_of(places, clock));
 }
 
 Result<CopyFiles> copy_files(const CopyRequest& request, const CopyPlaces& places) {

@@ -98,6 +98,7 @@ struct Contents {
     std::vector<ReportFile> texts;
     CopyFiles copy;
     std::optional<ImportFailure> refused; ///< the request for a copy
+    bool asks_for_nothing = false;        ///< to be written
 };
 
 bool asks_for_report(const Request& request) {
@@ -108,15 +109,17 @@ bool asks_for_report(const Request& request) {
     return stick && read_text(**stick, report_request_name, max_report_request_bytes);
 }
 
-tl::expected<CopyFiles, ImportFailure> copy_for(const Request& request) {
+/// None: nobody asks for one.
+tl::expected<std::optional<CopyFiles>, ImportFailure> copy_for(const Request& request) {
     const auto clock = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     TRY(const std::optional<CopyRequest> asked, copy_asked_for(request.copy, clock));
-    if (!asked) {
-        return CopyFiles();
+    if (!asked || !asked->asks_for_copy()) {
+        return std::optional<CopyFiles>();
     }
-    return copy_files(*asked, request.copy).map_error([](const Error& error) {
+    TRY(CopyFiles files, copy_files(*asked, request.copy).map_error([](const Error& error) {
         return ImportFailure{ImportRefusal::Unwritable, error.message, false};
-    });
+    }));
+    return std::optional(std::move(files));
 }
 
 Contents contents_of(const Request& request) {
@@ -126,12 +129,16 @@ Contents contents_of(const Request& request) {
         contents.asked_by = report_request_name;
         contents.texts = report_files(request.places);
     }
-    tl::expected<CopyFiles, ImportFailure> copy = copy_for(request);
+    tl::expected<std::optional<CopyFiles>, ImportFailure> copy = copy_for(request);
     if (!copy) {
         contents.refused = std::move(copy.error());
         return contents;
     }
-    contents.copy = *std::move(copy);
+    if (!*copy) {
+        contents.asks_for_nothing = contents.texts.empty();
+        return contents;
+    }
+    contents.copy = **std::move(copy);
     for (ReportFile& file : contents.copy.texts) {
         const bool is_there = std::any_of(contents.texts.begin(), contents.texts.end(),
                                           [&](const ReportFile& other) { return other.name == file.name; });
@@ -192,7 +199,7 @@ void write_and_tell(const Request& request, const Contents& contents, ImportRepo
         told.packs.push_back(not_written(copy_request_name, *contents.refused));
     }
     if (contents.texts.empty() && contents.copy.packs.empty()) {
-        if (!contents.refused) {
+        if (!contents.refused && !contents.asks_for_nothing) {
             told.packs.push_back(
                 not_written(contents.asked_by,
                             {ImportRefusal::Unwritable,
