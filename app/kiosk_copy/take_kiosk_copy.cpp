@@ -7,6 +7,7 @@
 #include "app/library/stick_pack.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,13 +49,14 @@ Outcome<void> take_days(const KioskCopy& copy, const KioskFolders& kiosk, Today 
     return {};
 }
 
-bool is_newest(WritableTree& folder, const Calibration& calibration) {
+/// As the kiosk that was copied has it, or as this one has kept it: digits differ, as rotations are written as matrices.
+bool is_newest(WritableTree& folder, const std::string& copied, const Calibration& calibration) {
     const Result<std::vector<KeptCalibration>> kept = list_calibrations(folder);
     if (!kept || kept->empty()) {
         return false;
     }
-    const Result<Calibration> newest = read_calibration(folder, kept->front());
-    return newest && calibration_text(*newest) == calibration_text(calibration);
+    const FileResult<std::string> newest = read_text(folder, kept->front().name, largest_calibration_bytes);
+    return newest && (*newest == copied || *newest == calibration_text(calibration));
 }
 
 Outcome<void> take_calibration(const KioskCopy& copy, WritableTree& folder, News& news) {
@@ -62,7 +64,7 @@ Outcome<void> take_calibration(const KioskCopy& copy, WritableTree& folder, News
         return {};
     }
     const Result<Calibration> calibration = parse_calibration(*copy.calibration, kiosk_copy_name);
-    if (calibration && is_newest(folder, *calibration)) {
+    if (calibration && is_newest(folder, *copy.calibration, *calibration)) {
         return {};
     }
     const Result<void> kept = calibration.and_then(

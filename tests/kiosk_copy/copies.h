@@ -17,7 +17,10 @@ inline Calibration calibration(int places) {
     made.made = "2026-11-25 10:12 UTC";
     made.places = places;
     made.pinhole = {1920, 1200, 3601.25, 3598.5, 955.125, 610.0625};
-    made.table_from_projector = {{0.0, 1.0, 0.0, 0.0}, {0.1, -0.2, 1.5}};
+    made.table_from_projector = {glm::normalize(glm::dquat(0.01, 1.0, 0.002, -0.003)),
+                                 {0.1, -0.2, 1.0 / 0.7}};
+    made.registration.table_from_tracker = {glm::normalize(glm::dquat(0.3, 0.5, 0.7, -0.5)),
+                                            {-0.5, 0.25, -0.125}};
     return made;
 }
 

@@ -11,6 +11,7 @@
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/host_name.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <fmt/format.h>
 
@@ -46,8 +47,9 @@ Result<void> add_calibration(const CopyPlaces& places, KioskCopy& copy, std::vec
     TRY(const std::unique_ptr<WritableTree> folder, open_tree(places.calibration));
     TRY(const std::vector<KeptCalibration> kept, list_calibrations(*folder));
     for (const KeptCalibration& each : kept) {
-        if (const Result<Calibration> calibration = read_calibration(*folder, each)) {
-            copy.calibration = calibration_text(*calibration);
+        FileResult<std::string> text = read_text(*folder, each.name, largest_calibration_bytes);
+        if (text && read_calibration(*folder, each)) {
+            copy.calibration = *std::move(text);
             texts.push_back({"calibration.toml", *copy.calibration});
             break;
         }
