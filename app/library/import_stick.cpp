@@ -101,12 +101,9 @@ void Import::tell(ImportStage stage) {
     if (request_.settings) {
         report_.packs.push_back(*request_.settings);
     }
-    for (const std::optional<ImportedPack>& line : {request_.copy, request_.reset}) {
-        if (line) {
-            report_.packs.push_back(*line);
-        }
+    for (const auto* lines : {&request_.kiosk, &request_.stick_report}) {
+        report_.packs.insert(report_.packs.end(), lines->begin(), lines->end());
     }
-    report_.packs.insert(report_.packs.end(), request_.stick_report.begin(), request_.stick_report.end());
     if (exhibit_line_) {
         report_.packs.push_back(*exhibit_line_);
     }

@@ -178,16 +178,21 @@ void take_settings_of(FileTree& stick, WritableTree& library, const ImportArgume
     }
     const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
     const std::optional<std::chrono::sys_days> today = day_here(request.today, set ? set->latest_day : "");
-    request.reset = reset_asked_for(stick, **folder, today);
-    if (request.reset) {
+    const std::optional<ImportedPack> reset = reset_asked_for(stick, **folder, today);
+    if (reset) {
         leave_mark(arguments, "reset-asked");
     }
-    request.copy = take_copy_of(stick, **folder, arguments, today);
+    const std::optional<ImportedPack> copy = take_copy_of(stick, **folder, arguments, today);
+    for (const std::optional<ImportedPack>& line : {copy, reset}) {
+        if (line) {
+            request.kiosk.push_back(*line);
+        }
+    }
     request.settings = take_settings(stick, **folder, today);
     const auto is_taken = [](const std::optional<ImportedPack>& line) {
         return line && line->outcome == ImportOutcome::Taken;
     };
-    if (is_taken(request.copy) || is_taken(request.settings)) {
+    if (is_taken(copy) || is_taken(request.settings)) {
         leave_mark(arguments, "settings-taken");
     }
 }
@@ -213,12 +218,9 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     if (request.settings) {
         report.packs.push_back(*request.settings);
     }
-    for (const std::optional<ImportedPack>& line : {request.copy, request.reset}) {
-        if (line) {
-            report.packs.push_back(*line);
-        }
+    for (const auto* lines : {&request.kiosk, &request.stick_report}) {
+        report.packs.insert(report.packs.end(), lines->begin(), lines->end());
     }
-    report.packs.insert(report.packs.end(), request.stick_report.begin(), request.stick_report.end());
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
 }
