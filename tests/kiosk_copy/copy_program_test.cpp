@@ -159,6 +159,17 @@ TEST_F(CopyProgram, AReportAndACopyAreInOneFolder) {
     EXPECT_EQ(import_into("a").at(0).outcome, ImportOutcome::Written);
 }
 
+TEST_F(CopyProgram, DamagedSettingsAreNoObstacleToAReport) {
+    put("a/kiosk.toml", "[table\n");
+    put("stick/frustumscreen-report.toml", "");
+    EXPECT_EQ(report_of_a(), 0) << text("err.txt");
+    EXPECT_EQ(names_in(place).count("status.txt"), 1U);
+    ask(everything);
+    std::filesystem::remove_all(folder / place);
+    EXPECT_EQ(report_of_a(), 1) << "whom to believe is not known";
+    EXPECT_EQ(names_in(place).count("kiosk.fsk"), 0U);
+}
+
 TEST_F(CopyProgram, AKioskThatWasInterruptedSaysSo) {
     ask(everything);
     const std::vector<ImportedPack> told = import_into("a");

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <string>
 #include <utility>
 
@@ -88,7 +89,12 @@ Outcome<std::optional<CopyRequest>> copy_asked_for(const CopyPlaces& places, std
     }
     const Result<std::unique_ptr<WritableTree>> stick = open_tree(places.stick);
     if (!stick) {
-        return failed(stick.error());
+        return tl::unexpected<ImportFailure>(
+            ImportFailure{ImportRefusal::Unreadable, stick.error().message, false});
+    }
+    const FileResult<std::string> request = read_text(**stick, copy_request_name, max_copy_request_bytes);
+    if (!request && request.error().number == ENOENT) {
+        return std::optional<CopyRequest>(); // so damaged settings are no obstacle to a report
     }
     const Result<CheckedSettings> settings = load_settings(places.config);
     if (!settings) {
