@@ -99,6 +99,8 @@ public:
     [[nodiscard]] const std::string& language() const { return selection_.language(); }
     /// Sets the volume that the staff chose earlier, in place of the settings'.
     void set_louder_db(int louder_db) { staff_.set_louder_db(louder_db); }
+    /// Offers the staff the state of delivery, for which a stick has asked, or not any more.
+    void offer_reset(bool offered) { staff_.offer_reset(offered); }
     /// Ends the staff mode early, when there is no picture to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 

@@ -50,6 +50,7 @@ Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_sta
     presentation.staff_tones = staff_.tones();
     presentation.louder_db = staff_.louder_db();
     presentation.calibrate = staff_.take_measure();
+    presentation.reset = staff_.take_reset();
     presentation.lamps = lamps();
     return presentation;
 }

@@ -83,6 +83,7 @@ struct Presentation {
     std::uint32_t staff_tones = 0;  ///< number of test tones asked for by the staff
     int louder_db = 0;              ///< relative to the settings' volume
     bool calibrate = false;         ///< the staff asked for calibration in this step
+    bool reset = false;             ///< the staff confirmed the state of delivery in this step
     std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
 };
 

@@ -21,10 +21,11 @@ void StaffTool::begin(MonotonicTime now) {
     StaffView view;
     view.louder_db = view_.louder_db;
     view.stays = view_.stays;
+    view.resets = view_.resets;
     view_ = view;
     shown_ = view;
     before_ = {};
-    measure_ = false;
+    measure_ = reset_ = false;
     begun_ = pressed_ = lit_ = shown_since_ = now;
 }
 
@@ -80,6 +81,8 @@ void StaffTool::hold(bool first, MonotonicTime now) {
     }
     if (first && view_.page == StaffPage::Place) {
         measure_ = true;
+    } else if (first && view_.page == StaffPage::Status && view_.resets) {
+        reset_ = true;
     } else {
         view_.kept = true;
     }
@@ -126,6 +129,10 @@ bool StaffTool::is_over(MonotonicTime now) const {
 
 bool StaffTool::take_measure() {
     return std::exchange(measure_, false);
+}
+
+bool StaffTool::take_reset() {
+    return std::exchange(reset_, false);
 }
 
 void StaffTool::set_louder_db(int louder_db) {

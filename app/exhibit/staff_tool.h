@@ -3,7 +3,8 @@
 ///     first button    does what the page is for: the next light, louder and a tone
 ///     second button   the next page
 ///     third button    undoes one step of the first
-///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured
+///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured; on
+///                     StaffPage::Status, while it is offered: the kiosk goes back to the state of delivery
 ///
 /// Buttons  two are enough. On StaffPage::Buttons each press is only counted. This page is therefore the last, and
 ///          only the chord leaves it, as the chord ends the picture on every page. The effect of the presses of a
@@ -45,6 +46,7 @@ struct StaffView {
     bool held = false;                   ///< `pressed` was held long enough to count as held
     bool kept = false;
     bool stays = false;
+    bool resets = false; ///< the state of delivery is offered
 
     [[nodiscard]] bool operator==(const StaffView&) const = default;
 };
@@ -73,6 +75,10 @@ public:
     [[nodiscard]] bool is_over(MonotonicTime now) const;
     /// True if the staff asked to measure the table since `begin` or the last call.
     [[nodiscard]] bool take_measure();
+    /// A signed request is there, or is over.
+    void offer_reset(bool offered) { view_.resets = offered; }
+    /// True if the staff confirmed it since `begin` or the last call.
+    [[nodiscard]] bool take_reset();
 
     /// The content to show.
     [[nodiscard]] const StaffView& shown() const { return shown_; }
@@ -101,6 +107,7 @@ private:
     std::uint64_t press_number_ = 0;
     std::uint32_t tones_ = 0;
     bool measure_ = false;
+    bool reset_ = false;
     std::size_t latest_other_ = 1; ///< the latest pressed button other than the first
     MonotonicTime begun_, pressed_, lit_, shown_since_;
 };

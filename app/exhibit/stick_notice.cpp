@@ -111,8 +111,10 @@ std::vector<NoticeLine> lines_of(const ImportReport& report, std::size_t most) {
 std::string remark_of(const ImportReport& report) {
     const auto wrong = std::find_if(report.packs.begin(), report.packs.end(), [](const ImportedPack& pack) {
         return pack.outcome == ImportOutcome::NotWritten ||
+               (pack.outcome == ImportOutcome::Pending && pack.file == copy_request_name) ||
                (pack.outcome == ImportOutcome::Refused &&
-                (pack.file == settings_file_name || pack.file == report_request_name));
+                (pack.file == settings_file_name || pack.file == report_request_name ||
+                 pack.file == copy_request_name || pack.file == kiosk_copy_name));
     });
     return wrong != report.packs.end() ? fmt::format("{}: {}", wrong->file, wrong->reason) : std::string();
 }
@@ -157,7 +159,7 @@ NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
     }
     }
     NoticeText text{{"stick.take_out"}, lines_of(report, max_lines), false, remark_of(report)};
-    if (text.lines.empty()) {
+    if (text.lines.empty() && text.remark.empty()) {
         text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
     }
     return text;

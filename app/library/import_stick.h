@@ -33,8 +33,10 @@ struct ImportRequest {
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse;
     bool takes_settings = false;          ///< the kiosk takes its settings from sticks
     std::optional<ImportedPack> settings; ///< outcome of the stick's settings: the report's first line
-    bool writes_reports = false;          ///< the kiosk writes a report on itself to a stick that asks for it
-    std::vector<ImportedPack> stick_report; ///< outcome of that: the lines after the settings
+    std::vector<ImportedPack> kiosk; ///< outcome of its copy of a kiosk, and a request that waits for the
+                                     ///< staff: the next lines
+    bool writes_reports = false;     ///< the kiosk writes a report on itself to a stick that asks for it
+    std::vector<ImportedPack> stick_report; ///< outcome of that: the lines after these
     ImportLimits limits;
 };
 

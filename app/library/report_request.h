@@ -1,5 +1,6 @@
-/// A stick's request for a report on the kiosk: an empty file of a fixed name in its root. Another unit of the image
-/// writes the report before the import; the importer tells the outcome with that of the packs.
+/// A stick's requests: for a report on the kiosk, an empty file of a fixed name in its root; for a copy of the kiosk, a
+/// signed one (kiosk_copy/copy_request.h). Another unit of the image writes both before the import; the importer tells the
+/// outcome with that of the packs.
 ///
 /// Threads  one caller.
 /// Errors   in the lines, one sentence each.
@@ -9,6 +10,7 @@
 #include "firmware_host/base/file_tree.h"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +18,15 @@ namespace frustumscreen {
 
 inline constexpr std::string_view report_request_name = "frustumscreen-report.toml";
 inline constexpr std::size_t max_report_request_bytes = 4096;
+/// The signed request for a copy of the kiosk, and that copy as another kiosk takes it (kiosk_copy/).
+inline constexpr std::string_view copy_request_name = "frustumscreen-request.toml";
+inline constexpr std::string_view copy_request_signature = "frustumscreen-request.toml.minisig";
+inline constexpr std::size_t max_copy_request_bytes = 4096;
+inline constexpr std::string_view kiosk_copy_name = "kiosk.fsk";
 
-/// The lines of the stick's report, if it asks for one: `written`, and what is wrong with the file. `written`: the
-/// lines of the unit that writes; empty: it left none, which is told if the file is one that counts.
-[[nodiscard]] std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
-                                                              std::vector<ImportedPack> written);
+/// The lines of what the stick asks for: `outcome`, and what is wrong with the files. `outcome`: the
+/// lines of the unit that writes; none: it left no word, which is told if the file is one that counts.
+[[nodiscard]] std::vector<ImportedPack>
+lines_of_stick_report(FileTree& stick, std::optional<std::vector<ImportedPack>> outcome);
 
 } // namespace frustumscreen

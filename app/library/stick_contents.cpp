@@ -16,6 +16,7 @@ std::vector<ImportedPack> lines_of(const StickContents& contents, const ImportRe
         }
     };
     add(request.settings);
+    lines.insert(lines.end(), request.kiosk.begin(), request.kiosk.end());
     lines.insert(lines.end(), request.stick_report.begin(), request.stick_report.end());
     add(contents.exhibit_line);
     for (const StickPack& pack : contents.packs) {
@@ -29,6 +30,9 @@ std::vector<ImportedPack> lines_of(const StickContents& contents, const ImportRe
     }
     if (request.writes_reports && request.stick_report.empty()) {
         add(files.misnamed_request);
+    }
+    if (request.takes_settings) {
+        lines.insert(lines.end(), files.misnamed_copy.begin(), files.misnamed_copy.end());
     }
     for (const InstalledPack& pack : removed) {
         lines.push_back(removed_line(pack));

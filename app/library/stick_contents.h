@@ -21,7 +21,7 @@ struct StickContents {
     std::vector<StickPack> packs;
 };
 
-/// The lines in the order of the report: settings and report of the kiosk, the set file, packs, misnamed files,
+/// The lines in the order of the report: settings, copy and report of the kiosk, the set file, packs, misnamed files,
 /// and the packs that the set file removes from the set.
 [[nodiscard]] std::vector<ImportedPack> lines_of(const StickContents& contents, const ImportRequest& request,
                                                  const std::vector<InstalledPack>& removed);

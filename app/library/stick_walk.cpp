@@ -37,6 +37,12 @@ bool looks_like(std::string_view stem, std::string_view name) {
     return small.starts_with(stem) && small.find(".toml") != std::string::npos;
 }
 
+/// True of "kiosk (1).fsk" and "kiosk.fsk.txt", and of nothing that is called as it should be.
+bool looks_like_copy(std::string_view name) {
+    return in_small_letters(name).find(".fsk") != std::string::npos &&
+           name != fmt::format("{}.minisig", kiosk_copy_name);
+}
+
 /// Keeps the first by name.
 void keep_first(std::string& kept, const std::string& path) {
     kept = kept.empty() || path < kept ? path : kept;
@@ -63,7 +69,11 @@ private:
     std::string misnamed_; ///< path; empty: none
     std::string misnamed_settings_;
     std::string misnamed_request_;
+    std::string misnamed_copy_request_;
+    std::string misnamed_copy_;
     bool has_settings_ = false;
+    bool has_copy_request_ = false;
+    bool has_copy_ = false;
     bool has_request_ = false;
     std::size_t entries_ = 0;
     std::optional<ImportFailure> failure_;
@@ -93,12 +103,20 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         has_settings_ = true;
     } else if (folder.empty() && entry.name == report_request_name) {
         has_request_ = true;
+    } else if (folder.empty() && entry.name == copy_request_name) {
+        has_copy_request_ = true;
+    } else if (folder.empty() && entry.name == kiosk_copy_name) {
+        has_copy_ = true;
     } else if (looks_like("exhibit", entry.name)) {
         keep_first(misnamed_, path);
     } else if (looks_like("kiosk", entry.name)) {
         keep_first(misnamed_settings_, path);
     } else if (looks_like("frustumscreen-report", entry.name)) {
         keep_first(misnamed_request_, path);
+    } else if (looks_like("frustumscreen-request", entry.name) && entry.name != copy_request_signature) {
+        keep_first(misnamed_copy_request_, path);
+    } else if (folder.empty() && looks_like_copy(entry.name)) { // a kiosk writes copies into folders
+        keep_first(misnamed_copy_, path);
     }
 }
 
@@ -168,6 +186,21 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
             fmt::format("no report was written; the file that asks for one is called {} and lies in the "
                         "stick's root: rename it, and look that no .txt is hidden behind the name",
                         report_request_name)};
+    }
+    if (!misnamed_copy_request_.empty() && !has_copy_request_) {
+        found_.misnamed_copy.push_back(
+            {printable(misnamed_copy_request_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+             fmt::format("nothing was written; a request is called {} and lies in the stick's root, with its "
+                         "signature {} beside it",
+                         copy_request_name, copy_request_signature)});
+    }
+    if (!misnamed_copy_.empty() && !has_copy_) {
+        found_.misnamed_copy.push_back(
+            {printable(misnamed_copy_), "", ImportOutcome::Refused, ImportRefusal::NotAPack,
+             fmt::format(
+                 "it is not looked at; the copy of a kiosk is called {}, with its signature {}.minisig "
+                 "beside it, and both lie in the stick's root",
+                 kiosk_copy_name, kiosk_copy_name)});
     }
     return std::move(found_);
 }

@@ -27,6 +27,7 @@ struct StickFiles {
         misnamed; ///< a file that may be meant as set file, the first by name; none if there is a set file
     std::optional<ImportedPack> misnamed_settings; ///< the same for a kiosk's settings
     std::optional<ImportedPack> misnamed_request;  ///< the same for the request for a report
+    std::vector<ImportedPack> misnamed_copy; ///< the same for the request for a kiosk's copy, and for a copy
     bool has_exhibit_file = false;
 };
 

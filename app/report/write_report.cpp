@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -14,12 +15,21 @@ namespace {
 
 constexpr std::uint64_t cluster_bytes = 64U << 10U; ///< the largest of FAT; a file takes whole ones
 constexpr std::uint64_t margin_bytes = 1U << 20U;   ///< for the folder, and names in it
+constexpr std::size_t piece_bytes = std::size_t{1} << 20U;
+constexpr std::uint64_t bytes_between_syncs = 8U << 20U; ///< so that what is told as copied is on the stick
 constexpr std::string_view next_name = "frustumscreen.part";
 
-std::uint64_t bytes_on_stick(std::span<const ReportFile> files) {
+std::uint64_t in_clusters(std::uint64_t bytes) {
+    return (bytes / cluster_bytes + 1) * cluster_bytes;
+}
+
+std::uint64_t bytes_on_stick(std::span<const ReportFile> files, const CopiedFiles& large) {
     std::uint64_t bytes = margin_bytes;
     for (const ReportFile& file : files) {
-        bytes += (file.text.size() / cluster_bytes + 1) * cluster_bytes;
+        bytes += in_clusters(file.text.size());
+    }
+    for (const CopiedFile& file : large.files) {
+        bytes += in_clusters(file.bytes);
     }
     return bytes;
 }
@@ -30,10 +40,9 @@ tl::unexpected<ImportFailure> failed(ImportRefusal refusal, std::string reason) 
 
 tl::unexpected<ImportFailure> no_room_on_stick(std::uint64_t needed) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
-    return failed(
-        ImportRefusal::NoRoom,
-        fmt::format("the stick is full; the report needs {} MB on it: make room, or take another stick",
-                    needed / bytes_per_mb + 1));
+    return failed(ImportRefusal::NoRoom,
+                  fmt::format("the stick is full; {} MB are needed on it: make room, or take another stick",
+                              needed / bytes_per_mb + 1));
 }
 
 tl::unexpected<ImportFailure> stick_refuses(FileFault fault, std::uint64_t needed) {
@@ -64,17 +73,67 @@ FileResult<bool> is_empty(WritableTree& folder) {
     return empty;
 }
 
-FileResult<void> write_all(WritableTree& folder, std::span<const ReportFile> files) {
+FileResult<void> write_texts(WritableTree& folder, std::span<const ReportFile> files) {
     for (const ReportFile& file : files) {
         TRY_VOID(replace_text(folder, file.name, next_name, file.text));
     }
-    return folder.sync_folder("");
+    return {};
+}
+
+ImportFailure disk_cannot_be_read(const CopiedFile& file, FileFault fault) {
+    return {ImportRefusal::Unwritable,
+            fmt::format("{} cannot be read from the kiosk's disk ({}); call a technician", file.name,
+                        std::strerror(fault.number)),
+            false};
+}
+
+tl::expected<void, ImportFailure> copy_file(WritableTree& folder, const CopiedFiles& large,
+                                            const CopiedFile& file, std::uint64_t needed) {
+    const FileResult<std::unique_ptr<const FileContent>> from = large.from->open(file.source);
+    if (!from) {
+        return tl::unexpected<ImportFailure>(disk_cannot_be_read(file, from.error()));
+    }
+    const auto refused = [&](FileFault fault) { return stick_refuses(fault, needed); };
+    const FileResult<std::unique_ptr<NewFile>> to = folder.create(std::string(next_name));
+    if (!to) {
+        return refused(to.error());
+    }
+    Bytes piece;
+    for (std::uint64_t at = 0; at < (*from)->bytes(); at += piece.size()) {
+        piece.resize(std::min<std::uint64_t>(piece_bytes, (*from)->bytes() - at));
+        if (const int fault = (*from)->read(at, piece); fault != 0) {
+            return tl::unexpected<ImportFailure>(disk_cannot_be_read(file, {fault}));
+        }
+        const bool is_to_sync = (at + piece.size()) % bytes_between_syncs == 0;
+        const FileResult<void> written =
+            (*to)->append(piece).and_then([&] { return is_to_sync ? (*to)->sync() : FileResult<void>(); });
+        if (!written) {
+            return refused(written.error());
+        }
+        large.copied(piece.size());
+    }
+    const FileResult<void> named =
+        (*to)->sync().and_then([&] { return folder.rename(std::string(next_name), file.name); });
+    return named ? tl::expected<void, ImportFailure>() : refused(named.error());
+}
+
+tl::expected<void, ImportFailure> write_all(WritableTree& folder, std::span<const ReportFile> files,
+                                            const CopiedFiles& large, std::uint64_t needed) {
+    const auto refused = [&](FileFault fault) { return stick_refuses(fault, needed).value(); };
+    TRY_VOID(write_texts(folder, files).map_error(refused));
+    for (const CopiedFile& file : large.files) {
+        TRY_VOID(copy_file(folder, large, file, needed));
+    }
+    return folder.sync_folder("").map_error(refused);
 }
 
 /// So that a full stick has its room again. It may fail: the stick may be gone.
-void take_back(WritableTree& folder, std::span<const ReportFile> files) {
+void take_back(WritableTree& folder, std::span<const ReportFile> files, const CopiedFiles& large) {
     static_cast<void>(folder.remove(std::string(next_name)));
     for (const ReportFile& file : files) {
+        static_cast<void>(folder.remove(file.name));
+    }
+    for (const CopiedFile& file : large.files) {
         static_cast<void>(folder.remove(file.name));
     }
     static_cast<void>(folder.sync_folder(""));
@@ -82,8 +141,9 @@ void take_back(WritableTree& folder, std::span<const ReportFile> files) {
 
 } // namespace
 
-tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<const ReportFile> files) {
-    const std::uint64_t needed = bytes_on_stick(files);
+tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<const ReportFile> files,
+                                               const CopiedFiles& large) {
+    const std::uint64_t needed = bytes_on_stick(files, large);
     const FileResult<bool> empty = is_empty(folder);
     const FileResult<std::uint64_t> free = folder.free_bytes();
     if (!empty || !free) {
@@ -96,12 +156,11 @@ tl::expected<void, ImportFailure> write_report(WritableTree& folder, std::span<c
     if (*free < needed) {
         return no_room_on_stick(needed);
     }
-    const FileResult<void> written = write_all(folder, files);
+    tl::expected<void, ImportFailure> written = write_all(folder, files, large, needed);
     if (!written) {
-        take_back(folder, files);
-        return stick_refuses(written.error(), needed);
+        take_back(folder, files, large);
     }
-    return {};
+    return written;
 }
 
 } // namespace frustumscreen

@@ -394,7 +394,7 @@ void TableReader::finish() {
     });
     left_over.resize(std::min(left_over.size(), max_told));
     for (const toml::key* const each : left_over) {
-        const std::string key = printable(each->str(), 60);
+        const std::string key = printable(each->str(), 40);
         const std::string_view meant = usual_name(key);
         const auto nearest =
             std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {

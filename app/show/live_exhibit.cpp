@@ -82,11 +82,16 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
     }
     exhibit_.note(stage_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
+    exhibit_.offer_reset(reset_.at(now));
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
     if (set_switch_ && !asleep) { // a set that was not visible is neither good nor bad
         set_switch_->report(now, presentation_.state);
     }
     notice_.step(now, on_table, presentation_);
+    if (const SharedImport& import = notice_.import(); import != import_) {
+        import_ = import;
+        reset_.take(now, import->report, import->is_old);
+    }
     dim(presentation_, light_);
     const bool has_room = mark_ && has_room_for_mark(mark_->place_m, presentation_,
                                                      0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
@@ -130,6 +135,7 @@ ShowState LiveExhibit::state() const {
     state.import = notice_.import();
     state.used = exhibit_.used();
     state.calibrate = presentation_.calibrate;
+    state.reset = presentation_.reset;
     state.louder_db = presentation_.louder_db;
     return state;
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/exhibit/exhibit.h"
+#include "app/exhibit/reset_offer.h"
 #include "app/settings/settings.h"
 #include "app/show/notice_show.h"
 #include "app/show/set_switch.h"
@@ -66,6 +67,8 @@ private:
     Presentation presentation_; ///< of the latest step
     Speaker speaker_;
     NoticeShow notice_;
+    SharedImport import_; ///< of the previous step
+    ResetOffer reset_;
     Volume volume_;
     double light_ = 1.0;               ///< 0: asleep
     std::optional<ShownMark> mark_;    ///< wanted in this step

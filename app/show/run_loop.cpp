@@ -179,6 +179,9 @@ private:
         if (state.calibrate && options_.calibrate) {
             options_.calibrate();
         }
+        if (state.reset && options_.reset) {
+            options_.reset();
+        }
         fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
         if (const Sentence artifact(shown_artifact(state)); artifact != artifact_) {
             artifact_ = artifact;

@@ -43,7 +43,8 @@ struct LoopOptions {
     Screenshot* screenshot = nullptr;     ///< of the display's size; serves requests for a picture
     std::function<bool()> ends = {};      ///< called in each frame; true ends the loop
     std::function<void()> calibrate = {}; ///< starts the calibration for the staff; none: not available
-    VisitBook* visits = nullptr;          ///< counts visits; none: they are not counted, as in a fast run
+    std::function<void()> reset = {}; ///< begins the way back to the state of delivery; none: not available
+    VisitBook* visits = nullptr;      ///< counts visits; none: they are not counted, as in a fast run
     RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern
 };
 

@@ -41,6 +41,7 @@ struct ShowState {
     SharedImport import = {};               ///< the importer's report; null: none
     std::optional<MonotonicTime> used = {}; ///< when it was last used; nothing: never
     bool calibrate = false;                 ///< the staff asked for the table's calibration in this step
+    bool reset = false;                     ///< the staff confirmed the state of delivery in this step
     int louder_db = 0;                      ///< relative to the settings, chosen with the staff's buttons
 };
 

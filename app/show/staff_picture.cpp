@@ -176,9 +176,16 @@ private:
         if (measures) {
             add_button(fmt::format("{} held for two seconds: the table is measured anew", circled(0, view_)));
         }
+        const bool resets = view_.page == StaffPage::Status && view_.resets;
+        if (resets) {
+            add_button(
+                fmt::format("{} held for two seconds: back to the state of delivery; settings, calibration, "
+                            "visits and packs are removed",
+                            circled(0, view_)));
+        }
         if (!view_.kept && !view_.stays && view_.page != StaffPage::Buttons) {
             add_button(fmt::format("{} held for two seconds: this picture is kept for half an hour",
-                                   measures ? circled(1, view_) : "any button"));
+                                   measures || resets ? circled(1, view_) : "any button"));
         }
         add_button(fmt::format("{} and {} held together for three seconds: back to the exhibit",
                                circled(0, view_), circled(facts_.buttons - 1, view_)));

@@ -112,6 +112,25 @@ TEST(StaffTool, PressesDoWhatTheTableSays) {
     }
 }
 
+TEST(StaffTool, TheStateOfDeliveryIsConfirmedOnTheFirstPageWhileItIsOffered) {
+    for (const auto& [presses, offered, resets] :
+         {std::tuple("F", true, true), std::tuple("1F", true, true), std::tuple("O", true, false),
+          std::tuple("2F", true, false), std::tuple("22F", true, false), std::tuple("F", false, false)}) {
+        Played played;
+        played.tool.offer_reset(offered);
+        played.play(presses);
+        EXPECT_EQ(played.tool.take_reset(), resets) << presses;
+        EXPECT_FALSE(played.tool.take_reset()) << "once";
+    }
+    Played played;
+    played.tool.offer_reset(true);
+    played.tool.begin(played.now);
+    played.play("F");
+    EXPECT_TRUE(played.shown().resets) << "a new picture offers it too";
+    played.tool.begin(played.now);
+    EXPECT_FALSE(played.tool.take_reset()) << "what was asked on another picture is over";
+}
+
 /// On every page, with every number of buttons, in either order, and with another press in between.
 TEST(StaffTool, AChordsPressesLeaveNothing) {
     for (const std::size_t buttons : {2U, 3U, 4U, 5U}) {

@@ -1,4 +1,5 @@
 // The notice about a stick, and its duration, for reports that an importer might write and for presses.
+#include "app/exhibit/reset_offer.h"
 #include "app/exhibit/stick_notice.h"
 #include "tests/exhibit/block_words.h"
 
@@ -78,6 +79,40 @@ TEST(NoticeText, a_report_on_the_stick_is_told_by_its_folder_and_a_missing_one_b
                      "frustumscreen-report.toml:1: unknown"}};
     EXPECT_EQ(notice_text(report).lines.size(), 2U);
     EXPECT_NE(notice_text(report).remark, "");
+}
+
+TEST(NoticeText, a_request_that_waits_for_the_staff_is_told_alone) {
+    ImportReport report = report_of("a", ImportStage::Done);
+    report.packs = {{"frustumscreen-request.toml", "", ImportOutcome::Pending, {}, "hold the first button"}};
+    EXPECT_EQ(
+        notice_text(report),
+        (NoticeText{{"stick.take_out"}, {}, false, "frustumscreen-request.toml: hold the first button"}));
+}
+
+TEST(ResetOffer, StandsTenMinutesAfterASignedStick) {
+    const MonotonicTime start{std::chrono::seconds(100)};
+    ImportReport asks = report_of("a", ImportStage::Found);
+    asks.packs = {{"frustumscreen-request.toml", "", ImportOutcome::Pending, {}, "hold"}};
+    ResetOffer offer;
+    EXPECT_FALSE(offer.at(start));
+    offer.take(start, asks, true);
+    EXPECT_FALSE(offer.at(start)) << "the report was there before the exhibit";
+    offer.take(start, asks, false);
+    EXPECT_TRUE(offer.at(start));
+    asks.stage = ImportStage::Done; // the same stick's later report does not prolong it
+    offer.take(start + std::chrono::minutes(1), asks, false);
+    EXPECT_TRUE(offer.at(start + ResetOffer::stands - std::chrono::milliseconds(1)));
+    EXPECT_FALSE(offer.at(start + ResetOffer::stands));
+    // Packs that are being copied are pending too; another stick ends the offer.
+    ImportReport other = report_of("b", ImportStage::Copying);
+    other.packs = {{"vase.fspack", "", ImportOutcome::Pending, {}, ""}};
+    offer.take(start + std::chrono::minutes(2), other, false);
+    EXPECT_FALSE(offer.at(start + std::chrono::minutes(2)));
+    // A line of this name that was not believed offers nothing.
+    other.packs = {
+        {"frustumscreen-request.toml", "", ImportOutcome::NotWritten, ImportRefusal::Unsigned, ""}};
+    offer.take(start + std::chrono::minutes(3), other, false);
+    EXPECT_FALSE(offer.at(start + std::chrono::minutes(3)));
 }
 
 TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {

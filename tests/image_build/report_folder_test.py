@@ -14,6 +14,7 @@ import unittest
 
 OWN = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen"
 REQUEST = "frustumscreen-report.toml"
+COPY = "frustumscreen-request.toml"  # its signature is not looked at here
 # Another user's name for root, with mounts of its own. $1: the made-up folder; $2: what the stick holds, a shell's line.
 ENTER = """set -e
 cd "$1"
@@ -63,6 +64,7 @@ class ReportFolder(unittest.TestCase):
         self.stick("vfat", fat32())
         self.write("bin/date", b"#!/bin/sh\necho 2031-05-04-120000\n")
         (self.top / "bin/date").chmod(0o755)
+        self.write("machine", b"frustumscreen-1a2b3c\n")
 
     def write(self, name, content):
         (self.top / name).write_bytes(content)
@@ -77,13 +79,13 @@ class ReportFolder(unittest.TestCase):
                               capture_output=True, text=True, check=False, timeout=60,
                               env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "REPORT_RUN": str(self.top / "run"),
                                    "REPORT_STICKS": str(self.top / "sticks"), "REPORT_SYS": str(self.top / "sys"),
-                                   "REPORT_MOUNTS": str(self.top / "mounts"), **environment})
+                                   "REPORT_MOUNTS": str(self.top / "mounts"), "REPORT_MACHINE": str(self.top / "machine"), **environment})
         self.assertEqual(done.returncode, 0, done.stderr)
         said, _, after = done.stdout.partition("---\n")
         status = next(line for line in said.splitlines() if line.startswith("open "))
         return int(status.split()[1]), [line for line in said.splitlines() if line.startswith(PLACES)], after
 
-    def told(self):
+    def told(self, request=REQUEST):
         """(refusal, sentence) of what is left for the importer."""
         outcome = self.top / "run/frustumscreen-import/stick-report-stick1.json"
         if not outcome.exists():
@@ -91,7 +93,7 @@ class ReportFolder(unittest.TestCase):
         report = json.loads(outcome.read_text(encoding="ascii"))
         self.assertEqual((report["import_id"], report["stage"]), ("stick1", "done"))
         line, = report["packs"]
-        self.assertEqual((line["file"], line["outcome"]), (REQUEST, "not_written"))
+        self.assertEqual((line["file"], line["outcome"]), (request, "not_written"))
         self.assertNotIn("?", line["reason"])
         return line["refusal"], line["reason"]
 
@@ -131,8 +133,18 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
                                   "cat run/frustumscreen-report/stick1.name")
         self.assertEqual(after.strip(), "NAME=frustumscreen-report-2031-05-04-120000-3")
 
+    def test_a_request_for_a_copy(self):
+        for files in (f"echo what >{COPY}", f"echo what >{COPY}; touch {REQUEST}", f"echo what >{COPY}; mkdir {REQUEST}"):
+            with self.subTest(files):
+                status, _, after = self.run_in(files, 'cat run/frustumscreen-report/stick1.name; "$3" close stick1')
+                self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-1a2b3c-2031-05-04-120000"))
+        self.write("sys/class/block/sda1/ro", b"1\n")
+        self.assert_left_alone(*self.run_in(f"echo what >{COPY}")[:2])
+        self.assertIn("write-protected", self.told(COPY)[1])
+
     def test_sticks_that_ask_for_nothing(self):
-        for files in ("true", f"mkdir {REQUEST}", f"ln -s mine {REQUEST}; touch mine", f"head -c 4097 /dev/zero >{REQUEST}", "touch frustumscreen-report.toml.txt"):
+        for files in ("true", f"mkdir {REQUEST}", f"ln -s mine {REQUEST}; touch mine", f"head -c 4097 /dev/zero >{REQUEST}", "touch frustumscreen-report.toml.txt",
+                      f"ln -s mine {COPY}; touch mine", f"head -c 4097 /dev/zero >{COPY}"):
             with self.subTest(files):
                 self.assert_left_alone(*self.run_in(files)[:2])
                 self.assertIsNone(self.told())

@@ -136,5 +136,81 @@ TEST(WriteReport, AFolderWithFilesIsLeftAsItIs) {
     EXPECT_FALSE(text_of(disk, "version.txt"));
 }
 
+/// Packs on the kiosk's disk, the second one longer than the bytes between two syncs.
+struct Packs {
+    Packs() {
+        for (int k = 0; k < 2; ++k) {
+            const std::string source = fmt::format("packs/{}", k);
+            Bytes bytes(k == 0 ? 10 : (8U << 20U) + 5);
+            bytes.back() = std::byte{7};
+            disk.put(source, bytes);
+            large.files.push_back({fmt::format("{}.fspack", k), source, bytes.size()});
+        }
+        large.from = &disk;
+        large.copied = [this](std::uint64_t bytes) { told += bytes; };
+    }
+    /// How many have their names; each of them is whole.
+    [[nodiscard]] int whole(const VolatileDisk& stick) const {
+        int count = 0;
+        for (const CopiedFile& file : large.files) {
+            if (const auto content = stick.content(file.name)) {
+                EXPECT_TRUE(**content == **disk.content(file.source)) << file.name;
+                ++count;
+            }
+        }
+        return count;
+    }
+    VolatileDisk disk;
+    CopiedFiles large;
+    std::uint64_t told = 0;
+};
+
+TEST(WriteReport, LargeFilesAreCopiedAndTold) {
+    Packs packs;
+    VolatileDisk disk;
+    ASSERT_TRUE(write_report(disk, report(), packs.large));
+    EXPECT_EQ(packs.told, 10U + (8U << 20U) + 5U);
+    disk.cut_power(16, 1, [&](VolatileDisk& after) {
+        EXPECT_EQ(packs.whole(after), 2);
+        EXPECT_EQ(whole_files(after), 3);
+    });
+}
+
+TEST(WriteReport, PulledOutInALargeFileWhatHasANameIsWhole) {
+    Packs packs;
+    VolatileDisk whole;
+    ASSERT_TRUE(write_report(whole, report(), packs.large));
+    for (int k = operations_of_a_report() - 1; k < whole.operations; ++k) {
+        VolatileDisk disk;
+        disk.plan.fail_from = k;
+        disk.plan.error = k % 2 == 0 ? ENODEV : ENOSPC;
+        ASSERT_FALSE(write_report(disk, report(), packs.large)) << k;
+        disk.cut_power(8, static_cast<unsigned>(k),
+                       [&](VolatileDisk& after) { static_cast<void>(packs.whole(after)); });
+    }
+}
+
+TEST(WriteReport, AFailingDiskIsTheKiosksFault) {
+    Packs packs;
+    packs.disk.plan.fail_from = 1;
+    packs.disk.plan.error = EIO;
+    VolatileDisk disk;
+    const tl::expected<void, ImportFailure> written = write_report(disk, report(), packs.large);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().refusal, ImportRefusal::Unwritable);
+    expect_one_line(written.error());
+    EXPECT_EQ(packs.whole(disk) + whole_files(disk), 0) << "what was written is taken back";
+}
+
+TEST(WriteReport, RoomForLargeFilesIsLookedForFirst) {
+    Packs packs;
+    VolatileDisk disk;
+    disk.free = 5'000'000;
+    const tl::expected<void, ImportFailure> written = write_report(disk, report(), packs.large);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().refusal, ImportRefusal::NoRoom);
+    EXPECT_EQ(whole_files(disk), 0);
+}
+
 } // namespace
 } // namespace frustumscreen

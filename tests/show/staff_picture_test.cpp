@@ -159,6 +159,7 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
                 view.presses.fill(123);
                 view.kept = k % 2 == 0;
                 view.stays = k % 3 == 0;
+                view.resets = k % 2 == 0;
                 const Image8 below = staff_background(view, scene, *typesetter);
                 const Image8 shown = page(view);
                 const int edge = height / 50;

@@ -160,13 +160,14 @@ bool may_calibrate(const RunRequest& request, const Settings& settings, const De
            devices.tracker != TrackerKind::None && devices.panel;
 }
 
-void ask_for_calibration(const std::filesystem::path& file, const Journal& journal) {
+/// `what`: the table's calibration. `device`: for the journal.
+void ask_for(std::string_view what, std::string_view device, const std::filesystem::path& file,
+             const Journal& journal) {
     const Result<void> written = write_file(file, {});
-    journal.note(
-        LogPriority::Notice,
-        written ? "the staff ask for the table's calibration"
-                : fmt::format("the table's calibration cannot be asked for: {}", written.error().message),
-        {{"DEVICE", "calibration"}});
+    journal.note(LogPriority::Notice,
+                 written ? fmt::format("the staff ask for {}", what)
+                         : fmt::format("{} cannot be asked for: {}", what, written.error().message),
+                 {{"DEVICE", std::string(device)}});
 }
 
 LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const OpenExhibit& exhibit,
@@ -186,7 +187,12 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
     }
     if (may_calibrate(request, *mode.used.settings, exhibit.devices)) {
         options.calibrate = [&file = request.calibrate_file, &journal] {
-            ask_for_calibration(file, journal);
+            ask_for("the table's calibration", "calibration", file, journal);
+        };
+    }
+    if (!request.reset_file.empty()) {
+        options.reset = [&file = request.reset_file, &journal] {
+            ask_for("the state of delivery", "stick", file, journal);
         };
     }
     options.mode = word_of(mode.mode);

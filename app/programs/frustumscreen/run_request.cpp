@@ -24,6 +24,9 @@ std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequ
     app.add_option("--calibrate-file", request.calibrate_file,
                    "made when the staff ask for the table's calibration with the buttons; who looks at it "
                    "ends the exhibit and starts frustumscreen-calibrate table");
+    app.add_option("--reset-file", request.reset_file,
+                   "made when the staff confirm with the buttons that the kiosk goes back to the state of "
+                   "delivery, for which a signed stick has asked; who looks at it does the rest");
     app.add_option("--mode-file", request.places.mode_file,
                    "what is to be shown: normal, last_good_set, plain or built_in; the watchdog's");
     app.add_option("--shipped", request.places.shipped,

@@ -18,6 +18,7 @@ struct RunRequest {
     std::filesystem::path status_file;
     std::filesystem::path staff_socket;
     std::filesystem::path calibrate_file;
+    std::filesystem::path reset_file;
     std::filesystem::path record;
     ArtifactShowOptions show;
     Trust trust = Trust::Newest; ///< in the installed sets

@@ -1,9 +1,12 @@
 #include "app/programs/import/import_command.h"
 
+#include "app/kiosk_copy/copy_request.h"
+#include "app/kiosk_copy/take_kiosk_copy.h"
 #include "app/library/import_end.h"
 #include "app/library/import_report_file.h"
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
+#include "app/library/own_settings.h"
 #include "app/library/report_request.h"
 #include "app/library/stick_settings.h"
 #include "app/library/trusted_keys.h"
@@ -15,6 +18,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/host_name.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
@@ -128,23 +132,69 @@ std::uint64_t set_number(const ImportArguments& arguments) {
     return installed(arguments.into).map([](const Installed& found) { return found.set.number; }).value_or(0);
 }
 
-/// Takes the stick's settings before the keys are read from them, because the stick may bring other keys.
-std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
-                                             const ImportArguments& arguments, std::chrono::sys_days clock) {
-    const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
-    if (!folder) {
-        return std::nullopt; // this kiosk has no settings to replace
+std::optional<ImportedPack> take_copy_of(FileTree& stick, WritableTree& settings,
+                                         const ImportArguments& arguments,
+                                         std::optional<std::chrono::sys_days> today) {
+    const Result<std::unique_ptr<WritableTree>> calibration = open_tree(arguments.calibration);
+    if (arguments.counts.empty() || !calibration) {
+        return std::nullopt; // this kiosk takes no copies
     }
-    const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
-    std::optional<ImportedPack> told =
-        take_settings(stick, **folder, day_here(clock, set ? set->latest_day : ""));
-    if (told && told->outcome == ImportOutcome::Taken && !arguments.report.empty()) {
-        const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
-        if (const Result<void> marked = write_file(mark, {}); !marked) {
+    return take_kiosk_copy(stick, {settings, **calibration, arguments.counts}, today);
+}
+
+void leave_mark(const ImportArguments& arguments, std::string_view name) {
+    if (!arguments.report.empty()) {
+        if (const Result<void> marked = write_file(arguments.report.parent_path() / name, {}); !marked) {
             complain("frustumscreen-import", marked.error());
         }
     }
-    return told;
+}
+
+/// A request for the state of delivery, which the staff must confirm; none: there is none that counts. Why one does not
+/// count is told by the unit that writes to the stick.
+std::optional<ImportedPack> reset_asked_for(FileTree& stick, WritableTree& settings,
+                                            std::optional<std::chrono::sys_days> today) {
+    const tl::expected<OwnSettings, ImportFailure> own = read_own_settings(settings);
+    if (!own) {
+        return std::nullopt;
+    }
+    const auto asked = read_copy_request(stick, own->keys, host_name(), today);
+    if (!asked || !*asked || !(*asked)->reset) {
+        return std::nullopt;
+    }
+    return ImportedPack{
+        std::string(copy_request_name), "", ImportOutcome::Pending, ImportRefusal::None,
+        "it asks for the state of delivery; to confirm, show the staff's picture within ten minutes, "
+        "and hold the first button for two seconds on its first page"};
+}
+
+/// Takes the stick's settings before the keys are read from them, because the stick may bring other keys. Those in a copy
+/// come first: the stick's kiosk.toml is meant for this kiosk.
+void take_settings_of(FileTree& stick, WritableTree& library, const ImportArguments& arguments,
+                      ImportRequest& request) {
+    const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
+    if (!folder) {
+        return; // this kiosk has no settings to replace
+    }
+    const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
+    const std::optional<std::chrono::sys_days> today = day_here(request.today, set ? set->latest_day : "");
+    const std::optional<ImportedPack> reset = reset_asked_for(stick, **folder, today);
+    if (reset) {
+        leave_mark(arguments, "reset-asked");
+    }
+    const std::optional<ImportedPack> copy = take_copy_of(stick, **folder, arguments, today);
+    for (const std::optional<ImportedPack>& line : {copy, reset}) {
+        if (line) {
+            request.kiosk.push_back(*line);
+        }
+    }
+    request.settings = take_settings(stick, **folder, today);
+    const auto is_taken = [](const std::optional<ImportedPack>& line) {
+        return line && line->outcome == ImportOutcome::Taken;
+    };
+    if (is_taken(copy) || is_taken(request.settings)) {
+        leave_mark(arguments, "settings-taken");
+    }
 }
 
 /// The lines on the report that was written to the stick. The file of its outcome is read once.
@@ -152,7 +202,7 @@ std::vector<ImportedPack> stick_report_of(FileTree& stick, const ImportArguments
     const std::optional<ImportReport> written = read_import_report(arguments.stick_report);
     std::error_code ignored;
     std::filesystem::remove(arguments.stick_report, ignored);
-    return lines_of_stick_report(stick, written ? written->packs : std::vector<ImportedPack>());
+    return lines_of_stick_report(stick, written ? std::optional(written->packs) : std::nullopt);
 }
 
 /// Reports that nothing of the stick was read except what `request` tells of.
@@ -168,7 +218,9 @@ ImportReport tell_failed(const ImportArguments& arguments, const std::string& id
     if (request.settings) {
         report.packs.push_back(*request.settings);
     }
-    report.packs.insert(report.packs.end(), request.stick_report.begin(), request.stick_report.end());
+    for (const auto* lines : {&request.kiosk, &request.stick_report}) {
+        report.packs.insert(report.packs.end(), lines->begin(), lines->end());
+    }
     ImportWatcher(arguments.report, !arguments.json).tell(report, monotonic_now());
     return report;
 }
@@ -186,7 +238,7 @@ ImportReport import_from(const ImportArguments& arguments) {
     const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
     request.takes_settings = !arguments.settings.empty();
     if (stick && lock && library && request.takes_settings) {
-        request.settings = take_settings_of(**stick, **library, arguments, *request.today);
+        take_settings_of(**stick, **library, arguments, request);
     }
     request.writes_reports = !arguments.stick_report.empty();
     if (stick && request.writes_reports) {

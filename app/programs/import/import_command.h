@@ -24,6 +24,9 @@ struct ImportArguments {
     /// Folder of the kiosk's own kiosk.toml, which the stick's replaces (library/stick_settings.h); empty or missing:
     /// no settings are taken. A file settings-taken beside the report marks that they were taken.
     std::filesystem::path settings;
+    /// Folders of the kiosk's calibrations and visits: with `settings`, a stick's copy of a kiosk is taken too
+    /// (kiosk_copy/take_kiosk_copy.h). Empty: none is.
+    std::filesystem::path calibration, counts;
     std::filesystem::path report; ///< file; empty: none
     /// What another program left of the report that it wrote to the stick; removed. Empty: this kiosk writes none.
     std::filesystem::path stick_report;

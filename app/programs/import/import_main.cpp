@@ -85,6 +85,10 @@ int run(int argc, char** argv) {
                    "a file settings-taken beside the report says so");
     app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
         .one_of({"refuse", "allow"});
+    app.add_option("--calibration", arguments.calibration,
+                   "folder of the kiosk's calibrations: with --settings and --counts, a stick's copy of a "
+                   "kiosk, kiosk.fsk, is taken too, signed as settings are");
+    app.add_option("--counts", arguments.counts, "folder of the kiosk's visits, for --calibration");
     const CommandOption report = app.add_option("--report", arguments.report,
                                                 "file that says what happens, renewed while it does (JSON)");
     app.add_option("--report-stands", arguments.report_stands_s,

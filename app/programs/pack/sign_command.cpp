@@ -1,6 +1,9 @@
 #include "app/programs/pack/sign_command.h"
 
+#include "app/kiosk_copy/copy_request.h"
+#include "app/kiosk_copy/kiosk_copy.h"
 #include "app/library/exhibit_file.h"
+#include "app/library/report_request.h"
 #include "app/library/stick_settings.h"
 #include "app/pack/attribution.h"
 #include "app/pack/container/limits.h"
@@ -112,18 +115,30 @@ Error named(const std::string& file, Error error) {
     return error;
 }
 
-/// Checks a kiosk's settings, known by the file name that the stick requires; any other *.toml must be a set file.
+/// Checks a kiosk's settings or copy and the request for a copy, known by the file name that the stick requires; any other
+/// *.toml must be a set file.
 Result<void> check_sound(std::string_view text, const std::string& file) {
-    if (std::filesystem::path(file).filename() == settings_file_name) {
+    const std::filesystem::path name = std::filesystem::path(file).filename();
+    if (name == settings_file_name) {
         return parse_settings(text, file).map([](const CheckedSettings&) {});
+    }
+    if (name == copy_request_name) {
+        return without_value(parse_copy_request(text));
+    }
+    if (name == kiosk_copy_name) {
+        return at(file, without_value(parse_kiosk_copy(as_bytes(text))));
     }
     const Result<ExhibitFile> sound = parse_exhibit_file(text);
     return sound ? Result<void>() : tl::unexpected<Error>(named(file, sound.error()));
 }
 
+bool is_copy(const std::string& file) {
+    return std::filesystem::path(file).filename() == kiosk_copy_name;
+}
+
 Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
     static_assert(max_stick_settings_bytes == max_exhibit_file_bytes);
-    TRY(const Bytes text, read_file(file, max_exhibit_file_bytes));
+    TRY(const Bytes text, read_file(file, is_copy(file) ? max_kiosk_copy_bytes : max_exhibit_file_bytes));
     TRY_VOID(check_sound(as_text(text), file));
     const std::string beside = file + ".minisig";
     const Result<Bytes> before = read_file(beside, pack_format::max_signature_bytes);
@@ -135,7 +150,8 @@ Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const
 }
 
 Result<Signed> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    return file.ends_with(".toml") ? sign_text(request, key, file) : sign_pack(request, key, file);
+    return file.ends_with(".toml") || is_copy(file) ? sign_text(request, key, file)
+                                                    : sign_pack(request, key, file);
 }
 
 } // namespace

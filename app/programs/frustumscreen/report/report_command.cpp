@@ -4,6 +4,7 @@
 #include "app/library/report_request.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/report/copy_files.h"
 #include "app/programs/frustumscreen/report/report_files.h"
 #include "app/programs/frustumscreen/status/status_places.h"
 #include "app/report/write_report.h"
@@ -11,13 +12,17 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/tree_text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -26,6 +31,7 @@ namespace {
 struct Request {
     std::filesystem::path into;
     ReportPlaces places;
+    CopyPlaces copy;
     std::string name; ///< of the folder as the staff see it on the stick; empty: that of `into`
     std::filesystem::path outcome;
     std::filesystem::path import_report;
@@ -45,6 +51,13 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--faults", places.faults, "the watchdog's ring of faults").capture_default_str();
     app.add_option("--journal", places.journal, "folder of the journal; else this machine's own");
     add_status_places(app, places.status);
+    app.add_option("--stick", request.copy.stick,
+                   "the stick that asks: an empty frustumscreen-report.toml for the report, a signed "
+                   "frustumscreen-request.toml for settings, calibration, visits and packs");
+    app.add_option("--calibration", request.copy.calibration, "folder of the calibrations, for --stick")
+        .capture_default_str();
+    app.add_option("--library", request.copy.library, "folder of the installed set, for --stick")
+        .capture_default_str();
     app.add_option("--name", request.name, "the folder's name on the stick, for --outcome");
     app.add_option("--outcome", request.outcome, "file that says what came of it, for frustumscreen-import");
     const CommandOption id = app.add_option("--id", request.id, "name of the stick's import");
@@ -54,7 +67,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--report-stands", request.report_stands_s,
                    "s that another stick's report stands once it is over")
         .within(0.0, 60.0);
-    return app.end_of_arguments(argc, argv);
+    const std::optional<int> end = app.end_of_arguments(argc, argv);
+    request.copy.config = places.config;
+    request.copy.counts = places.counts;
+    return end;
 }
 
 /// A file that cannot be written causes one message: the report itself counts.
@@ -76,14 +92,148 @@ Result<std::unique_ptr<WritableTree>> open_or_make(const std::filesystem::path& 
     return open_tree(folder);
 }
 
-tl::expected<void, ImportFailure> write(const Request& request) {
-    const std::vector<ReportFile> files = report_files(request.places);
+/// All that is written, and what of it is refused.
+struct Contents {
+    std::string asked_by; ///< the stick's file, for what fails
+    std::vector<ReportFile> texts;
+    CopyFiles copy;
+    std::optional<ImportFailure> refused; ///< the request for a copy
+    bool asks_for_nothing = false;        ///< to be written
+};
+
+bool asks_for_report(const Request& request) {
+    if (request.copy.stick.empty()) {
+        return true;
+    }
+    const Result<std::unique_ptr<WritableTree>> stick = open_tree(request.copy.stick);
+    return stick && read_text(**stick, report_request_name, max_report_request_bytes);
+}
+
+/// None: nobody asks for one.
+tl::expected<std::optional<CopyFiles>, ImportFailure> copy_for(const Request& request) {
+    const auto clock = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    TRY(const std::optional<CopyRequest> asked, copy_asked_for(request.copy, clock));
+    if (!asked || !asked->asks_for_copy()) {
+        return std::optional<CopyFiles>();
+    }
+    TRY(CopyFiles files, copy_files(*asked, request.copy).map_error([](const Error& error) {
+        return ImportFailure{ImportRefusal::Unwritable, error.message, false};
+    }));
+    return std::optional(std::move(files));
+}
+
+Contents contents_of(const Request& request) {
+    Contents contents;
+    contents.asked_by = copy_request_name;
+    if (asks_for_report(request)) {
+        contents.asked_by = report_request_name;
+        contents.texts = report_files(request.places);
+    }
+    tl::expected<std::optional<CopyFiles>, ImportFailure> copy = copy_for(request);
+    if (!copy) {
+        contents.refused = std::move(copy.error());
+        return contents;
+    }
+    if (!*copy) {
+        contents.asks_for_nothing = contents.texts.empty();
+        return contents;
+    }
+    contents.copy = **std::move(copy);
+    for (ReportFile& file : contents.copy.texts) {
+        const bool is_there = std::any_of(contents.texts.begin(), contents.texts.end(),
+                                          [&](const ReportFile& other) { return other.name == file.name; });
+        if (!is_there) { // a report has the counts too
+            contents.texts.push_back(std::move(file));
+        }
+    }
+    return contents;
+}
+
+/// Tells the table how much of the packs is copied, a hundred times in all and each 4 MB.
+class CopyProgress {
+public:
+    CopyProgress(const std::filesystem::path& file, ImportReport told, std::span<const CopiedFile> packs)
+        : file_(file), told_(std::move(told)) {
+        told_.stage = ImportStage::Copying;
+        for (const CopiedFile& pack : packs) {
+            told_.total_bytes += pack.bytes;
+        }
+    }
+    void add(std::uint64_t bytes) {
+        constexpr std::uint64_t step = 4U << 20U;
+        const std::uint64_t before = told_.done_bytes / step;
+        told_.done_bytes += bytes;
+        if (told_.done_bytes / step != before) {
+            leave(file_, told_);
+        }
+    }
+
+private:
+    const std::filesystem::path& file_;
+    ImportReport told_;
+};
+
+tl::expected<void, ImportFailure> write(const Request& request, const Contents& contents,
+                                        const ImportReport& told) {
     const Result<std::unique_ptr<WritableTree>> folder = open_or_make(request.into);
     if (!folder) {
         return tl::unexpected<ImportFailure>(
             ImportFailure{ImportRefusal::Unwritable, folder.error().message, false});
     }
-    return write_report(**folder, files);
+    CopyProgress progress(request.import_report, told, contents.copy.packs);
+    return write_report(**folder, contents.texts,
+                        {contents.copy.library.get(), contents.copy.packs,
+                         [&](std::uint64_t bytes) { progress.add(bytes); }});
+}
+
+ImportedPack not_written(std::string_view file, const ImportFailure& failure) {
+    const std::string name = std::string(file) + ": ";
+    const bool is_named = failure.reason.starts_with(name);
+    return {std::string(file), "", ImportOutcome::NotWritten, failure.refusal,
+            is_named ? failure.reason.substr(name.size()) : failure.reason};
+}
+
+/// Writes, and adds a line for what was written and for what was not.
+void write_and_tell(const Request& request, const Contents& contents, ImportReport& told) {
+    if (contents.refused) {
+        told.packs.push_back(not_written(copy_request_name, *contents.refused));
+    }
+    if (contents.texts.empty() && contents.copy.packs.empty()) {
+        if (!contents.refused && !contents.asks_for_nothing) {
+            told.packs.push_back(
+                not_written(contents.asked_by,
+                            {ImportRefusal::Unwritable,
+                             "the kiosk has nothing of what was asked for; nothing is written", false}));
+        }
+        return;
+    }
+    const tl::expected<void, ImportFailure> written = write(request, contents, told);
+    const std::string name = request.name.empty() ? request.into.filename().string() : request.name;
+    told.packs.push_back(written ? ImportedPack{printable(name), "", ImportOutcome::Written, {}, ""}
+                                 : not_written(contents.asked_by, written.error()));
+}
+
+/// Returns the exit status. The table is told at once of a stick that was pulled out, as the importer may find none to
+/// tell of.
+int say(const Request& request, const ImportReport& told) {
+    int status = 0;
+    for (const ImportedPack& line : told.packs) {
+        if (line.outcome == ImportOutcome::Written) {
+            fmt::print("{}: it is written\n", line.file);
+            continue;
+        }
+        status = 1;
+        say_line("frustumscreen", fmt::format("not written, as {} asks: {}", line.file, line.reason));
+        if (line.refusal == ImportRefusal::Unreadable) {
+            ImportReport failed = told;
+            failed.import_id += ".report";
+            failed.stage = ImportStage::Failed;
+            failed.refusal = line.refusal;
+            failed.reason = line.reason;
+            leave(request.import_report, failed);
+        }
+    }
+    return status;
 }
 
 } // namespace
@@ -99,28 +249,10 @@ int report_command(int argc, char** argv) {
         wait_for_readers(request.import_report, told.import_id, request.report_stands_s);
         leave(request.import_report, told);
     }
-    const tl::expected<void, ImportFailure> written = write(request);
-    const std::string name = request.name.empty() ? request.into.filename().string() : request.name;
-    ImportedPack& line = told.packs.emplace_back();
-    line.file = written ? printable(name) : std::string(report_request_name);
-    line.outcome = written ? ImportOutcome::Written : ImportOutcome::NotWritten;
-    line.refusal = written ? ImportRefusal::None : written.error().refusal;
-    line.reason = written ? std::string() : written.error().reason;
+    write_and_tell(request, contents_of(request), told);
     told.stage = ImportStage::Done;
     leave(request.outcome, told);
-    if (written) {
-        fmt::print("{}: the report is written\n", line.file);
-        return 0;
-    }
-    if (line.refusal == ImportRefusal::Unreadable) { // the importer may find no stick to tell of
-        told.import_id += ".report";
-        told.stage = ImportStage::Failed;
-        told.refusal = line.refusal;
-        told.reason = line.reason;
-        leave(request.import_report, told);
-    }
-    say_line("frustumscreen", "no report is written: " + line.reason);
-    return 1;
+    return say(request, told);
 }
 
 } // namespace frustumscreen

@@ -1,0 +1,117 @@
+// A stick's request for a copy: which counts, and the one sentence about each that does not.
+#include "app/kiosk_copy/copy_request.h"
+#include "app/library/report_request.h"
+#include "tests/kiosk_copy/copies.h"
+#include "tests/library/volatile_disk.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+using testing_copy::first_day;
+using testing_disk::VolatileDisk;
+
+const std::string good = "what = [\"settings\", \"packs\"]\nuntil = \"2024-10-10\"\n";
+
+std::string fault_of(const std::string& text) {
+    const Result<CopyRequest> request = parse_copy_request(text);
+    EXPECT_TRUE(request || request.error().message.starts_with("frustumscreen-request.toml"));
+    return request ? "" : std::string(request.error().id.view());
+}
+
+TEST(CopyRequest, NamesWhatIsWanted) {
+    const Result<CopyRequest> request = parse_copy_request(good);
+    ASSERT_TRUE(request) << request.error().message;
+    EXPECT_TRUE(request->settings && request->packs && !request->calibration && !request->counts);
+    EXPECT_EQ(request->until, std::chrono::sys_days(std::chrono::year(2024) / 10 / 10));
+    const Result<CopyRequest> all = parse_copy_request(
+        "what = [\"counts\", \"calibration\", \"settings\", \"packs\"]\nuntil = \"2031-12-31\"\n");
+    ASSERT_TRUE(all);
+    EXPECT_FALSE(all->reset);
+    const Result<CopyRequest> reset = parse_copy_request("reset = true\nuntil = \"2031-12-31\"\n");
+    ASSERT_TRUE(reset);
+    EXPECT_TRUE(reset->reset);
+    EXPECT_FALSE(reset->asks_for_copy());
+    EXPECT_TRUE(all->settings && all->packs && all->calibration && all->counts);
+}
+
+TEST(CopyRequest, SaysWhatIsWrong) {
+    EXPECT_EQ(fault_of("until = \"2024-10-10\"\n"), "copy_request.nothing");
+    EXPECT_EQ(fault_of("what = []\nuntil = \"2024-10-10\"\n"), "copy_request.nothing");
+    EXPECT_EQ(fault_of("what = [\"everything\"]\nuntil = \"2024-10-10\"\n"), "copy_request.what");
+    EXPECT_EQ(fault_of("what = [\"packs\"]\n"), "copy_request.until");
+    EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-02-30\"\n"), "copy_request.until");
+    EXPECT_EQ(fault_of("reset = false\nuntil = \"2024-10-10\"\n"), "copy_request.nothing");
+    EXPECT_EQ(fault_of("reset = true\n"), "copy_request.until");
+    EXPECT_NE(fault_of("reset = \"yes\"\nuntil = \"2024-10-10\"\n"), "");
+    EXPECT_NE(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nreboot = true\n"), "");
+    EXPECT_NE(fault_of("what = \n"), "");
+    EXPECT_EQ(fault_of("what = [\"packs\"]\nuntil = \"2024-10-10\"\nmachine = \"a\\nb\"\n"),
+              "copy_request.machine");
+}
+
+class SignedRequest : public ::testing::Test {
+protected:
+    void sign(const std::string& text, const SecretKey& by) {
+        stick.put(std::string(copy_request_name), text);
+        stick.put(std::string(copy_request_signature), by.sign(as_bytes(text), "serial:7"));
+    }
+    /// None: the request counts.
+    std::optional<ImportRefusal> refusal(std::chrono::sys_days today = first_day) {
+        const auto request = read_copy_request(stick, keys, "frustumscreen-1a2b3c", today);
+        EXPECT_TRUE(!request || *request);
+        EXPECT_TRUE(request || request.error().reason.starts_with("frustumscreen-request.toml"));
+        return request ? std::nullopt : std::optional(request.error().refusal);
+    }
+    VolatileDisk stick;
+    SecretKey key = SecretKey::make(), other = SecretKey::make();
+    std::vector<TrustedKey> keys{{"Museum", key.public_key(), std::nullopt}};
+};
+
+TEST_F(SignedRequest, NoneIsNoFault) {
+    const auto request = read_copy_request(stick, keys, "frustumscreen-1a2b3c", first_day);
+    ASSERT_TRUE(request);
+    EXPECT_FALSE(*request);
+}
+
+TEST_F(SignedRequest, CountsOnlyIfOneOfTheKiosksKeysSignedIt) {
+    sign(good, key);
+    EXPECT_EQ(refusal(), std::nullopt);
+    sign(good, other);
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey);
+    sign(good, key);
+    stick.put(std::string(copy_request_name), good + "# more\n");
+    EXPECT_EQ(refusal(), ImportRefusal::Altered);
+    stick.take_away(std::string(copy_request_signature));
+    EXPECT_EQ(refusal(), ImportRefusal::Unsigned);
+    keys[0].until = first_day - std::chrono::days(1);
+    sign(good, key);
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey);
+    keys.clear();
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey) << "a kiosk without a key gives nothing away";
+}
+
+TEST_F(SignedRequest, CountsUntilItsLastDay) {
+    sign(good, key);
+    const std::chrono::sys_days last = std::chrono::year(2024) / 10 / 10;
+    EXPECT_EQ(refusal(last), std::nullopt);
+    EXPECT_EQ(refusal(last + std::chrono::days(1)), ImportRefusal::Older);
+}
+
+TEST_F(SignedRequest, CountsForTheMachineThatItNames) {
+    sign(good + "machine = \"frustumscreen-1a2b3c\"\n", key);
+    EXPECT_EQ(refusal(), std::nullopt);
+    sign(good + "machine = \"frustumscreen-000000\"\n", key);
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey);
+}
+
+TEST_F(SignedRequest, IsNotParsedBeforeItsSignatureIsRight) {
+    sign("what = [\n", key);
+    EXPECT_EQ(refusal(), ImportRefusal::NotAPack);
+    sign("what = [\n", other);
+    EXPECT_EQ(refusal(), ImportRefusal::WrongKey);
+}
+
+} // namespace
+} // namespace frustumscreen
