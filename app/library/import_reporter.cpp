@@ -13,7 +13,7 @@ constexpr Nanoseconds between_reports = std::chrono::milliseconds(100); ///< dur
 } // namespace
 
 ImportReporter::ImportReporter(const ImportRequest& request, const ImportEnvironment& outside,
-                           const StickContents& contents)
+                               const StickContents& contents)
     : request_(request), outside_(outside), contents_(contents) {
     report_.import_id = request.import_id;
     report_.stick = printable(request.stick);

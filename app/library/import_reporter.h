@@ -16,7 +16,7 @@ class ImportReporter {
 public:
     /// The references must outlive the reporter. Each report has the lines of `contents` at that time.
     ImportReporter(const ImportRequest& request, const ImportEnvironment& outside,
-                 const StickContents& contents);
+                   const StickContents& contents);
 
     void tell(ImportStage stage);
     /// `bytes` of the total are done. A report has a line for each pack, so it is not told at each step.

@@ -7,10 +7,10 @@ namespace frustumscreen::bake {
 
 namespace {
 constexpr std::uint64_t empty = 0xFFFFFFFFFFFFFFFFU;
-constexpr std::size_t least_slots = 1024;
+constexpr std::size_t min_slots = 1024;
 } // namespace
 
-CellNumbers::CellNumbers() : keys_(least_slots, empty), numbers_(least_slots, none) {}
+CellNumbers::CellNumbers() : keys_(min_slots, empty), numbers_(min_slots, none) {}
 
 std::size_t CellNumbers::slot_of(std::uint64_t key) const {
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U; // 2^64 / golden ratio

@@ -18,7 +18,7 @@ TEST(ScalingBakes, ReadsWhatABakeSaysOfItself) {
     EXPECT_EQ(bake->memory_bytes, 7000U);
     EXPECT_EQ(bake->processor_seconds, 6.5);
     EXPECT_EQ(bake->shown_mean_mm, 0.25);
-    EXPECT_EQ(bake->least_mean_mm, 0.125);
+    EXPECT_EQ(bake->min_mean_mm, 0.125);
 }
 
 TEST(ScalingBakes, AnotherReportIsRefused) {
@@ -35,7 +35,7 @@ TEST(ScalingBakes, ALimitIsMissedByASecondOrAByte) {
                      .memory_bytes = std::uint64_t{6} << 30U,
                      .pack_bytes = 1,
                      .shown_mean_mm = 0.02,
-                     .least_mean_mm = 0.01};
+                     .min_mean_mm = 0.01};
     EXPECT_EQ(bakes_table(std::array{bake}).find("MISSED"), std::string::npos);
     bake.seconds = 181.0;
     EXPECT_NE(bakes_table(std::array{bake}).find("MISSED 20000038 triangles are baked in <= 180 s"),

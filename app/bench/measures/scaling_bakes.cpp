@@ -19,7 +19,7 @@ struct BakeLimit {
     double seconds;
 };
 constexpr std::array<BakeLimit, 2> limits{{{21'000'000, 180.0}, {52'000'000, 480.0}}};
-constexpr std::uint64_t most_memory = std::uint64_t{6} << 30U;
+constexpr std::uint64_t max_memory = std::uint64_t{6} << 30U;
 
 /// Removes the files when the measure ends, in whatever way.
 class Removed {
@@ -50,7 +50,7 @@ std::string limit_lines(const ScalingBake& bake) {
                         bake.processor_seconds);
     }
     return lines + fmt::format("{} {} triangles are baked in <= 6 GiB ({:.2f} GiB)\n",
-                               word(bake.memory_bytes <= most_memory), bake.triangles,
+                               word(bake.memory_bytes <= max_memory), bake.triangles,
                                static_cast<double>(bake.memory_bytes) / (1U << 30U));
 }
 
@@ -86,7 +86,7 @@ Result<ScalingBake> scaling_bake_from(std::string_view report_json) {
             .memory_bytes = report.at("memory_bytes"),
             .pack_bytes = report.at("bytes"),
             .shown_mean_mm = levels.at(report.at("default_level").get<std::size_t>()).at("mean_mm"),
-            .least_mean_mm = levels.at(levels.size() - 1).at("mean_mm"),
+            .min_mean_mm = levels.at(levels.size() - 1).at("mean_mm"),
         };
     } catch (const nlohmann::json::exception& error) {
         return bad_input("bench.no_bake_report", "the bake's report cannot be read: {}", error.what());
@@ -95,11 +95,11 @@ Result<ScalingBake> scaling_bake_from(std::string_view report_json) {
 
 std::string bakes_csv(std::span<const ScalingBake> bakes) {
     std::string csv = "triangles,scan_bytes,seconds,processor_seconds,memory_bytes,pack_bytes,shown_mean_mm,"
-                      "least_mean_mm\n";
+                      "min_mean_mm\n";
     for (const ScalingBake& bake : bakes) {
         csv += fmt::format("{},{},{:.2f},{:.2f},{},{},{:.5f},{:.5f}\n", bake.triangles, bake.scan_bytes,
                            bake.seconds, bake.processor_seconds, bake.memory_bytes, bake.pack_bytes,
-                           bake.shown_mean_mm, bake.least_mean_mm);
+                           bake.shown_mean_mm, bake.min_mean_mm);
     }
     return csv;
 }
@@ -114,7 +114,7 @@ std::string bakes_table(std::span<const ScalingBake> bakes) {
         table +=
             fmt::format("{:>16}{:>9.0f}{:>9.1f}{:>13.1f}{:>12.0f}{:>10.1f}{:>12.4f}{:>12.4f}\n",
                         bake.triangles, mb(bake.scan_bytes), bake.seconds, bake.processor_seconds,
-                        mb(bake.memory_bytes), mb(bake.pack_bytes), bake.shown_mean_mm, bake.least_mean_mm);
+                        mb(bake.memory_bytes), mb(bake.pack_bytes), bake.shown_mean_mm, bake.min_mean_mm);
         lines += limit_lines(bake);
     }
     return table + lines;

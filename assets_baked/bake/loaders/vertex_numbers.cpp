@@ -4,10 +4,10 @@ namespace frustumscreen::bake {
 
 namespace {
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-constexpr std::size_t least_slots = 1024;
+constexpr std::size_t min_slots = 1024;
 } // namespace
 
-VertexNumbers::VertexNumbers() : slots_(least_slots, none) {}
+VertexNumbers::VertexNumbers() : slots_(min_slots, none) {}
 
 VertexNumbers::Found VertexNumbers::number_of(const Key& key) {
     const std::size_t slot = slot_of(key);
