@@ -25,7 +25,7 @@ struct ScalingBake {
     std::uint64_t memory_bytes = 0; ///< the most at a time
     std::uint64_t pack_bytes = 0;
     double shown_mean_mm = 0.0; ///< mean error of the level that is usually shown
-    double min_mean_mm = 0.0; ///< of the finest level
+    double min_mean_mm = 0.0;   ///< of the finest level
 };
 
 /// Makes the built-in amphora of about so many triangles in `folder`, bakes it, and removes both files. `programs`: the
