@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws a fixed set of pictures with the programs of one build: two artifacts in both set-ups at 20 poses and
-# every level, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two
+# three techniques, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two
 # builds that draw the same pictures leave folders that are equal byte for byte:
 #
 #   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: made anew; BAKER: where those are
@@ -25,7 +25,7 @@ for setup in kiosk near; do
     poses=$folder/$setup.poses.csv
     "$bin/frustumscreen-poses" simulate --config "$root/config/$setup.toml" --seed 7 --seconds 2 --hz 10 -o "$poses"
     for pack in amphora nautilus-cup; do
-        for technique in finest level0 level1; do
+        for technique in finest level0 relief; do
             for view in projector visitor; do
                 out=$folder/$setup.$pack.$technique.$view
                 "$bin/frustumscreen" render --config "$root/config/$setup.toml" --pack "$packs/$pack.fspack" \
@@ -59,8 +59,8 @@ live() {
     "$bin/frustumscreen" run --config "$settings" --headless --fast --stills 64 --out "$out" "$@" >/dev/null
     keep "$out"
 }
-live presses --seconds 6 --technique level1
-live full_redraw --seconds 6 --technique level1 --full-redraw
+live presses --seconds 6 --technique level0
+live full_redraw --seconds 6 --technique level0 --full-redraw
 live soak --seconds 6 --technique level0 --soak 12
 live pattern --seconds 1 --pattern
 # The prop is lost for five seconds.
@@ -71,5 +71,5 @@ live pattern --seconds 1 --pattern
     done
 } >"$folder/lost.csv"
 sed -i 's/^kind = "simulated"/kind = "replay"\nposes = "lost.csv"/' "$settings"
-live attract --seconds 7.9 --technique level1
+live attract --seconds 7.9 --technique level0
 rm -r "$packs"
