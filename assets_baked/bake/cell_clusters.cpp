@@ -1,10 +1,11 @@
 #include "assets_baked/bake/cell_clusters.h"
 
+#include "assets_baked/bake/connected_parts.h"
+
 #include <meshoptimizer.h>
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <unordered_map>
 
 namespace frustumscreen::bake {
@@ -25,22 +26,9 @@ std::vector<std::uint32_t> charts_of(const SourceMesh& mesh) {
     const std::size_t count = meshopt_generateVertexRemapMulti(chart.data(), mesh.triangles.front().data(),
                                                                3 * mesh.triangles.size(), chart.size(),
                                                                streams.data(), streams.size());
-    std::vector<std::uint32_t> parent(count);
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            parent[v] = parent[parent[v]];
-            v = parent[v];
-        }
-        return v;
-    };
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const std::uint32_t first = root(chart[a]);
-        parent[root(chart[b])] = first;
-        parent[root(chart[c])] = first;
-    }
+    const std::vector<std::uint32_t> part = connected_parts(mesh, chart, count);
     for (std::uint32_t& each : chart) {
-        each = each < count ? root(each) : each; // no triangle uses this one
+        each = each < count ? part[each] : each; // no triangle uses this one
     }
     return chart;
 }

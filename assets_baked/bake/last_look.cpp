@@ -1,6 +1,7 @@
 #include "assets_baked/bake/last_look.h"
 
 #include "assets_baked/bake/colour_looks.h"
+#include "assets_baked/bake/connected_parts.h"
 #include "assets_baked/bake/coordinate_looks.h"
 #include "assets_baked/bake/winding.h"
 
@@ -38,26 +39,13 @@ struct Bounds {
 /// The part of each triangle, numbered from 0, by union-find over equal positions.
 std::vector<std::uint32_t> parts_of(const SourceMesh& mesh, std::size_t& count) {
     const std::vector<std::uint32_t> same = numbers_of_places(mesh);
-    std::vector<std::uint32_t> parent(mesh.positions.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            parent[v] = parent[parent[v]];
-            v = parent[v];
-        }
-        return v;
-    };
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const std::uint32_t first = root(same[a]);
-        parent[root(same[b])] = first;
-        parent[root(same[c])] = first;
-    }
+    const std::vector<std::uint32_t> root = connected_parts(mesh, same, mesh.positions.size());
     std::vector<std::uint32_t> number(mesh.positions.size(), std::numeric_limits<std::uint32_t>::max());
     std::vector<std::uint32_t> parts;
     parts.reserve(mesh.triangles.size());
     count = 0;
     for (const auto& triangle : mesh.triangles) {
-        std::uint32_t& part = number[root(same[triangle[0]])];
+        std::uint32_t& part = number[root[same[triangle[0]]]];
         part = part == std::numeric_limits<std::uint32_t>::max() ? static_cast<std::uint32_t>(count++) : part;
         parts.push_back(part);
     }

@@ -16,7 +16,7 @@
 
 namespace frustumscreen::bench {
 
-/// What a bake said of itself (`frustumscreen-bake --json`).
+/// The figures of one bake, from its own report (`frustumscreen-bake --json`).
 struct ScalingBake {
     std::uint64_t triangles = 0; ///< of the scan
     std::uint64_t scan_bytes = 0;

@@ -150,7 +150,7 @@ Result<TableCells> shown_rows(std::span<const MeasuredRun> runs) {
     return rows;
 }
 
-/// What a peer is compared by.
+/// The figures by which peers are compared.
 struct PeerFigures {
     double samples = 0.0;
     double cost = 0.0;

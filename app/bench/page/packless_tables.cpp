@@ -82,7 +82,7 @@ Result<TableCells> light_rows(std::span<const MeasuredRun> runs) {
 constexpr const char* tracker_60_hz = "Polhemus PATRIOT";
 constexpr const char* tracker_240_hz = "Polhemus VIPER";
 
-/// What a row of the tables of latency shows.
+/// A filter in the tables of latency: its words there, and its row in the CSV file.
 struct Filtered {
     const char* words;
     const char* source;

@@ -16,7 +16,7 @@
 
 namespace frustumscreen::bench {
 
-/// What one run of a command left in its folder.
+/// The CSV files that one run of a command left in its folder.
 struct MeasuredRun {
     std::string name;            ///< the folder's
     std::vector<CsvTable> files; ///< in the order of `ReportTable::files`
@@ -32,11 +32,11 @@ struct ReportTable {
     std::function<Result<TableCells>(std::span<const MeasuredRun>)> rows;
 };
 
-/// Of `error-time`: errors and cost of a frame.
+/// The tables of `error-time`: errors and cost of a frame.
 [[nodiscard]] std::vector<ReportTable> error_time_tables();
-/// Of `estimate`, `projection` and `shimmer`: what the exhibit says of its pictures, and what visitors see.
+/// The tables of `estimate`, `projection` and `shimmer`: the errors that the exhibit estimates, and the visitor's view.
 [[nodiscard]] std::vector<ReportTable> view_tables();
-/// Of `scaling`, `stability`, `latency` and `ladder`, which need no pack.
+/// The tables of `scaling`, `stability`, `latency` and `ladder`, which need no pack.
 [[nodiscard]] std::vector<ReportTable> packless_tables();
 /// All of them. No two have one name.
 [[nodiscard]] std::vector<ReportTable> all_report_tables();

@@ -36,7 +36,7 @@ namespace frustumscreen::bench {
 /// The column's numbers in `rows`.
 [[nodiscard]] Result<std::vector<double>>
 numbers_in(const CsvTable& table, const std::vector<std::size_t>& rows, std::string_view column);
-/// Of a list that is not empty.
+/// The mean; `values` is not empty.
 [[nodiscard]] double mean_of(const std::vector<double>& values);
 
 } // namespace frustumscreen::bench

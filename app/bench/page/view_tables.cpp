@@ -30,7 +30,7 @@ struct CoveredPoses {
     double poses = 0.0;
 };
 
-/// What was drawn, in the table's words and order.
+/// The kinds of picture that are estimated, in the words and order of the table.
 constexpr std::array<const char*, 4> estimated_words = {"levels but the finest", "finest levels",
                                                         "what `auto` draws", "reliefs"};
 using CoveredOfKind = std::array<CoveredPoses, estimated_words.size()>;
@@ -86,7 +86,7 @@ Result<TableCells> estimate_rows(std::span<const MeasuredRun> runs) {
     return rows;
 }
 
-/// Of the shipped set-up: the default and the finest mesh level; empty: there is none.
+/// The default and the finest mesh level in the shipped set-up; empty: there is none.
 struct MeshNames {
     std::string standard, finest;
 };
