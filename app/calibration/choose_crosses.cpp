@@ -71,8 +71,8 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
         const double block = step * setup.block_m / steps;
         const PixelRange range = range_at(model, setup, block);
         for (int k = 0; k < (columns + 1) * (rows + 1); ++k) {
-            const glm::dvec2 share(static_cast<double>(k % (columns + 1)) / columns,
-                                   static_cast<double>(k / (columns + 1)) / rows);
+            const glm::ivec2 node(k % (columns + 1), k / (columns + 1));
+            const glm::dvec2 share = glm::dvec2(node) / glm::dvec2(columns, rows);
             const glm::dvec2 pixel = range.from + (range.to - range.from) * share;
             for (int quarter = 0; quarter < 4; ++quarter) {
                 crosses.push_back({pixel, block, 0.5 * std::numbers::pi * quarter});

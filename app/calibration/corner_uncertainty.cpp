@@ -70,8 +70,8 @@ CornerUncertainty uncertainty_of(const CornerCalibration& calibration,
     uncertainty.ruler_error_m = ruler_error_m(calibration.centre_m, corners);
     for (const double height : {0.0, 0.5 * top_m, top_m}) {
         for (std::size_t k = 0; k < zone_columns * zone_rows; ++k) {
-            const glm::dvec2 share(static_cast<double>(k % zone_columns) / (zone_columns - 1),
-                                   static_cast<double>(k / zone_columns) / (zone_rows - 1));
+            const glm::dvec2 share = glm::dvec2(glm::uvec2(k % zone_columns, k / zone_columns)) /
+                                     glm::dvec2(zone_columns - 1, zone_rows - 1);
             uncertainty.zone.push_back({share * size, height});
         }
     }

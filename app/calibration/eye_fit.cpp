@@ -281,11 +281,11 @@ double on_picture_m(const Eigen::Matrix3d& spread, std::span<const Line> lines, 
     return std::sqrt(sum / static_cast<double>(lines.size()));
 }
 
-EyeFit::Eyes eyes_of(const Solution& solution, std::span<const Line> lines, const std::vector<bool>& used,
-                     double deep_m) {
+FittedEyes eyes_of(const Solution& solution, std::span<const Line> lines, const std::vector<bool>& used,
+                   double deep_m) {
     const Eigen::Matrix<double, 3, 6> to_middle = middle_rows();
     const Eigen::Vector3d middle = to_middle * solution.eyes;
-    EyeFit::Eyes eyes;
+    FittedEyes eyes;
     eyes.left_m = glm_vector(solution.eyes.head<3>());
     eyes.right_m = glm_vector(solution.eyes.tail<3>());
     eyes.middle_m = glm_vector(middle);
@@ -305,7 +305,7 @@ EyeFit::Eyes eyes_of(const Solution& solution, std::span<const Line> lines, cons
 }
 
 void judge(EyeFit& fit) {
-    const EyeFit::Eyes& eyes = *fit.eyes;
+    const FittedEyes& eyes = *fit.eyes;
     const std::string expected =
         fmt::format("the eye's place puts about {:.1f} mm on the picture", 1e3 * eyes.picture_m);
     const double pupils_m = glm::distance(eyes.left_m, eyes.right_m);

@@ -24,6 +24,13 @@
 
 namespace frustumscreen::calibration {
 
+struct FittedEyes {
+    glm::dvec3 left_m{0.0}, right_m{0.0}, middle_m{0.0};
+    Eigen::Matrix3d covariance; ///< of the middle
+    double picture_m = 0.0;     ///< its effect on the picture, one standard deviation
+    double hidden_m = 0.0;      ///< largest picture error from one wrong sighting that goes unnoticed
+};
+
 struct EyeFit {
     Verdict verdict = Verdict::Refused;
     VerdictReason reason;
@@ -33,13 +40,7 @@ struct EyeFit {
     std::vector<double> residuals_m;
     double mean_residual_m = 0.0; ///< of the sightings that agree
     double worst_residual_m = 0.0;
-    struct Eyes {
-        glm::dvec3 left_m{0.0}, right_m{0.0}, middle_m{0.0};
-        Eigen::Matrix3d covariance; ///< of the middle
-        double picture_m = 0.0;     ///< its effect on the picture, one standard deviation
-        double hidden_m = 0.0;      ///< largest picture error from one wrong sighting that goes unnoticed
-    };
-    std::optional<Eyes> eyes; ///< none if refused
+    std::optional<FittedEyes> eyes; ///< none if refused
 };
 
 /// Least number of sightings of each eye.

@@ -44,8 +44,9 @@ std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& mi
     std::vector<ZonePlace> places;
     for (const double height : {0.0, 0.5 * setup.top_m, setup.top_m}) {
         for (int k = 0; k < (columns + 1) * (rows + 1); ++k) {
-            const glm::dvec2 pixel(model.pinhole.width * (k % (columns + 1)) / double(columns),
-                                   model.pinhole.height * (k / (columns + 1)) / double(rows));
+            const glm::ivec2 node(k % (columns + 1), k / (columns + 1));
+            const glm::dvec2 pixel(model.pinhole.width * node.x / double(columns),
+                                   model.pinhole.height * node.y / double(rows));
             const std::optional<glm::dvec3> place = model.lit(pixel, height);
             for (int quarter = 0; place && quarter < 4; ++quarter) {
                 const glm::dquat turn =

@@ -137,7 +137,7 @@ struct Grid {
 };
 
 void draw_figures(Sheet& sheet, const CountsSummary& summary) {
-    const auto minutes = static_cast<std::uint64_t>(minutes_of(summary.all) + 0.5);
+    const std::uint64_t minutes = whole_minutes_of(summary.all);
     const double visits = static_cast<double>(summary.all.visits);
     const std::array<std::pair<std::string, const char*>, 4> figures{
         {{grouped(summary.all.visits), "visits"},
@@ -263,7 +263,7 @@ double draw_list(Sheet& sheet, Place at, double wide, double names, const char* 
             13);
         sheet.rectangle({at.x + names, y + 4}, std::max(length, 1.0), list_row - 9, bar_colour);
         sheet.text({at.x + names + length + 8, y + 17},
-                   fmt::format("{} min, {} visits", grouped(static_cast<std::uint64_t>(minutes + 0.5)),
+                   fmt::format("{} min, {} visits", grouped(whole_minutes_of(all[k].tally)),
                                grouped(all[k].tally.visits)),
                    11, quiet_ink);
     }

@@ -68,8 +68,7 @@ void add_list(std::string& text, const char* title, const std::vector<NamedTally
     fmt::format_to(std::back_inserter(text), "\n{:<44} {:>9} {:>9}\n", title, "minutes", "visits");
     for (std::size_t k = 0; k < std::min(all.size(), max_lines); ++k) {
         fmt::format_to(std::back_inserter(text), "{:<44} {:>9} {:>9}\n",
-                       all[k].name.empty() ? "(none)" : all[k].name,
-                       grouped(static_cast<std::uint64_t>(minutes_of(all[k].tally) + 0.5)),
+                       all[k].name.empty() ? "(none)" : all[k].name, grouped(whole_minutes_of(all[k].tally)),
                        grouped(all[k].tally.visits));
     }
     if (all.size() > max_lines) {
@@ -143,7 +142,7 @@ std::string counts_text(const ReadCounts& counts) {
                        text_of_day(summary.last),
                        summary.days == 1 ? "1 day" : fmt::format("{} days", summary.days));
         fmt::format_to(out, "{} visits, {} minutes together", grouped(summary.all.visits),
-                       grouped(static_cast<std::uint64_t>(minutes_of(summary.all) + 0.5)));
+                       grouped(whole_minutes_of(summary.all)));
         if (summary.all.visits > 0) {
             const auto by_visits = [](const Tally& a, const Tally& b) { return a.visits < b.visits; };
             const auto hour = std::max_element(summary.hours.begin(), summary.hours.end(), by_visits) -

@@ -39,6 +39,10 @@ struct CountsSummary {
 [[nodiscard]] inline double minutes_of(const Tally& tally) {
     return static_cast<double>(tally.ms) / 60'000.0;
 }
+/// Rounded to the nearest.
+[[nodiscard]] inline std::uint64_t whole_minutes_of(const Tally& tally) {
+    return (tally.ms + 30'000) / 60'000;
+}
 /// "12 345"
 [[nodiscard]] std::string grouped(std::uint64_t number);
 

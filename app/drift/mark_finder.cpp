@@ -197,8 +197,9 @@ std::optional<FoundMark> MarkFinder::measure(std::size_t peak, const glm::ivec2&
     double half = 0.0;
     double change = 0.0;
     for (const std::size_t k : part_) {
-        const glm::dvec2 at(static_cast<double>(k % static_cast<std::size_t>(size.x)) + 0.5,
-                            static_cast<double>(k / static_cast<std::size_t>(size.x)) + 0.5);
+        const std::size_t row = k / static_cast<std::size_t>(size.x);
+        const std::size_t column = k % static_cast<std::size_t>(size.x);
+        const glm::dvec2 at = glm::dvec2(column, row) + 0.5;
         const double light = light_[k];
         sum += light;
         first += light * at;

@@ -81,14 +81,15 @@ Plane read_plane(ByteReader& reader) {
 /// Codes of the corners, from the words of the 64 cells; neighbouring cells share corners.
 Plane codes_of(std::span<const std::uint32_t> cell_words) {
     Plane codes{};
-    for (int row = 0; row < relief::block_corners; ++row) {
-        for (int column = 0; column < relief::block_corners; ++column) {
-            const int x = std::min(column, relief::block_cells - 1);
-            const int y = std::min(row, relief::block_cells - 1);
-            const std::uint32_t word = cell_words[static_cast<std::size_t>(y * relief::block_cells + x)];
-            const auto corner = static_cast<unsigned>(column - x + 2 * (row - y));
-            codes.at(static_cast<std::size_t>(row * relief::block_corners + column)) =
-                static_cast<std::uint8_t>(word >> 8U * corner);
+    constexpr std::size_t cells = relief::block_cells;
+    constexpr std::size_t corners = relief::block_corners;
+    for (std::size_t row = 0; row < corners; ++row) {
+        for (std::size_t column = 0; column < corners; ++column) {
+            const std::size_t x = std::min(column, cells - 1);
+            const std::size_t y = std::min(row, cells - 1);
+            const std::size_t corner = column - x + 2 * (row - y);
+            codes.at(row * corners + column) =
+                static_cast<std::uint8_t>(cell_words[y * cells + x] >> 8U * corner);
         }
     }
     return codes;

@@ -16,8 +16,9 @@ glm::dvec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, std:
                          std::size_t cell, unsigned corner) {
     const ReliefBlock& of = relief.blocks[block];
     const std::uint32_t codes = relief.corner_codes[block * block_cells * block_cells + cell];
+    const std::size_t row = cell / block_cells;
     const auto i = static_cast<double>(cell % block_cells + (corner & 1U));
-    const auto j = static_cast<double>(cell / block_cells + (corner >> 1U));
+    const auto j = static_cast<double>(row + (corner >> 1U));
     const double w = of.w0 + of.w_u * i + of.w_v * j + of.residual_low +
                      of.residual_step * static_cast<double>(codes >> 8U * corner & 255U);
     return glm::dvec3(box_from_grid(grid, static_cast<double>(relief.texel_box)) *

@@ -96,8 +96,9 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
     for (RasterSamples& each : samples_) { // any thread may get the widest band
         each.make_room(view.lit.width, rows_of_band, samples);
     }
-    painted_.resize(static_cast<std::size_t>(bands_of(view.lit) * strips_of_band));
-    workers_.share(bands_of(view.lit), [&](int k, int worker) {
+    const int bands = bands_of(view.lit);
+    painted_.resize(static_cast<std::size_t>(bands) * strips_of_band);
+    workers_.share(bands, [&](int k, int worker) {
         RasterSamples& band = samples_[static_cast<std::size_t>(worker)];
         const PixelRectangle rows = band_of(view.lit, k);
         band.begin(rows, samples);
@@ -105,7 +106,7 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
         for (int strip = 0; strip < strips_of_band; ++strip) {
             const int top = (rows.y / rows_of_band * strips_of_band + strip) * rows_of_strip;
             const PixelRectangle part = lit_part(band, top, top + rows_of_strip);
-            painted_[static_cast<std::size_t>(k * strips_of_band + strip)] = part;
+            painted_[static_cast<std::size_t>(k) * strips_of_band + static_cast<std::size_t>(strip)] = part;
             resolve(band, relief, part, picture, light);
         }
     });

@@ -38,7 +38,7 @@ FRUSTUMSCREEN_INLINE Words colours_at(const BlockRelief& relief, const Shown& sh
     const auto row = [&](int down) FRUSTUMSCREEN_INLINED {
         const auto pair = [&](int lane) FRUSTUMSCREEN_INLINED {
             std::uint64_t two;
-            std::memcpy(&two, &relief.colours[static_cast<std::size_t>(corners[lane] + down)], sizeof two);
+            std::memcpy(&two, relief.colours.data() + corners[lane] + down, sizeof two);
             return two;
         };
         const auto low = std::bit_cast<Words>(Pairs{pair(0), pair(1), pair(2), pair(3)});

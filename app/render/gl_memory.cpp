@@ -1,6 +1,7 @@
 #include "app/render/gl_memory.h"
 
 #include <array>
+#include <initializer_list>
 
 namespace frustumscreen::render {
 
@@ -63,9 +64,9 @@ std::uint64_t bytes_of_renderbuffer(const gl::GlRenderbuffer& renderbuffer) {
     };
     glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer.get());
     int bits = 0;
-    for (const GLenum component :
-         {GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE, GL_RENDERBUFFER_BLUE_SIZE,
-          GL_RENDERBUFFER_ALPHA_SIZE, GL_RENDERBUFFER_DEPTH_SIZE, GL_RENDERBUFFER_STENCIL_SIZE}) {
+    for (const GLenum component : std::initializer_list<GLenum>{
+             GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE, GL_RENDERBUFFER_BLUE_SIZE,
+             GL_RENDERBUFFER_ALPHA_SIZE, GL_RENDERBUFFER_DEPTH_SIZE, GL_RENDERBUFFER_STENCIL_SIZE}) {
         bits += ask(component);
     }
     return bytes_of(ask(GL_RENDERBUFFER_WIDTH), ask(GL_RENDERBUFFER_HEIGHT), bits);

@@ -30,7 +30,8 @@ gl::GlTexture upload_coverage(const image::Image<std::uint8_t>& coverage) {
     gl::GlTexture texture = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
     const auto longest = static_cast<unsigned>(std::max(coverage.width, coverage.height));
-    glTexStorage2D(GL_TEXTURE_2D, std::bit_width(longest), GL_R8, coverage.width, coverage.height);
+    const auto mips = static_cast<GLsizei>(std::bit_width(longest));
+    glTexStorage2D(GL_TEXTURE_2D, mips, GL_R8, coverage.width, coverage.height);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, coverage.width, coverage.height, GL_RED, GL_UNSIGNED_BYTE,
                     coverage.texels.data());

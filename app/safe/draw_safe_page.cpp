@@ -55,8 +55,10 @@ float cover(const SafeWords& words, const Area& area, int x, int y) {
         area.px_of_texel * samples * static_cast<float>(words.spread_texels) / baked_outline_code;
     float sum = 0.0F;
     for (int k = 0; k < samples * samples; ++k) {
-        const float px = static_cast<float>(x) + (static_cast<float>(k % samples) + 0.5F) / samples;
-        const float py = static_cast<float>(y) + (static_cast<float>(k / samples) + 0.5F) / samples;
+        const int row = k / samples;
+        const int column = k % samples;
+        const float px = static_cast<float>(x) + (static_cast<float>(column) + 0.5F) / samples;
+        const float py = static_cast<float>(y) + (static_cast<float>(row) + 0.5F) / samples;
         const float code = distance_at(words, *area.box, (px - area.left) / area.px_of_texel,
                                        (py - area.top) / area.px_of_texel);
         sum += std::clamp(0.5F + (code - baked_outline_code) * of_code, 0.0F, 1.0F);

@@ -80,7 +80,8 @@ void measure_detail(const pack::Pack& pack, const ScenePlan& plan, SceneLevel& l
     }
     FramePlan frame = make_plan(plan.prop, placed);
     const image::Image8& texture = pack.textures[level.mesh.texture];
-    const int mips = std::bit_width(static_cast<unsigned>(std::max(texture.width, texture.height)));
+    const auto longest = static_cast<unsigned>(std::max(texture.width, texture.height));
+    const auto mips = static_cast<int>(std::bit_width(longest));
     level.finest_mip = std::min(coarsest_mip_level, mips - 1);
     level.samples = 1;
     for (const KnownView& view : plan.visibility.views) {

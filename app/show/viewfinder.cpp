@@ -118,7 +118,9 @@ bool Viewfinder::take(image::Image8& picture) {
             const glm::ivec2 at = glm::ivec2(x, y) - corner;
             const bool is_frame = at.x >= 0 && at.y >= 0 && at.x < size_.x && at.y < size_.y;
             const std::uint8_t code =
-                is_frame ? luma_[static_cast<std::size_t>(at.y * size_.x + at.x)] : std::uint8_t{0};
+                is_frame ? luma_[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
+                                 static_cast<std::size_t>(at.x)]
+                         : std::uint8_t{0};
             picture.at(x, y) = {code, code, code, 255};
         }
     }

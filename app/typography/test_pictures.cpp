@@ -23,8 +23,9 @@ image::Image8 star(int radius) {
         for (int x = 0; x < picture.width; ++x) {
             int lit = 0;
             for (int k = 0; k < samples * samples; ++k) {
-                const glm::dvec2 at(x + (k % samples + 0.5) / samples - radius,
-                                    y + (k / samples + 0.5) / samples - radius);
+                const glm::ivec2 cell(k % samples, k / samples);
+                const glm::dvec2 at = glm::dvec2(x, y) + (glm::dvec2(cell) + 0.5) / double{samples} -
+                                      static_cast<double>(radius);
                 const double turns = std::atan2(at.y, at.x) / (2.0 * std::numbers::pi) + 0.5;
                 lit += glm::length(at) < radius && static_cast<int>(turns * spokes) % 2 == 0 ? 1 : 0;
             }

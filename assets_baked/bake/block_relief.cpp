@@ -60,8 +60,9 @@ struct OpenBlock {
     }
 
     void add(const LinkedCell& cell, int column, int row) {
-        mask |= std::uint64_t{1} << (row * relief::block_cells + column);
-        cover[static_cast<std::size_t>(row * relief::block_cells + column)] = cell.cover;
+        const int number = row * relief::block_cells + column;
+        mask |= std::uint64_t{1} << number;
+        cover[static_cast<std::size_t>(number)] = cell.cover;
         for (int k = 0; k < 4; ++k) {
             const std::size_t at = corner_at(column + (k & 1), row + (k >> 1));
             const auto corner = static_cast<std::size_t>(k);

@@ -38,8 +38,7 @@ std::uint32_t place_of(std::uint32_t cell, const SurfaceHit& hit) {
     constexpr auto unit = static_cast<float>(relief::RasterSamples::places_per_cell);
     const std::size_t first = hit.triangle % triangles_of_cell * 3;
     const std::array<float, 3> weights{1.0F - hit.u - hit.v, hit.u, hit.v};
-    glm::vec2 at(static_cast<float>(cell % relief::block_cells),
-                 static_cast<float>(cell / relief::block_cells));
+    glm::vec2 at(glm::uvec2(cell % relief::block_cells, cell / relief::block_cells));
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t corner = corners_of_cell.at(first + k);
         at += weights.at(k) * glm::vec2(corner & 1U, corner >> 1U);

@@ -59,7 +59,9 @@ public:
         return glm::normalize(first_ + right_ * static_cast<float>(x) + up_ * static_cast<float>(y));
     }
     [[nodiscard]] std::size_t patch(int x, int y) const {
-        return static_cast<std::size_t>(4 * (4 * y / size_.y) + 4 * x / size_.x);
+        const int row = 4 * y / size_.y;
+        const int column = 4 * x / size_.x;
+        return static_cast<std::size_t>(row) * 4 + static_cast<std::size_t>(column);
     }
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
 

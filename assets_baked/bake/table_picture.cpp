@@ -59,8 +59,8 @@ struct Gathered {
 Gathered gather(const SourceScene& scene, const Camera& camera, const glm::vec2& corner, float texel) {
     Gathered sum;
     for (int k = 0; k < samples_a_side * samples_a_side; ++k) {
-        const glm::vec2 within(static_cast<float>(k % samples_a_side) + 0.5F,
-                               static_cast<float>(k / samples_a_side) + 0.5F);
+        const glm::ivec2 cell(k % samples_a_side, k / samples_a_side);
+        const glm::vec2 within = glm::vec2(cell) + 0.5F;
         const glm::vec2 place = corner + within * (texel / static_cast<float>(samples_a_side));
         const SurfaceHit hit = scene.trace(camera.eye(), camera.direction(place));
         if (hit.hit) {

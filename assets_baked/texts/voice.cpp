@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace frustumscreen::texts {
 
@@ -90,7 +91,7 @@ bool is_mostly_foreign(std::string_view sounds) {
 
 } // namespace
 
-Voice::Voice(std::string_view program, ProgramLimits limits) : limits_(limits) {
+Voice::Voice(std::string_view program, ProgramLimits limits) : limits_(std::move(limits)) {
     std::istringstream words{std::string(program)};
     for (std::string word; words >> word;) {
         program_.push_back(word);

@@ -10,7 +10,7 @@
 namespace frustumscreen::bake {
 namespace {
 
-pack::Pack baked(SourceMesh mesh) {
+pack::Pack baked(const SourceMesh& mesh) {
     BakeOptions options;
     options.relief = false;
     options.size = 32;
@@ -27,7 +27,7 @@ const image::Image8& of_red_sphere() {
         SourceMesh mesh = test::empty_mesh();
         test::add_sphere(mesh, {0, 0, 0}, 1.0, 40);
         mesh.materials[0].base_colour = {0.4F, 0.1F, 0.02F, 1.0F}; // linear
-        return baked(std::move(mesh)).table_picture;
+        return baked(mesh).table_picture;
     }();
     return picture;
 }
@@ -77,7 +77,7 @@ TEST(TablePicture, is_seen_from_one_side_and_from_above) {
         mesh.materials[k].base_colour = colours[k];
     }
     mesh.triangle_materials = {1, 1, 1, 1, 0, 0, 2, 2, 3, 3, 0, 0}; // +-x red, -y green, +z blue
-    const image::Image8 picture = baked(std::move(mesh)).table_picture;
+    const image::Image8 picture = baked(mesh).table_picture;
     std::array<int, 4> seen{};
     for (const glm::u8vec4& texel : picture.texels) {
         if (texel.a > 250) {

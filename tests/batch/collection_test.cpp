@@ -66,7 +66,7 @@ TEST(Shards, TogetherHaveEachObjectOnce) {
     for (int k = 0; k < 23; ++k) {
         objects.push_back({std::to_string(k), {}, {}});
     }
-    for (const std::size_t of : {1, 2, 7, 23, 40}) {
+    for (const std::size_t of : std::initializer_list<std::size_t>{1, 2, 7, 23, 40}) {
         std::multiset<std::string> all;
         for (std::size_t number = 1; number <= of; ++number) {
             for (const std::string& name : names_of(share_of(objects, {number, of}))) {

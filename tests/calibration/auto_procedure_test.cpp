@@ -317,7 +317,8 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     live.go_on(6.0);
     live.go_on();
     ASSERT_EQ(live.procedure.taken(), 1U);
-    for (const PropPoint& point : live.procedure.rests()[0].points) {
+    const auto rests = live.procedure.rests();
+    for (const PropPoint& point : rests[0].points) {
         for (const glm::dvec3& corner : live.board.tags[1].corners()) {
             EXPECT_GT(glm::distance(point.prop_m, corner), 1e-4);
         }

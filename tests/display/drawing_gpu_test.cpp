@@ -223,8 +223,9 @@ TEST_P(Scanout, AnyCallMayFailOnce) {
                 for (int k = 0; k < 2; ++k) { // the second picture makes up for one that was not copied
                     static_cast<void>((*pair)->fill(0, {0, 0, picture_size.width, picture_size.height}));
                 }
-                const bool shown = shows_the_picture(**pair, 0) || shows_the_picture(**pair, 0);
-                wrong += shown ? "" : "no picture; ";
+                if (!shows_the_picture(**pair, 0)) { // the call that fails may be one of the reading's
+                    wrong += shows_the_picture(**pair, 0) ? "" : "no picture; ";
+                }
             }
         }
         return std::pair{own.calls(), wrong + own.alive() + own.wrongs()};

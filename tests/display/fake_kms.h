@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ inline ModeTiming a_mode(int width, int height, double hz, bool preferred = fals
     mode.htotal = static_cast<std::uint16_t>(width + 100);
     mode.vtotal = static_cast<std::uint16_t>(height + 20);
     const double halves = (flags & mode_interlaced) != 0 ? 2.0 : 1.0;
-    mode.clock_khz = static_cast<std::uint32_t>(hz / halves * mode.htotal * mode.vtotal / 1000.0 + 0.5);
+    mode.clock_khz =
+        static_cast<std::uint32_t>(std::lround(hz / halves * mode.htotal * mode.vtotal / 1000.0));
     mode.preferred = preferred;
     mode.flags = flags;
     return mode;

@@ -170,7 +170,7 @@ TEST_F(Drawing, TheLightsCornersAreThePicturesCorners) {
         const std::vector<glm::dvec2> corners = polygon(drawn(settings.c_str(), "table"), "top", "picture");
         ASSERT_EQ(corners.size(), 4U);
         const nlohmann::json projector = config().at("projector");
-        const nlohmann::json m = projector.at("table_from_projector");
+        const nlohmann::json& m = projector.at("table_from_projector");
         std::set<std::pair<long, long>> met;
         for (const glm::dvec2& corner : corners) {
             // The inverse of a rotation is its transpose; columns come first in the JSON.

@@ -115,8 +115,9 @@ Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<B
         for (int ray = 0; ray < rays; ++ray) {
             // Move the principal point, to draw and cast at other places inside the pixels.
             geometry::Pinhole& pinhole = stage_.settings.projector.pinhole;
-            pinhole.cx = centres.cx + 0.5 - (ray % grid.x + 0.5) / grid.x;
-            pinhole.cy = centres.cy + 0.5 - (ray / grid.x + 0.5) / grid.y;
+            const glm::ivec2 cell(ray % grid.x, ray / grid.x);
+            pinhole.cx = centres.cx + 0.5 - (cell.x + 0.5) / grid.x;
+            pinhole.cy = centres.cy + 0.5 - (cell.y + 0.5) / grid.y;
             const Result<std::vector<PictureError>> found = shape_errors(truth, poses[pose]);
             pinhole = centres;
             TRY_VOID(found);

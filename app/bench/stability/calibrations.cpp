@@ -25,9 +25,10 @@ calibration::Touches grid_touches(const simulators::SimulatedTable& table, doubl
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
     calibration::Touches touches;
     for (int k = 0; k < 15; ++k) {
-        const glm::dvec2 at(0.5 + share * (0.25 * (k % 5) - 0.5), 0.5 + share * (0.5 * (k / 5) - 0.5));
+        const glm::ivec2 place(k % 5, k / 5);
+        const glm::dvec2 at = 0.5 + share * (glm::dvec2(place) * glm::dvec2(0.25, 0.5) - 0.5);
         const calibration::Cross cross{at * size, k % 2 == 0 ? 0.0 : block_m,
-                                       0.5 * std::numbers::pi * ((7 * k + k / 5) % 4)};
+                                       0.5 * std::numbers::pi * ((7 * k + place.y) % 4)};
         touches.push_back(simulators::simulated_touch(table, {cross, 0.0}, noise, numbers));
     }
     return touches;
@@ -120,22 +121,21 @@ StabilityResult inverse_in_long_double(const StabilityOptions&) {
         const calibration::Covariance information = one.fit.information();
         const calibration::Covariance covariance =
             information.ldlt().solve(calibration::Covariance::Identity());
-        using Row = std::array<long double, 2 * calibration::unknown_count>;
-        std::array<Row, calibration::unknown_count> rows{};
-        for (int r = 0; r < calibration::unknown_count; ++r) {
-            for (int c = 0; c < calibration::unknown_count; ++c) {
-                rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = information(r, c);
+        constexpr std::size_t unknowns = calibration::unknown_count;
+        using Row = std::array<long double, 2 * unknowns>;
+        std::array<Row, unknowns> rows{};
+        for (std::size_t r = 0; r < unknowns; ++r) {
+            for (std::size_t c = 0; c < unknowns; ++c) {
+                rows[r][c] = information(static_cast<int>(r), static_cast<int>(c));
             }
-            rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(calibration::unknown_count + r)] =
-                1.0L;
+            rows[r][unknowns + r] = 1.0L;
         }
-        for (std::size_t k = 0; k < calibration::unknown_count;
-             ++k) { // positive definite: no pivoting needed
+        for (std::size_t k = 0; k < unknowns; ++k) { // positive definite: no pivoting needed
             const long double pivot = rows[k][k];
             for (long double& value : rows[k]) {
                 value /= pivot;
             }
-            for (std::size_t r = 0; r < calibration::unknown_count; ++r) {
+            for (std::size_t r = 0; r < unknowns; ++r) {
                 const long double times_row = r == k ? 0.0L : rows[r][k];
                 for (std::size_t c = 0; c < rows[r].size(); ++c) {
                     rows[r][c] -= times_row * rows[k][c];
@@ -143,10 +143,10 @@ StabilityResult inverse_in_long_double(const StabilityOptions&) {
             }
         }
         double off = 0.0;
-        for (int k = 0; k < calibration::unknown_count; ++k) {
-            const auto exact = static_cast<double>(
-                rows[static_cast<std::size_t>(k)][static_cast<std::size_t>(calibration::unknown_count + k)]);
-            off = std::fmax(off, std::abs(std::sqrt(covariance(k, k) / exact) - 1.0));
+        for (std::size_t k = 0; k < unknowns; ++k) {
+            const auto exact = static_cast<double>(rows[k][unknowns + k]);
+            const double variance = covariance(static_cast<int>(k), static_cast<int>(k));
+            off = std::fmax(off, std::abs(std::sqrt(variance / exact) - 1.0));
         }
         result.rows.push_back(
             {fmt::format("crosses over {:.0f} %: standard deviations off, relative", 100.0 * share),

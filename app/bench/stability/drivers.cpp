@@ -150,7 +150,7 @@ StabilityResult corners() {
         const std::vector<std::uint8_t> picture = (*canvas)->read();
         int last = 0;
         for (int row = 0; row < rows; ++row) {
-            last = picture[static_cast<std::size_t>(row * width + column)] != 0 ? row : last;
+            last = picture[static_cast<std::size_t>(row) * width + column] != 0 ? row : last;
         }
         places.push_back((last + 1.0) / rows - 0.5); // half a row to either side
         farthest = std::max(farthest, std::abs(places.back() - moved));
@@ -245,7 +245,7 @@ StabilityResult atlases() {
         const long double whole = std::floor(place);
         const long double share = place - whole;
         const bool rises = std::fmod(whole, 2.0L) == 0.0L;
-        const long double seen = picture[static_cast<std::size_t>(width + x)] / 255.0L;
+        const long double seen = picture[width + static_cast<std::size_t>(x)] / 255.0L;
         farthest = std::max(farthest, static_cast<double>(std::abs(seen - (rises ? share : 1.0L - share))));
     }
     double stored = 0.0;

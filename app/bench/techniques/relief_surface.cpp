@@ -97,8 +97,8 @@ bake::SourceMesh cut_surface_of(const relief::BlockRelief& relief) {
                 std::uint64_t left = relief.covers[cover++];
                 for (; left != 0; left &= left - 1) {
                     const int part = std::countr_zero(left);
-                    surface.add(corners, outward, part % parts / double{parts}, part / parts / double{parts},
-                                1.0 / parts);
+                    const glm::dvec2 at = glm::dvec2(glm::ivec2(part % parts, part / parts)) / double{parts};
+                    surface.add(corners, outward, at.x, at.y, 1.0 / parts);
                 }
             }
         }

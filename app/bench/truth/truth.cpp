@@ -191,7 +191,8 @@ public:
     template <typename Met> void look_through(int x, int y, const glm::ivec2& rays, const Met& met) const {
         Sight sight;
         for (int ray = 0; ray < rays.x * rays.y; ++ray) {
-            const glm::dvec2 place((ray % rays.x + 0.5) / rays.x, (ray / rays.x + 0.5) / rays.y);
+            const glm::ivec2 cell(ray % rays.x, ray / rays.x);
+            const glm::dvec2 place = (glm::dvec2(cell) + 0.5) / glm::dvec2(rays);
             if (look(glm::dvec2(x, y) + place, sight) == Seen::Artifact) {
                 met(sight);
             }

@@ -19,8 +19,10 @@ CaptureDelay::Parts CaptureDelay::parts_of(const camera::CameraFrame& frame) {
     Parts counts{};
     for (int y = 0; y < frame.height; y += every) {
         for (int x = 0; x < frame.width; x += every) {
-            const auto part =
-                static_cast<std::size_t>(y * rows / frame.height * columns + x * columns / frame.width);
+            const int row = y * rows / frame.height;
+            const int column = x * columns / frame.width;
+            const std::size_t part =
+                static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
             sums[part] += frame.luma[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
                                      static_cast<std::size_t>(x)];
             counts[part] += 1.0;

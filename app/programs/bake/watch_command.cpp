@@ -77,7 +77,7 @@ void say(const std::string& line) {
 
 class Watching {
 public:
-    Watching(const Arguments& arguments, std::filesystem::path pack)
+    Watching(const Arguments& arguments, const std::filesystem::path& pack)
         : arguments_(arguments), command_{"/proc/self/exe",
                                           arguments.folder.string(),
                                           "--output=" + pack.string(),

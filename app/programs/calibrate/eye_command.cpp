@@ -41,7 +41,7 @@ Json eye_json(const calibration::EyeFit& fit) {
         json["repeat"].push_back(row + 1);
     }
     if (fit.eyes) {
-        const calibration::EyeFit::Eyes& eyes = *fit.eyes;
+        const calibration::FittedEyes& eyes = *fit.eyes;
         const Eigen::Vector3d deviation = eyes.covariance.diagonal().cwiseSqrt();
         json["eye_in_sensor_m"] = vector_json(eyes.middle_m);
         json["deviation_mm"] = {1e3 * deviation.x(), 1e3 * deviation.y(), 1e3 * deviation.z()};

@@ -166,7 +166,8 @@ void SimulatedBoard::cast() {
             const bool fine = x > window.low.x && x < window.high.x && y > window.low.y && y < window.high.y;
             const int side = fine ? rays : 1;
             for (int k = 0; k < side * side; ++k) {
-                const glm::dvec2 at(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
+                const glm::ivec2 cell(k % side, k / side);
+                const glm::dvec2 at(x + (cell.x + 0.5) / side, y + (cell.y + 0.5) / side);
                 const Hit hit = scene.seen(eye, camera_.ray(at));
                 Sample sample{static_cast<std::uint32_t>(y * camera_.width + x),
                               1.0F / static_cast<float>(side * side), static_cast<float>(hit.albedo)};

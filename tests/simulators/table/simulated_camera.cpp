@@ -159,7 +159,8 @@ Cast cast(const SimulatedTable& table, const Scene& scene, const SimulatedCamera
     for (int k = 0; k < window.size.x * window.size.y; ++k) {
         const glm::dvec2 corner(window.from + glm::ivec2(k % window.size.x, k / window.size.x));
         for (int j = 0; j < rays * rays; ++j) {
-            const glm::dvec2 off((j % rays + 0.5) / rays, (j / rays + 0.5) / rays);
+            const glm::ivec2 cell(j % rays, j / rays);
+            const glm::dvec2 off = (glm::dvec2(cell) + 0.5) / static_cast<double>(rays);
             out.samples.push_back(sample_of(table, scene, eye, camera.ray(corner + off)));
         }
         out.true_pixels.push_back(sample_of(table, scene, eye, camera.ray(corner + 0.5)).pixel);

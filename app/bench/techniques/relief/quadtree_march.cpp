@@ -65,7 +65,7 @@ Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const
                          "maximum mipmaps need a power of two of texels, at least {}, not {}", coarsest_cells,
                          images.texels);
     }
-    const int coarsest = std::bit_width(texels / coarsest_cells) - 1;
+    const int coarsest = static_cast<int>(std::bit_width(texels / coarsest_cells)) - 1;
     gl::GlTexture relief = make_relief_array(GL_RG16UI, images.texels, coarsest + 1, 3);
     for (int axis = 0; axis < 3; ++axis) {
         const MaxMipmap levels = max_mipmap(material_along(images, axis));

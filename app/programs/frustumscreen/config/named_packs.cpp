@@ -63,8 +63,8 @@ double caption_share(const settings::Settings& settings, const std::vector<Named
     constexpr std::array turns{0.0, 0.25 * std::numbers::pi};
     int shown = 0;
     for (int k = 0; k < columns * rows; ++k) {
-        const glm::dvec2 at(2.0 * (k % columns) / (columns - 1) - 1.0,
-                            2.0 * (k / columns) / (rows - 1) - 1.0);
+        const glm::ivec2 node(k % columns, k / columns);
+        const glm::dvec2 at = 2.0 * glm::dvec2(node) / glm::dvec2(columns - 1, rows - 1) - 1.0;
         for (const double turn : turns) {
             tracking::TrackedState tracked_state;
             tracked_state.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
