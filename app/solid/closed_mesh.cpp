@@ -42,13 +42,29 @@ Result<double> size_of(const PolygonMesh& mesh) {
     if (is_allowed_size(size_m)) {
         return size_m;
     }
-    const char* const remedy = is_allowed_size(size_m * 1000.0)
+    const bool is_millimetres = mesh.unit == LengthUnit::Millimetre;
+    const char* const remedy = is_millimetres && is_allowed_size(size_m * 1000.0)
                                    ? "it looks as if its numbers are metres: say so by the unit m"
-                               : is_allowed_size(size_m / 1000.0)
+                               : !is_millimetres && is_allowed_size(size_m / 1000.0)
                                    ? "it looks as if its numbers are millimetres: say so by the unit mm"
                                    : "draw it at its true size";
     return bad_input("prop_file.size", "it is {} long, allowed are {} to {}; {}", in_mm(size_m),
                      in_mm(min_size_m), in_mm(max_size_m), remedy);
+}
+
+Result<void> check_counts(const PolygonMesh& mesh) {
+    std::size_t corners = 0;
+    for (const Polygon& polygon : mesh.polygons) {
+        corners += polygon.corners.size();
+    }
+    if (mesh.polygons.size() <= max_polygons && corners <= max_corners) {
+        return {};
+    }
+    return bad_input(
+        "prop_file.too_many",
+        "it has {} polygons with {} corners, allowed are {} with {}; a prop has 4 to 16 flat faces, and "
+        "a scan is no prop: draw its shape alone",
+        mesh.polygons.size(), corners, max_polygons, max_corners);
 }
 
 /// For each vertex, the first one at its place.
@@ -138,10 +154,12 @@ Result<std::vector<SharedEdge>> pair_up(const PolygonMesh& mesh) {
         }
         const auto place = [&](std::size_t k) { return place_of(mesh, mesh.polygons[runs[k].polygon]); };
         if (end - begin > 2) {
-            return bad_input("prop_file.edge_of_many",
-                             "{} faces meet at the edge {}, among them {} and {}; two are allowed: leave out "
-                             "what lies inside or twice",
-                             end - begin, between(mesh, run), place(begin), place(begin + 1));
+            return bad_input(
+                "prop_file.edge_of_many",
+                "{} faces meet at the edge {}: {}, {}, {}{}; two are allowed: leave out what lies "
+                "inside or twice",
+                end - begin, between(mesh, run), place(begin), place(begin + 1), place(begin + 2),
+                end - begin > 3 ? ", ..." : "");
         }
         if (end - begin == 1) {
             open.push_back(run);
@@ -212,6 +230,7 @@ void turn_inside_out(ClosedMesh& closed) {
 } // namespace
 
 Result<ClosedMesh> close_up(PolygonMesh mesh) {
+    TRY_VOID(check_counts(mesh));
     ClosedMesh closed;
     TRY(closed.size_m, size_of(mesh));
     weld(mesh, weld_share * closed.size_m);

@@ -55,7 +55,9 @@ template <typename Number> std::optional<Number> number_in(std::string_view word
 class ObjReader {
 public:
     ObjReader(std::string_view text, LengthUnit unit)
-        : rest_(text), units_in_metre_(unit == LengthUnit::Millimetre ? 1000.0 : 1.0) {}
+        : rest_(text), units_in_metre_(unit == LengthUnit::Millimetre ? 1000.0 : 1.0) {
+        read_.mesh.unit = unit;
+    }
 
     Result<ObjText> read() {
         while (!rest_.empty()) {

@@ -12,7 +12,6 @@
 #include "firmware_host/base/result.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +19,6 @@
 namespace frustumscreen::solid {
 
 inline constexpr std::size_t max_obj_bytes = std::size_t{1} << 20U;
-
-enum class LengthUnit : std::uint8_t { Millimetre, Metre };
 
 struct ObjText {
     PolygonMesh mesh; ///< a polygon's name is its group's, printable, cut to 40 bytes

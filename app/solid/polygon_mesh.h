@@ -19,6 +19,8 @@ inline constexpr std::size_t max_polygons = 10'000;
 inline constexpr std::size_t max_polygon_corners = 1'000;
 inline constexpr std::size_t max_corners = 100'000; ///< of all polygons together
 
+enum class LengthUnit : std::uint8_t { Millimetre, Metre };
+
 struct Polygon {
     std::vector<std::uint32_t> corners; ///< numbers of vertices, counter-clockwise seen from outside
     std::string name;                   ///< of its group; empty: none
@@ -30,7 +32,8 @@ struct PolygonMesh {
 
     std::vector<glm::dvec3> vertices;
     std::vector<Polygon> polygons;
-    Numbers numbers = Numbers::Lines; ///< what Polygon::number counts
+    Numbers numbers = Numbers::Lines;         ///< what Polygon::number counts
+    LengthUnit unit = LengthUnit::Millimetre; ///< of the file's numbers, for messages
 };
 
 [[nodiscard]] std::vector<glm::dvec3> corners_of(const PolygonMesh& mesh, const Polygon& polygon);
