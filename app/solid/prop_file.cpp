@@ -47,7 +47,7 @@ Result<PropFile> parse_prop_file(std::string_view text, LengthUnit unit) {
 }
 
 std::string write_prop_file(const Solid& solid) {
-    std::string text = "# The shape of a prop: millimetres, +Z up; it stands on z = 0.\n";
+    std::string text(prop_file_heading);
     for (const glm::dvec3& corner : solid.corners) {
         text += fmt::format("v {} {} {}\n", in_file_mm(corner.x), in_file_mm(corner.y), in_file_mm(corner.z));
     }

@@ -23,6 +23,9 @@ struct PropFile {
 
 [[nodiscard]] Result<PropFile> parse_prop_file(std::string_view text, LengthUnit unit);
 
+/// The first line of what `write_prop_file` writes.
+inline constexpr std::string_view prop_file_heading =
+    "# The shape of a prop: millimetres, +Z up; it stands on z = 0.\n";
 /// In millimetres, with a group for each face.
 [[nodiscard]] std::string write_prop_file(const Solid& solid);
 
