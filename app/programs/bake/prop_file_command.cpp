@@ -93,7 +93,8 @@ solid::Solid stood_up(const solid::Solid& solid, std::vector<std::string>& notes
     glm::dvec3 by(0.0, 0.0, -box.low.z);
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     by = solid::check_stand(moved_by(by)) ? by : glm::dvec3(-middle.x, -middle.y, by.z);
-    if (by != glm::dvec3(0.0)) {
+    constexpr double told_m = 1e-5; // less is rounding
+    if (glm::length(by) > told_m) {
         notes.push_back(fmt::format("it is moved by {}: it stands on z = 0, and x = y = 0 runs through it",
                                     solid::in_mm(by)));
     }
