@@ -8,7 +8,7 @@ import subprocess
 OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
 # Of the programs that say more of a mode behind these words than with --help alone.
 MODES = {
-    "frustumscreen-bake": ("--watch", "--batch", "--check", "--words"),
+    "frustumscreen-bake": ("--watch", "--batch", "--check", "--words", "--prop-file"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
 }
 GUARD_S = 3600  # only against a program that never ends

@@ -6,6 +6,7 @@
 #include "app/programs/bake/bake_work.h"
 #include "app/programs/bake/batch_command.h"
 #include "app/programs/bake/check_command.h"
+#include "app/programs/bake/prop_file_command.h"
 #include "app/programs/bake/watch_command.h"
 #include "app/programs/bake/words_command.h"
 #include "app/programs/common/command_line.h"
@@ -114,6 +115,9 @@ int run(int argc, char** argv) {
     if (names_option(argc, argv, "--check")) {
         return check_command(argc, argv);
     }
+    if (names_option(argc, argv, "--prop-file")) {
+        return prop_file_command(argc, argv);
+    }
     BakeArguments arguments;
     CommandLine app(
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
@@ -123,7 +127,9 @@ int run(int argc, char** argv) {
     app.footer(
         "frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
         "changes; --batch DIR bakes a collection; --check FILE... says in seconds what scans have and what "
-        "would be lost; --words bakes the exhibit's own words. Add --help to each of them to read more.");
+        "would be lost; --words bakes the exhibit's own words; --prop-file FILE makes the file of a prop's "
+        "shape. "
+        "Add --help to each of them to read more.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {
