@@ -5,7 +5,7 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/exhibit/attract.h"
+#include "app/exhibit/idle_pose.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/sensed.h"
 #include "app/exhibit/table_browser.h"
@@ -18,7 +18,7 @@ namespace frustumscreen::exhibit {
 
 struct VisitorGuideInput {
     const tracking::TrackedState& tracked_state;
-    const Stand& stand;
+    const DrawnPose& drawn;
     const Presence& presence;
     bool lost = false;                   ///< the prop's pose has been unknown for a while
     bool permitted = true;               ///< by the exhibit's state

@@ -39,7 +39,7 @@ tl::unexpected<library::ImportFailure> failed(library::ImportRefusal refusal, st
         library::ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = false});
 }
 
-tl::unexpected<library::ImportFailure> no_room_on_stick(std::uint64_t needed) {
+tl::unexpected<library::ImportFailure> no_space_on_stick(std::uint64_t needed) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
     return failed(library::ImportRefusal::NoRoom,
                   fmt::format("the stick is full; {} MB are needed on it: make room, or take another stick",
@@ -50,7 +50,7 @@ tl::unexpected<library::ImportFailure> stick_refuses(FileFault fault, std::uint6
     switch (fault.number) {
     case ENOSPC:
     case EDQUOT:
-        return no_room_on_stick(needed);
+        return no_space_on_stick(needed);
     case EROFS:
     case EACCES:
     case EPERM:
@@ -155,7 +155,7 @@ write_report(WritableTree& folder, std::span<const ReportFile> files, const Copi
                       "the folder for the report has files in it; a report goes into an empty one");
     }
     if (*free < needed) {
-        return no_room_on_stick(needed);
+        return no_space_on_stick(needed);
     }
     tl::expected<void, library::ImportFailure> written = write_all(folder, files, large, needed);
     if (!written) {

@@ -51,6 +51,6 @@ struct LibraryStart {
 [[nodiscard]] SetRequest request_of(const library::InstalledSet& set, const std::filesystem::path& library,
                                     const settings::Settings& settings);
 /// Why a set that shows this is bad, as a sentence; empty: no fault so far.
-[[nodiscard]] std::string fault_of(const library::PacksLeftOut& left_out, bool shows_nothing);
+[[nodiscard]] std::string fault_of(const library::UnshownPacks& left_out, bool shows_nothing);
 
 } // namespace frustumscreen::show

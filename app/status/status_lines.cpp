@@ -178,7 +178,7 @@ std::string left_out_line(const StatusReport& status) {
     if (!status.left_out) {
         return {};
     }
-    const std::vector<library::PackLeftOut>& packs = *status.left_out;
+    const std::vector<library::UnshownPack>& packs = *status.left_out;
     std::string text;
     for (std::size_t k = 0; k < std::min(packs.size(), max_told); ++k) {
         text += fmt::format("{}{}: {}", k == 0 ? "" : "; ", brief(packs[k].pack), brief(packs[k].reason));

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "app/library/import_report.h"
-#include "app/library/pack_left_out.h"
+#include "app/library/unshown_pack.h"
 #include "app/pack/pack_file.h"
 #include "app/status/set_status.h"
 #include "firmware_host/base/device_state.h"
@@ -108,7 +108,7 @@ struct ShownStatus {
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     std::string mode{"normal"};             ///< word_of(Mode)
     Sentence settings;
-    library::PacksLeftOut left_out; ///< null: none
+    library::UnshownPacks left_out; ///< null: none
     SharedSetStatus set;            ///< null: no set is installed, and none is looked for
     bool library_hangs = false; ///< the thread that looks for another set hangs on the disk; see trouble_of
     std::string state;          ///< name_of(State), or asleep_name

@@ -71,7 +71,7 @@ void ChartFinder::take_from(const TriangleMesh& other, const std::vector<std::ui
 std::vector<std::uint32_t> ChartFinder::find() {
     constexpr int passes = 4; // the last pass changes hardly anything
     const bool is_first = charts_.empty();
-    grow_the_rest();
+    grow_others();
     for (int pass = 0; is_first && pass < passes; ++pass) {
         grow_anew();
     }
@@ -119,7 +119,7 @@ void ChartFinder::grow_from(std::uint32_t seed, const glm::vec3& direction) {
     spread({seed}, min_facing);
 }
 
-void ChartFinder::grow_the_rest() {
+void ChartFinder::grow_others() {
     for (const std::uint32_t seed : large_first_) {
         if (chart_of_[seed] == no_chart && areas_[seed] > 0.0F) {
             grow_from(seed, direction_at(seed));
@@ -147,7 +147,7 @@ void ChartFinder::grow_anew() {
             grow_from(seed, glm::normalize(means[chart]));
         }
     }
-    grow_the_rest();
+    grow_others();
 }
 
 /// Moves a triangle to the chart that two of its neighbours share, if it fits there.

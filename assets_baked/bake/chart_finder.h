@@ -39,7 +39,7 @@ private:
     void spread(std::vector<std::uint32_t> taken, float facing);
     [[nodiscard]] glm::vec3 direction_at(std::uint32_t seed) const;
     void grow_from(std::uint32_t seed, const glm::vec3& direction);
-    void grow_the_rest();
+    void grow_others();
     void grow_anew();
     void straighten_borders(float facing);
     [[nodiscard]] std::uint32_t chart_of_two_neighbours(std::uint32_t triangle) const;

@@ -41,7 +41,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 BenchCommand visitor_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
         "visitor",
-        "position of the visitor's eye from a camera, in rendered scenes: presence, error, jitter and time");
+        "measures the visitor's eye from a camera, in rendered scenes: presence, error, jitter and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables").required();
     command.add_option("--visits", arguments->visits, "visits of each scene, of seven seconds each")

@@ -213,7 +213,7 @@ image::Image<std::uint8_t> words_at(const calibration::EyeProcedure& procedure, 
     const TableWords said = table_words(procedure);
     image::Image<std::uint8_t> words = with.typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
     const auto put_above = [&](std::string_view key) {
-        words = above(house_sentence(with.house, key, 0.95 * width, beside_em), words, 2.0 * unit);
+        words = above(sentence_above(with.own_words, key, 0.95 * width, beside_em), words, 2.0 * unit);
     };
     if (procedure.stage() == Stage::Place) {
         const std::string_view held = message_of(posture_messages, procedure.asked().posture).key;

@@ -180,15 +180,15 @@ WordsColumn middle_column(double width) {
 WordsColumn column_beside(const calibration::Cross& cross, const TableDrawing& with, double unit) {
     constexpr double min_share = 0.2; // of the picture's width
     const double reach = 0.5 * prop_px_at(cross, with) + 3.0 * unit;
-    const double left_room = cross.pixel.x - reach - 3.0 * unit;
-    const double right_room = with.width - 3.0 * unit - (cross.pixel.x + reach);
-    const double room = std::min(std::max(left_room, right_room), 0.6 * with.width);
-    if (room < min_share * with.width) {
+    const double left_width = cross.pixel.x - reach - 3.0 * unit;
+    const double right_width = with.width - 3.0 * unit - (cross.pixel.x + reach);
+    const double width = std::min(std::max(left_width, right_width), 0.6 * with.width);
+    if (width < min_share * with.width) {
         return middle_column(with.width);
     }
     const double middle =
-        right_room >= left_room ? cross.pixel.x + reach + 0.5 * room : cross.pixel.x - reach - 0.5 * room;
-    return {middle, room};
+        right_width >= left_width ? cross.pixel.x + reach + 0.5 * width : cross.pixel.x - reach - 0.5 * width;
+    return {middle, width};
 }
 
 std::string what_moved(calibration::Moved moved) {
@@ -279,7 +279,7 @@ image::Image8 table_picture(const calibration::TouchProcedure& procedure, const 
         has_cross ? column_beside(procedure.cross(), with, unit) : middle_column(width);
     const TableWords words = table_words(procedure);
     const image::Image<std::uint8_t> coverage =
-        above(house_sentence(with.house, words.key, column.width),
+        above(sentence_above(with.own_words, words.key, column.width),
               with.typesetter.set(paragraphs_of(words.lines, unit), column.width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     const double left = column.middle - 0.5 * coverage.width;

@@ -13,7 +13,7 @@
 namespace frustumscreen::show {
 
 /// `key`: one of the requested texts.
-[[nodiscard]] Result<pack::LanguageWords> read_house_words(const settings::Settings& settings,
-                                                           std::string_view key);
+[[nodiscard]] Result<pack::LanguageWords> read_default_words(const settings::Settings& settings,
+                                                             std::string_view key);
 
 } // namespace frustumscreen::show

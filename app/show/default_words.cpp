@@ -1,4 +1,4 @@
-#include "app/show/house_words.h"
+#include "app/show/default_words.h"
 
 #include "app/exhibit/languages.h"
 #include "firmware_host/base/file.h"
@@ -7,7 +7,7 @@
 
 namespace frustumscreen::show {
 
-Result<pack::LanguageWords> read_house_words(const settings::Settings& settings, std::string_view key) {
+Result<pack::LanguageWords> read_default_words(const settings::Settings& settings, std::string_view key) {
     const std::string place = settings.exhibit.words.string();
     TRY(const Bytes file, read_file(settings.exhibit.words));
     TRY(const std::vector<pack::WordsLanguage> listed, at(place, pack::list_words(file)));
