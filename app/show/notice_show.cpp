@@ -26,22 +26,6 @@ constexpr double empty_ring_brightness = 0.2; ///< relative to a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
 
-residency::SharedRecording recording_of(const pack::LanguageWords& words, const std::string& key,
-                                        double gain_db) {
-    const auto sound = words.sounds.find(key);
-    if (sound == words.sounds.end()) {
-        return nullptr;
-    }
-    return std::make_shared<const residency::PromptRecording>(
-        residency::PromptRecording{.name = fmt::format("{} in '{}'", key, words.language),
-                                   .opus = sound->second,
-                                   .pack = {},
-                                   .language = words.language,
-                                   .key = key,
-                                   .portions = {},
-                                   .gain_db = gain_db});
-}
-
 /// The function that draws notices; null: notices cannot be drawn, and a line says why.
 ImportWatch::Draw draws_with(pack::LanguageWords words, double texels_per_m) {
     Result<typography::Typesetter> opened = typography::Typesetter::open();
@@ -134,8 +118,8 @@ NoticeShow::NoticeShow(const settings::Settings& settings, ImportWatch::Answer a
     }
     Result<pack::LanguageWords> words = read_default_words(settings, "stick.take_out");
     if (words && settings.sound.kind != settings::SoundKind::None) {
-        found_ = recording_of(*words, "stick.found", found_gain_db);
-        take_out_ = recording_of(*words, "stick.take_out", 0.0);
+        found_ = word_recording(*words, "stick.found", found_gain_db);
+        take_out_ = word_recording(*words, "stick.take_out");
     }
     if (words) {
         draw = draws_with(std::move(*words), residency::text_style(settings).texels_per_m);

@@ -179,7 +179,7 @@ private:
         }
         const bool measures = view_.page == exhibit::StaffPage::Place && facts_.calibrates;
         if (measures) {
-            add_button(fmt::format("{} held for two seconds: the table is measured anew", circled(0, view_)));
+            add_button(fmt::format("{} held for two seconds: measures the table", circled(0, view_)));
         }
         const bool resets = view_.page == exhibit::StaffPage::Status && view_.resets;
         if (resets) {

@@ -243,10 +243,10 @@ void drawing_fields(auto& fields, auto& status) {
     fields.field("level_switches", status.level_switches, "changes of level or of samples",
                  Metric{"level_switches_total", "Changes of level or of samples."});
     fields.field("ignored_times", status.ignored_times, "frame times that were left out as impossible");
-    fields.field("frames", status.frames, "looks at the devices, one for each display time",
-                 Metric{"frames_total", "Looks at the devices, one for each display time."});
+    fields.field("frames", status.frames, "polls of the devices, one for each display time",
+                 Metric{"frames_total", "Polls of the devices, one for each display time."});
     fields.field("drawn", status.drawn, "of these: something had changed, a picture was drawn",
-                 Metric{"frames_drawn_total", "Of these, those for which a picture was drawn."});
+                 Metric{"frames_drawn_total", "Display times for which a picture was drawn."});
     fields.field("unchanged", status.unchanged, "of these: nothing had changed, the picture stayed");
     fields.field("probes", status.probes, "of the unchanged: the picture was shown again, for the watchdog");
     fields.field("skipped", status.skipped,

@@ -375,7 +375,7 @@ std::string status_text(const KnownExhibit& known, std::time_t now) {
         verdict.sentence + (verdict.runs ? ".\n" : "; systemctl status frustumscreen says more.\n");
     const bool is_known = known.status.fields.is_object();
     if (!verdict.runs && is_known) {
-        text += "What it said last:\n";
+        text += "Its last messages:\n";
     }
     const StatusReport report = read_status_report(known.status.fields);
     for (const StatusLine& line :

@@ -158,7 +158,7 @@ void Presenter::wait_for_flip() {
     }
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
         const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("display.no_flip", "the graphics card does not answer; the projector will be lit anew");
+        lose("display.no_flip", "the graphics card does not answer; the projector will be lit again");
         try_again_ = device_.now();
         stuck_since_ = since;
     }
@@ -335,7 +335,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Refused:
         lose("display.picture_refused",
-             "the graphics card refused a picture; the projector will be lit anew");
+             "the graphics card refused a picture; the projector will be lit again");
         try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:

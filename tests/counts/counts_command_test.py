@@ -104,7 +104,7 @@ class Counts(unittest.TestCase):
         self.assertEqual(len(list(self.folder.iterdir())), 3)
 
     def test_nothing_to_read(self):
-        self.assertEqual(self.run_counts().stdout, "Nothing was counted yet.\n")
+        self.assertEqual(self.run_counts().stdout, "No visits have been counted yet.\n")
         self.folder.rmdir()
         done = self.run_counts()
         self.assertEqual(done.returncode, 1)

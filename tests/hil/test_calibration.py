@@ -76,7 +76,7 @@ class Calibration(HilTest):
         self.press(NEXT)  # to the page of the picture's place
         self.bench.machine.let_run(RELEASED_S)
         self.hold((FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
-        self.hears("Staff: measure the table anew", 3 * START_S)  # crosses are chosen first
+        self.hears("Staff: measure the whole table", 3 * START_S)  # crosses are chosen first
 
     def hold(self, buttons, until):
         """As a person does: until the table answers. A slow machine sees the buttons late."""

@@ -140,8 +140,8 @@ Result<bool> work(const Arguments& arguments) {
     TRY(const Collection collection, list_collection(arguments.folder, arguments.output));
     if (collection.objects.empty()) {
         return bad_input("batch.nothing_to_bake",
-                         "{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
-                         "--new FOLDER SCAN makes such a folder",
+                         "{}: it contains no scan and no folder with an artifact.toml; frustumscreen-bake "
+                         "--new FOLDER SCAN makes one",
                          arguments.folder.string());
     }
     TRY_VOID(check_output_folder(arguments.output));

@@ -30,8 +30,8 @@ constexpr std::array<WordMessage<calibration::AutoPrompt>, 15> auto_messages{{
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
     {calibration::AutoPrompt::FewTags,
      {"calibration.few_tags",
-      "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Nothing may "
-      "lie on them or stand before them; put the board more into the middle."}},
+      "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Clear "
+      "everything off the tags; move the board closer to the middle."}},
     {calibration::AutoPrompt::TurnIt,
      {"calibration.turn_it", "Turn it too: the first three rests must look in different directions."}},
     {calibration::AutoPrompt::NotFlat,
@@ -143,7 +143,7 @@ Message choice_of(const calibration::TouchCalibration& found) {
     case calibration::Verdict::Refused:
         break;
     }
-    return {"calibration.refused", "Next begins anew. Back goes on with four more rests."};
+    return {"calibration.refused", "Next starts again. Back goes on with four more rests."};
 }
 
 TableWords words_of_verdict(const calibration::TouchCalibration& found) {

@@ -17,7 +17,7 @@ using Stage = calibration::CalibrationStage;
 
 constexpr std::array<WordMessage<calibration::TouchPrompt>, 4> touch_messages{{
     {calibration::TouchPrompt::Moved,
-     {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+     {"calibration.moved", "The prop moved. Keep it still; the second starts again."}},
     {calibration::TouchPrompt::NotSeen,
      {"calibration.not_seen",
       "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
@@ -56,17 +56,16 @@ TableWords words_of_begin(const calibration::TouchProcedure& procedure) {
                                            "a little wider than the prop.",
                                            fmt::join(block_heights_mm(procedure), ", "));
     if (procedure.task() == calibration::TouchTask::TouchUp) {
-        return {
-            "calibration.touch_up",
-            {"Staff: put the picture right",
-             fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
-                         "the picture right; that takes about two minutes. {}",
-                         procedure.count(), boards),
-             "Next begins. Back goes on to measuring the whole table anew; from there Back leaves. A minute "
-             "without a press returns to the exhibit."}};
+        return {"calibration.touch_up",
+                {"Staff: put the picture right",
+                 fmt::format("Has the projector or the tracker been moved? {} touches find out and correct "
+                             "the picture; that takes about two minutes. {}",
+                             procedure.count(), boards),
+                 "Next begins. Back goes on to measuring the whole table; from there Back leaves. A minute "
+                 "without a press returns to the exhibit."}};
     }
     return {"calibration.begin",
-            {"Staff: measure the table anew",
+            {"Staff: measure the whole table",
              fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
                          "about {} minutes. {}",
                          procedure.count(), minutes_for(procedure.count()), boards),
@@ -113,8 +112,8 @@ Message choice_of(const calibration::TouchProcedure& procedure) {
         break;
     }
     return is_touch_up ? Message{"calibration.does_not_fit",
-                                 "Next measures the whole table anew. Back does all touches again."}
-                       : Message{"calibration.refused", "Next begins anew."};
+                                 "Next measures the whole table. Back repeats all touches."}
+                       : Message{"calibration.refused", "Next starts again."};
 }
 
 typography::Colour colour_of(const calibration::TouchProcedure& procedure) {
