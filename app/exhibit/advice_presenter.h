@@ -42,7 +42,7 @@ public:
     [[nodiscard]] std::optional<WordIndex> find(std::string_view key, std::string_view language) const {
         return sentences_.find(key, language);
     }
-    /// Of the latest step.
+    /// The advice of the latest step.
     [[nodiscard]] const std::optional<PlacedSign>& sign() const { return sign_; }
 
     struct Input {

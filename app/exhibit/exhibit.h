@@ -148,14 +148,14 @@ private:
               const DrawnPose& drawn, bool pressed, Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
-    // What there is to show.
+    // The sets and artifacts.
     ExhibitPlace place_;
     std::string first_language_;
     ShownCatalogue catalogue_;
     SetChange set_change_;
     bool waits_ = false; ///< the artifact was not ready in the latest step
 
-    // What the visitor does.
+    // The visitor.
     Presses presses_;
     Selection selection_;
     Presence presence_;
@@ -167,7 +167,7 @@ private:
     State state_before_ = State::Attract;
     MonotonicTime next_turn_; ///< when the next artifact comes, in State::Attract
 
-    // What is shown and said.
+    // The presentation.
     Placeholder placeholder_;
     std::optional<TableBrowser> table_;
     ArtifactCaption caption_;

@@ -46,7 +46,7 @@ private:
 };
 
 /// The area that the artifact's place hides from a point. An artifact that turns at the idle place hides the same
-/// area at any angle, so that nothing beside it moves.
+/// area at any angle, so nothing next to it moves.
 [[nodiscard]] std::optional<typography::TablePolygon>
 area_hidden_by(const geometry::PropShape& prop, const DrawnPose& drawn, const glm::dvec3& from_m);
 

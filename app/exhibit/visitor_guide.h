@@ -34,7 +34,7 @@ public:
     explicit VisitorGuide(const std::optional<guidance::GuidanceSetup>& setup);
 
     void step(MonotonicTime now, const VisitorGuideInput& input);
-    /// Of the latest step; null: there is no visitor to guide, or nothing to correct.
+    /// The guidance of the latest step; null: there is no visitor to guide, or nothing to correct.
     [[nodiscard]] const guidance::Guidance* guidance() const { return guidance_; }
     /// True while advice for the visitor who asked for help is being searched.
     [[nodiscard]] bool answers() const { return answers_; }

@@ -128,7 +128,7 @@ tl::expected<void, library::ImportFailure> write_all(WritableTree& folder, std::
     return folder.sync_folder("").map_error(refused);
 }
 
-/// So that a full stick has its room again. It may fail: the stick may be gone.
+/// Frees the space on a full stick. It may fail, because the stick may be gone.
 void take_back(WritableTree& folder, std::span<const ReportFile> files, const CopiedFiles& large) {
     static_cast<void>(folder.remove(std::string(next_name)));
     for (const ReportFile& file : files) {

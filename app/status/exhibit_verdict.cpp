@@ -76,7 +76,7 @@ std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog)
     return std::nullopt;
 }
 
-/// What the staff must put right on the devices: the first clause of each sentence, since the lines below tell what
+/// The devices' faults for the staff: the first clause of each sentence, since the lines below tell what
 /// to do.
 struct Complaints {
     std::string id; ///< of the first one

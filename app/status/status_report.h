@@ -102,7 +102,7 @@ struct ProgramStatus {
     std::optional<double> resident_mib = 0.0;
 };
 
-/// What is shown, and where it comes from.
+/// The shown artifact and its source.
 struct ShownStatus {
     PresentedPicture presented;
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
@@ -167,7 +167,7 @@ struct DriftStatus {
     bool drifted = false;          ///< too far: the exhibit must be calibrated again
 };
 
-/// What is known of prop and eye, and from where.
+/// The poses of prop and eye, and their sources.
 struct TrackedStatus {
     std::string prop_by; ///< tracker or tags; empty: neither is there
     std::uint64_t hand_overs = 0;

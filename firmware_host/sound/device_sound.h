@@ -58,7 +58,7 @@ private:
     SoundReport report_;
     DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
                        Sentence("its sound device is not opened yet")};
-    // Of the thread:
+    // Used by the thread:
     Mixer mixer_;
     SampleClock clock_{monotonic_now()}; ///< used while there is no device
     std::uint64_t underruns_ = 0;        ///< of all devices

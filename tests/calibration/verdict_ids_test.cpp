@@ -82,7 +82,7 @@ TEST(VerdictIds, AreSetWithTheirSentences) {
     EXPECT_GT(reasons, 40);
 }
 
-/// What each way says of nothing at all.
+/// Each way's verdict on an empty input.
 TEST(VerdictIds, OfNoPoints) {
     constexpr int width = 1920;
     constexpr int height = 1200;

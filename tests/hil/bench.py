@@ -172,7 +172,7 @@ class Bench:
         """The exhibit's process number; 0: it does not run."""
         return int(self.machine.check(f"systemctl show --value -p MainPID {UNIT}"))
 
-    # What is on the screen.
+    # The screen's picture.
 
     def screendump(self):
         self.machine.screendump(self._shot, self.looked_at)

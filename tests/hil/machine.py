@@ -158,7 +158,7 @@ class Machine:
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
             "-kernel", self.files / "linux", "-initrd", self.files / "initrd",
             "-append", (self.files / "cmdline").read_text(encoding="utf-8"),
-            # What is written is forgotten when QEMU ends, and stays when the machine starts anew.
+            # Writes are lost when QEMU ends, and kept when the machine reboots.
             "-drive", f"if=none,id=disk,format=raw,snapshot=on,file={self.disk}", "-device", "virtio-blk-pci,drive=disk,serial=disk",
             *self.lines(),
             "-vga", "none",

@@ -22,7 +22,7 @@ LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
 UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*' 'frustumscreen-report@*' 'frustumscreen-report-open@*' 'frustumscreen-report-close@*'"
-# What stays of a stick: first what costs little to ask, which is almost all the time, then systemd itself.
+# Checks what remains of a stick: first the cheap checks, which nearly always suffice, then systemd.
 QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")

@@ -48,7 +48,7 @@ class Calibration(HilTest):
         self.hears("Next keeps it.")
         self.press(NEXT)
         tracker = self.kept()["tracker"]
-        self.hears("Staff: where are the eyes?")  # the mock has a head's sensor, and nobody knows where the eyes are in it
+        self.hears("Staff: where are the eyes?")  # the mock has a head's sensor, and the eyes' place relative to it is unknown
         self.press(FIRST)
         self.bench.status_says("display", "is lit", START_S)
         self.assertIn("calibration-0001.toml is used", self.bench.journal())
@@ -124,7 +124,7 @@ class Calibration(HilTest):
 
         eventually(is_lit, 20.0, f"there is no cross at ({u:.0f}, {v:.0f})")
 
-    # What is true.
+    # The truth.
 
     def crosses(self):
         """Those that the kiosk shows, first and if the verdict asks for more: they follow from its settings alone."""

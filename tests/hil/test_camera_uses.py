@@ -164,7 +164,7 @@ class Visitor(CameraUse):
 
     def test_the_picture_turns_to_whoever_comes(self):
         bench, pose = self.bench, (*CENTRE_M, *UPRIGHT)
-        bench.tracker.tell("sensor-missing", 2)  # nobody wears a sensor on the head
+        bench.tracker.tell("sensor-missing", 2)  # no one wears a sensor on the head
         self.show(ARTIFACT)
         self.assert_at(CENTRE_M)
         bench.status_says("eye_by", "settings")

@@ -159,7 +159,7 @@ class StickStorm(LongStickTest):
                 told.setdefault(kind, []).append(f"{report['stage']} {report['refusal']}")
                 self.pull("damaged")
                 found = set(self.installed(QUIET))
-                # What was read whole in spite of the damage is rightly taken.
+                # A pack that was read whole in spite of the damage is rightly taken.
                 self.assertTrue({("amphora", 1)} <= found <= whole, f"{kind}: {found}")
                 self.assertTrue(report["stage"] == "done" or report["reason"])
                 self.goes_on()

@@ -1,4 +1,4 @@
-// What holds for every file of the house.
+// Rules for every file of the project.
 #include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 
@@ -277,7 +277,7 @@ TEST(House, EveryHeaderSaysWhatItIs) {
     }
 }
 
-/// Past json.h, a file compiles all of the library anew.
+/// A file that bypasses json.h compiles the whole library again.
 TEST(House, JsonIsIncludedByItsHeader) {
     for (const fs::path& file : files_ending({".h", ".cpp"})) {
         for (const std::string& line : lines_of(file)) {
@@ -301,7 +301,7 @@ TEST(House, EveryFileIsFormatted) {
 
 class SkippedTests : public frustumscreen::WithTemporaryFolder {};
 
-/// What GoogleTest 1.12 prints, copied by hand.
+/// The output of GoogleTest 1.12, copied by hand.
 TEST_F(SkippedTests, AreListedWithTheirReasons) {
     const std::string log = folder / "tests.log";
     const std::string listed = folder / "listed.txt";

@@ -8,7 +8,7 @@ Errors   MachineError.
 
 import re
 
-# What runs all the time, and what comes and goes: the services' scripts, sticks, udev's rules.
+# Processes that run all the time, and short ones: the services' scripts, sticks, udev's rules.
 STAYS = {"systemd", "systemd-journald", "udevadm", "frustumscreen", "frustumscreen-watchdog", "qemu-ga"}
 COMES = {"frustumscreen-import", "systemd-mount", "systemd-executor", "systemctl", "journalctl", "mount", "ntfs-3g", "kmod", "lsblk",
          "dash", "sleep", "cat", "grep", "cut", "sed", "readlink", "basename", "dirname", "stat", "systemd-repart", "systemd-growfs",

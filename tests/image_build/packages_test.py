@@ -66,7 +66,7 @@ class Packages(unittest.TestCase):
             self.assertIn(f"frustumscreen-base (= {version})", self.field(name, "Depends"))
 
     def test_what_is_opened_by_name_is_depended_on(self):
-        # Of these, dpkg-shlibdeps knows nothing: the programs' files do not name them.
+        # dpkg-shlibdeps does not know these, because the programs' files do not name them.
         self.assertLessEqual({"libegl-mesa0", "libgl1-mesa-dri", "fonts-dejavu-core", "tzdata"}, self.depends("frustumscreen-base"))
         self.assertLessEqual({"systemd", "udev", "mount", "ntfs-3g"}, self.depends("frustumscreen"))
         self.assertIn("fonts-noto-core", self.depends("frustumscreen-bake"))

@@ -6,7 +6,7 @@ import re
 import subprocess
 
 OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
-# Of the programs that say more of a mode behind these words than with --help alone.
+# Words after which a program's --help describes another mode.
 MODES = {
     "frustumscreen-bake": ("--watch", "--batch", "--check", "--words"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),

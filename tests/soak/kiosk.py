@@ -47,7 +47,7 @@ class Sample:
     frames: int = 0  # of this process
     drawn: int = 0
     packets: int = 0
-    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read anew
+    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read again
 
 
 @dataclass

@@ -8,7 +8,7 @@ class FaultConsole:
     """Subclasses say which faults there are, `kinds`, what else is understood, and what a fault's beginning and end do."""
 
     kinds = {}
-    commands = ""  # help for what is no fault
+    commands = ""  # help for unknown faults
     ended_by_time = ("unplug", "hang")  # of the others nothing is done at their end
 
     def __init__(self, device):

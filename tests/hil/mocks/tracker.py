@@ -128,7 +128,7 @@ class Tracker(UsbDevice):
             for _ in range(min(count, self.most_waiting)):
                 self.answer(data)
 
-    # What the descriptors tell the host.
+    # The descriptors.
 
     @property
     def described_endpoints(self):

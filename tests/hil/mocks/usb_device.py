@@ -89,7 +89,7 @@ class UsbDevice:
     def greet(self):
         """On a link without endpoint 0: sends what a host would ask for when it opens the device."""
 
-    # What links use.
+    # Used by links.
 
     def send(self, endpoint, data):
         """Sends to the host, as one transfer."""

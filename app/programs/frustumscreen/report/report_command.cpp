@@ -94,9 +94,9 @@ Result<std::unique_ptr<WritableTree>> open_or_make(const std::filesystem::path& 
     return open_tree(folder);
 }
 
-/// All that is written, and what of it is refused.
+/// The files to write, and those that are refused.
 struct Contents {
-    std::string asked_by; ///< the stick's file, for what fails
+    std::string asked_by; ///< name of the stick's file, for messages
     std::vector<report::ReportFile> texts;
     CopyFiles copy;
     std::optional<library::ImportFailure> refused; ///< the request for a copy
@@ -111,7 +111,7 @@ bool asks_for_report(const Request& request) {
     return stick && read_text(**stick, library::report_request_name, library::max_report_request_bytes);
 }
 
-/// None: nobody asks for one.
+/// nullopt: none was requested.
 tl::expected<std::optional<CopyFiles>, library::ImportFailure> copy_for(const Request& request) {
     const auto clock = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     TRY(const std::optional<kiosk_copy::CopyRequest> asked, copy_asked_for(request.copy, clock));
@@ -201,7 +201,7 @@ library::ImportedPack not_written(std::string_view file, const library::ImportFa
             .reason = is_named ? failure.reason.substr(name.size()) : failure.reason};
 }
 
-/// Writes, and adds a line for what was written and for what was not.
+/// Writes the files, and adds a line for each success and failure.
 void write_and_tell(const Request& request, const Contents& contents, library::ImportReport& told) {
     if (contents.refused) {
         told.packs.push_back(not_written(library::copy_request_name, *contents.refused));
