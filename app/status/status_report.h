@@ -174,7 +174,7 @@ struct TrackedStatus {
     bool prop_known = false;
     bool head_known = false;
     std::string eye_by{"settings"}; ///< sensor, camera or settings
-    std::optional<double> eye_sd_m; ///< of an eye measured by the camera, Situation::eye_sd_m
+    std::optional<double> eye_sd_m; ///< of an eye measured by the camera, TrackedState::eye_sd_m
 };
 
 /// The fields in groups by subject.
