@@ -359,8 +359,8 @@ void device_fields(auto& fields, auto& status) {
                  "a sensor on the visitor's head says where it is now; else see `eye_by`",
                  Metric{"head_known", "1: the visitor's head is known."});
     fields.field("eye_by", status.eye_by,
-                 "who says where the visitor's eye is: `sensor` on the head, `camera`, or `settings`: "
-                 "nobody, it is `eye.default_m`");
+                 "source of the visitor's eye: `sensor` on the head, `camera`, or `settings`: "
+                 "none, it is `eye.default_m`");
     fields.field("eye_sd_mm", status.eye_sd_m,
                  "how far an eye by the camera may be off across its line to the prop, RMS on each axis; "
                  "`null`: it is by another",

@@ -73,7 +73,7 @@ std::vector<std::uint32_t> ChartFinder::find() {
     const bool is_first = charts_.empty();
     grow_others();
     for (int pass = 0; is_first && pass < passes; ++pass) {
-        grow_anew();
+        regrow();
     }
     straighten_borders(is_first ? min_facing : min_facing_later);
     return std::move(chart_of_);
@@ -128,7 +128,7 @@ void ChartFinder::grow_others() {
 }
 
 /// Only for charts that are all this mesh's own.
-void ChartFinder::grow_anew() {
+void ChartFinder::regrow() {
     std::vector<glm::vec3> means(charts_.size(), glm::vec3(0.0F));
     std::vector<float> sizes(charts_.size(), 0.0F);
     for (std::size_t t = 0; t < chart_of_.size(); ++t) {

@@ -27,7 +27,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     }
     std::vector<simulators::WrongPresence> wrong;
     for (const simulators::VisitorCase& one : empty) {
-        progress.show("nobody there: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
+        progress.show("no visitor: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
         wrong.push_back(simulators::measure_empty(one, arguments.minutes, arguments.seed));
     }
     progress.clear();
