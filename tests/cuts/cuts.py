@@ -38,7 +38,7 @@ ENOUGH = 40  # cuts while settings are saved, of which some must lose what was n
 
 
 class Row:
-    """Of the table: what came of a phase's cuts."""
+    """A row of the table: the results of a phase's cuts."""
 
     def __init__(self):
         self.states = self.faulty = self.boots = self.dark = 0
@@ -190,7 +190,7 @@ class Cuts:
 
     @staticmethod
     def _lost(pc, must):
-        """What the started kiosk does not have, as it itself sees it."""
+        """The parts that the started kiosk lacks, by its own report."""
         wrong = []
         if "machine-id" in must.least and pc.check("cat /etc/machine-id").strip() != must.least["machine-id"]:
             wrong.append("another machine-id")

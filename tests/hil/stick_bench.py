@@ -1,4 +1,4 @@
-"""What tests of sticks share: a key of the museum's, signed packs, sticks that are put in and pulled out, and what is told of them.
+"""The common part of tests of sticks: a museum's key, signed packs, sticks that are put in and pulled out, and their reports.
 
 Threads  one caller.
 """
@@ -113,7 +113,7 @@ class StickTest(HilTest):
         self.bench.machine.pull(f"stick-{name}")
 
     def report(self):
-        """What the importer says now; None: nothing."""
+        """The importer's current report; None: there is none."""
         text = self.bench.machine.read(REPORT_FILE)
         try:
             return json.loads(text) if text else None
@@ -132,7 +132,7 @@ class StickTest(HilTest):
         return seen[0]
 
     def outcome(self, timeout_s=IMPORT_S):
-        """What became of the next stick."""
+        """The outcome of the next stick."""
         report = self.stage("done", "failed", timeout_s=timeout_s)
         self.last = report["import_id"]
         return report

@@ -167,7 +167,7 @@ class Calibration(HilTest):
 
 
 def distance_px(seen, meant):
-    """Of the middles, and of the edges, of what is lit; nothing is lit: far."""
+    """The distance of the middles and edges of lit areas; far if nothing is lit."""
     lit, true = screen.lit(seen), screen.lit(meant)
     if screen.count(true) < 300:
         raise AssertionError("the true picture is dark: this place proves nothing")

@@ -79,7 +79,7 @@ class Camera(HilTest):
         self.bench.camera.tell("good")
 
     def plug(self, settings=CAMERA):
-        """The camera is plugged in anew, with these settings beside the usual ones; the exhibit itself goes on."""
+        """Plugs the camera in again, with these settings in addition; the exhibit goes on."""
         self.bench.camera.tell("unplug")
         eventually(lambda: not self.is_there(), 20.0, "the kernel keeps a camera that is unplugged")
         self.bench.machine.write(SETTINGS, self.usual + settings)

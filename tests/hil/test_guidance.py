@@ -39,7 +39,7 @@ SOUND_DRIVER = "/sys/bus/pci/drivers/snd_hda_intel"
 
 @dataclass
 class Told:
-    """What one language's visitor sees and hears, as the program has it on this machine."""
+    """The pictures and sounds for a visitor in one language, made by the program on this machine."""
 
     before: list  # lit pixels, before the advice
     after: list  # the same once it is given

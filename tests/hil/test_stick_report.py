@@ -55,7 +55,7 @@ class StickReport(ToldStickTest):
         return found
 
     def not_written(self, image, untouched=True, **how):
-        """What is told of a stick: (refusal, sentence). `untouched`: it stays as it is to the last byte."""
+        """The report on a stick: (refusal, sentence). `untouched`: its bytes do not change."""
         held = image.read_bytes()
         self.plug("refused", image, **how)
         report = self.outcome(REPORT_S)

@@ -197,7 +197,7 @@ class StickStorm(LongStickTest):
         self.assertEqual(self.installed(QUIET), [("amphora", 5)])
 
     def test_changing_contents(self):
-        """What is read a second time is something else: what was checked is what is used."""
+        """A second read returns other data: only the checked data is used."""
         self.take(1)
         pack = self.large(2, CHANGING_MIB)
         image = self.make("changing", "vfat", {"vase.fspack": pack})

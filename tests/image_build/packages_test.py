@@ -153,7 +153,7 @@ class Packages(unittest.TestCase):
         self.assertFalse([file for file in self.files["frustumscreen"] if ".wants/" in file])
 
     def script(self, name, *arguments):
-        """What a script of dpkg's asks of systemd, where that runs. Each program is a stub that says what it was asked."""
+        """The requests of a dpkg script to a running systemd. Each program is a stub that records its arguments."""
         stubs = pathlib.Path(self.folder.name) / "stubs"
         stubs.mkdir(exist_ok=True)
         for stub in ("systemctl", "deb-systemd-helper", "deb-systemd-invoke", "udevadm", "systemd-sysusers", "systemd-tmpfiles"):

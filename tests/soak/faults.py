@@ -192,7 +192,7 @@ class Packs:
         subprocess.run([self._program, *(str(word) for word in words)], check=True, capture_output=True)
 
     def settings(self):
-        """What a kiosk's settings must say to take them."""
+        """The settings that a kiosk needs to accept them."""
         public = self._key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
         return f'\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
 

@@ -52,7 +52,7 @@ class Sample:
 
 @dataclass
 class Log:
-    """What was seen."""
+    """The samples and events of a soak."""
 
     samples: list = field(default_factory=list)
     looks: list = field(default_factory=list)  # (at_s, lit)

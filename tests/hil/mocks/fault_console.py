@@ -1,4 +1,4 @@
-"""What the consoles of mocked devices with faults have in common: a fault begins by its name, for a while or until it is ended."""
+"""The common part of consoles of mocked devices with faults: a fault begins by its name, for a while or until it is ended."""
 
 import asyncio
 import time
@@ -44,7 +44,7 @@ class FaultConsole:
         """To a command that is no fault; None: it is none of this device's."""
 
     def begin_or_end(self, name, begins):
-        """What a fault's beginning and end do, besides that it is on."""
+        """Actions at a fault's beginning and end, besides its switch."""
 
     def _fault(self, name, words):
         duration = self._device.faults.tell(name, words)

@@ -1,4 +1,4 @@
-"""What all mocked trackers share: they play poses at their own rate, and misbehave as they are told."""
+"""The common part of mocked trackers: they play poses at their own rate, and misbehave as they are told."""
 
 import asyncio
 import time

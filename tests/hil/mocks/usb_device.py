@@ -39,7 +39,7 @@ class Request(NamedTuple):
 
 
 class UsbDevice:
-    """What devices have in common; subclasses add their own part, and those of several interfaces their descriptors."""
+    """The common part of devices; subclasses add their own part, and those of several interfaces their descriptors."""
 
     vendor_id = product_id = 0
     version_bcd = 0x0100
