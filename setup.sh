@@ -114,7 +114,7 @@ if ((EUID != 0)); then
     fi
     as_root=(sudo)
 fi
-# Two at a time would find APT's lists locked. What another has installed meanwhile is not missing any more.
+# Two at a time would find APT's lists locked. A package that another run has installed meanwhile is no longer missing.
 exec 9<"${BASH_SOURCE[0]}"
 flock 9
 find_missing || exit 0

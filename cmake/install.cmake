@@ -1,4 +1,4 @@
-# What is installed, in three components, each a Debian package (cmake/packages.cmake):
+# Installs in three components, each a Debian package (cmake/packages.cmake):
 #   base   the exhibit's program and what kiosks and curators both use; starts nothing
 #   kiosk  what makes a PC the exhibit: units, rules, users, settings; needs base
 #   bake   what curators use on their own computers; needs base
@@ -9,7 +9,7 @@ set(kiosk_programs frustumscreen-watchdog frustumscreen-safe)
 if(TARGET frustumscreen-window)
     list(APPEND bake_programs frustumscreen-window)
 endif()
-# Builds all that the packages hold.
+# Builds the contents of all packages.
 add_custom_target(packaged)
 add_dependencies(packaged ${base_programs} ${bake_programs} ${kiosk_programs} frustumscreen-built-in)
 
@@ -45,7 +45,7 @@ install(FILES systemd/frustumscreen.sysusers
 install(FILES systemd/frustumscreen.tmpfiles
     DESTINATION /usr/lib/tmpfiles.d RENAME frustumscreen.conf COMPONENT kiosk EXCLUDE_FROM_ALL)
 
-# What is shown when nothing else can be: the amphora with few triangles and small images, so that any machine shows it.
+# The fallback artifact: the amphora with few triangles and small images, so that any machine shows it.
 set(built_in ${CMAKE_BINARY_DIR}/kiosk/built_in)
 add_custom_command(OUTPUT ${built_in}.fspack
     COMMAND frustumscreen-artifact amphora --triangles 2000 -o ${built_in}.glb

@@ -1,4 +1,4 @@
-/// What most files of the rooms and programs include; see precompiled.cmake.
+/// The headers that most files of rooms and programs include; see precompiled.cmake.
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -29,6 +29,6 @@
 #include <variant>
 #include <vector>
 
-// libfmt has it: without this line every file that formats into a string compiles it anew.
+// libfmt has it: without this line, every file that formats into a string compiles it again.
 extern template void fmt::detail::vformat_to<char>(fmt::detail::buffer<char>&, fmt::string_view,
                                                    fmt::format_args, fmt::detail::locale_ref);

@@ -32,7 +32,7 @@ its room; a function that no header declares is in the whole file."""
 
 
 class Lack(Exception):
-    """A sentence for whoever wrote the CMakeLists.txt or the example."""
+    """A sentence for the author of the CMakeLists.txt or the example."""
 
 
 def rooms(file):

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/guide anew that come from the programs, in some seconds: the shipped settings' drawings, the staff's
+# Draws those pictures of docs/guide that the programs make, in some seconds: the shipped settings' drawings, the staff's
 # picture, and a stick that is taken in. It needs what ./test builds. connections.svg and panel.svg are drawn by hand.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the README's pictures anew, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked.
+# Draws the README's pictures, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked.
 # The loop takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

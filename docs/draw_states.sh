@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/states.md anew, and draws docs/states.svg with Graphviz (Debian's package graphviz), from the program's own table.
+# Writes docs/states.md, and draws docs/states.svg with Graphviz (Debian's package graphviz), from the program's own table.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=build/release/bin

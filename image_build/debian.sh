@@ -61,7 +61,7 @@ for deb in *.deb; do
     dpkg-deb -W --showformat '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' "\$deb"
 done >"$work/unpacked.txt"
 cd /
-rm -r "$work/debs" # without root, nobody else may
+rm -r "$work/debs" # without root, no other user may
 dpkg-query --admindir="\$root/var/lib/dpkg" -W \
     -f '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' >"$work/installed.txt"
 rm -rf "\$root"/var/cache/* "\$root"/var/lib/apt "\$root"/var/log/*

@@ -33,7 +33,7 @@ while read -r module; do
 done <"$root/usr/lib/modules/$version/initrd"
 cp "$root/usr/lib/modules/$version"/modules.{order,builtin,builtin.modinfo} "$tree/lib/modules/$version/"
 depmod --basedir "$tree" "$version"
-# What no device asks for by itself
+# Modules that no device requests
 printf '%s\n' squashfs dm_verity sha256_ssse3 ext4 crc32c_generic crc32c_intel overlay efivarfs sd_mod >"$tree/modules"
 
 # A keymap without a key, as busybox's loadkmap reads it: which of 256 maps follow (those that the kernel has: plain, Shift, AltGr,

@@ -52,7 +52,7 @@ class Trees:
         return [name for name in self.names if re.fullmatch(regex, name)]
 
     def target(self, path):
-        """What a symbolic link points to; None: nothing in the trees, as in /run or /dev."""
+        """The target of a symbolic link; None: not in the trees, as in /run or /dev."""
         to = os.readlink(self.files[path])
         whole = os.path.normpath(to.lstrip("/") if to.startswith("/") else os.path.join(os.path.dirname(path), to))
         first, _, rest = whole.partition("/")

@@ -60,7 +60,7 @@ step() { # WORDS FUNCTION
     printf '   %d s\n' $((SECONDS - begun))
 }
 
-# Fixed names for what must be the same in two builds: a UUID from words.
+# Makes a UUID from words, for names that must be the same in two builds.
 uuid_of() { uuidgen --sha1 --namespace @dns --name "frustumscreen.invalid/$1"; }
 
 # Kept for the day, or with --locked for as long as the list is the same; an image for tests and one for kiosks have the same.
@@ -110,7 +110,7 @@ unpack_ours() {
     done
 }
 
-# What our package depends on must be among Debian's that the image is made from.
+# Our package's dependencies must be among the image's Debian packages.
 check_needs() {
     local one need word missing=()
     while IFS= read -r need; do
@@ -145,7 +145,7 @@ make_root() {
     image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
-    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # nobody becomes root by a program
+    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # no program makes its user root
     cp -R image_build/files/. "$root/"
     [[ -z $update_ca ]] || install -m 644 "$update_ca" "$root/etc/rauc/keyring.pem"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
@@ -163,7 +163,7 @@ make_root() {
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
     enable_units "$root"
     settings_of_image "$root"
-    while read -r name; do # else a new version of a library would make starts slower, and nobody would see why
+    while read -r name; do # otherwise a new version of a library could slow starts unnoticed
         [[ -e $root/$name ]] || fail "files/usr/share/frustumscreen/read_ahead names /$name, which the root does not have; name what took its place"
     done <"$root/usr/share/frustumscreen/read_ahead"
     find "$root" -type f -printf '%s\t%P\n' | sort -k 2 | awk -F '\t' -v OFS='\t' \
@@ -205,7 +205,7 @@ UNITS
     rmdir "$root/boot-complete.target.wants"
 }
 
-# What is shipped shows itself off without devices; a kiosk has them.
+# The shipped settings simulate devices; a kiosk has real ones.
 settings_of_image() {
     local file=$1/usr/share/frustumscreen/kiosk.toml
     sed -f image_build/settings.sed "$file" >"$work/kiosk.toml"
@@ -261,7 +261,7 @@ make_kernel_image() {
     [[ -z $keys ]] || sign "$work/boot.efi"
 }
 
-# Of one initrd; the rest is the same. Reads make_kernel_image's variables.
+# Makes a kernel image with one initrd; the rest is the same. Reads make_kernel_image's variables.
 put_together() { # INITRD OUT
     image_build/kernel_image.py --stub "$unpacked/usr/lib/systemd/boot/efi/linuxx64.efi.stub" \
         --os-release "$work/root/usr/lib/os-release" --command-line "$work/cmdline" \

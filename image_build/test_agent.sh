@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes what --test adds to the initrd: QEMU's guest agent, what a test calls in the guest, and the script that lays both over the
-# root. An image for kiosks has nothing of it, and nobody can add it there: the initrd is a part of the signed kernel image.
+# root. An image for kiosks has nothing of it, and it cannot be added there: the initrd is a part of the signed kernel image.
 #
 #   test_agent.sh DEBIAN ROOT OUT.cpio    DEBIAN: the packages' files; ROOT: the image's; OUT: to be put behind the initrd
 set -euo pipefail

@@ -24,9 +24,9 @@ double whole_mm(double metres) {
     return std::floor(1e3 * metres + 1e-9) / 1e3;
 }
 
-/// The largest tag that fits a room with its rim.
-double fitting(double room_m) {
-    return whole_mm(std::fmin(largest_m, room_m / rim));
+/// The largest tag that fits a space with its rim.
+double fitting(double space_m) {
+    return whole_mm(std::fmin(largest_m, space_m / rim));
 }
 
 tags::PropTag flat_tag(int id, double size_m, const glm::dvec3& middle) {

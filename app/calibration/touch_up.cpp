@@ -193,10 +193,9 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     const int equations = 3 * static_cast<int>(touches.size());
     const bool something = unmoved - best.chi2 > chi2_limit(6);
     if (!(something ? best.chi2 < chi2_limit(equations - 6) : unmoved < chi2_limit(equations))) {
-        return refused(
-            {"touch_up.contradict",
-             "the touches contradict each other, or projector and tracker both moved: touch the crosses "
-             "again, or calibrate anew"});
+        return refused({"touch_up.contradict",
+                        "the touches contradict each other, or projector and tracker both moved: "
+                        "touch the crosses again, or calibrate completely"});
     }
     const std::vector<ZonePlace> places = zone_of(best.model, touches, setup.top_m);
     TouchUp result;

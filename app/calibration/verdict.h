@@ -20,7 +20,7 @@ enum class Verdict {
 
 /// Why a calibration has its verdict.
 struct VerdictReason {
-    MessageId id = "verdict.none"; ///< stays when the wording changes; docs/calibration.md lists all of them
+    MessageId id = "verdict.none"; ///< stays when the wording changes; docs/verdicts.md lists all of them
     std::string sentence;          ///< one sentence
 };
 

@@ -281,7 +281,7 @@ std::string counts_plot(const std::vector<DayCounts>& days) {
     Sheet sheet;
     if (summary.days == 0) {
         sheet.text({margin, 58}, "Visits", 28, ink, "start", true);
-        sheet.text({margin, 90}, "Nothing was counted yet.", 14, quiet_ink);
+        sheet.text({margin, 90}, "No visits have been counted yet.", 14, quiet_ink);
         return sheet.take(130.0);
     }
     draw_figures(sheet, summary);

@@ -136,7 +136,7 @@ std::string counts_text(const ReadCounts& counts) {
     std::string text;
     const auto out = std::back_inserter(text);
     if (summary.days == 0) {
-        text = "Nothing was counted yet.\n";
+        text = "No visits have been counted yet.\n";
     } else {
         fmt::format_to(out, "{} to {}, {} with numbers\n", text_of_day(summary.first),
                        text_of_day(summary.last),

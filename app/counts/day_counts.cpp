@@ -32,8 +32,8 @@ Json json_of(const Tallies& tallies) {
 }
 
 void add_to(Tallies& tallies, std::string_view name, const Tally& tally) {
-    const bool has_room = tallies.size() < max_counted_names || tallies.contains(std::string(name));
-    tallies[std::string(has_room ? name : other_names)] += tally;
+    const bool has_space = tallies.size() < max_counted_names || tallies.contains(std::string(name));
+    tallies[std::string(has_space ? name : other_names)] += tally;
 }
 
 tl::unexpected<Error> damaged(std::string_view what) {

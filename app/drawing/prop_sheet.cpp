@@ -151,11 +151,11 @@ void draw_side(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const Vie
 View draw_views(SvgSheet& sheet, const Sizes& sizes) {
     constexpr double top_mm = 18.0;
     constexpr double around_mm = 27.0; // heading and dimensions of each view
-    constexpr double room_mm = 262.0 - 3.0 * around_mm;
+    constexpr double height_mm = 262.0 - 3.0 * around_mm;
     constexpr double middle_mm = 105.0;
     const double high_m = sizes.height_m + sizes.bottom_m + sizes.slant_m();
     const double mm_per_m =
-        fitted_view({{0.0, 0.0}, {sizes.bottom_m, high_m}}, {0.0, 0.0}, {140.0, room_mm}).mm_per_m;
+        fitted_view({{0.0, 0.0}, {sizes.bottom_m, high_m}}, {0.0, 0.0}, {140.0, height_mm}).mm_per_m;
     const auto at = [&](double y_mm) { return View{{middle_mm, y_mm}, mm_per_m}; };
     double heading_mm = top_mm;
     const auto foot_mm = [&](double view_m) { return heading_mm + 12.0 + mm_per_m * view_m; };

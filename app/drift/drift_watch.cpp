@@ -42,11 +42,10 @@ std::optional<DriftReference> stored(const DriftSetUp& set_up) {
 Sentence sentence_of(const DriftVerdict& verdict) {
     switch (verdict.state) {
     case DriftState::Learning:
-        return Sentence(
-            "the camera learns where the picture lies after the calibration, while nobody is there");
+        return Sentence("the camera records where the calibrated picture lies, while no visitor is present");
     case DriftState::Looking:
-        return Sentence(
-            "the camera looks whether the picture lies where it was calibrated, while nobody is there");
+        return Sentence("the camera checks whether the picture still lies where it was calibrated, while no "
+                        "visitor is present");
     case DriftState::Well:
         return format_sentence("the picture lies where it was calibrated, to {:.1f} mm", 1e3 * verdict.off_m);
     case DriftState::Moved:

@@ -50,13 +50,13 @@ void box_means(std::span<const float> from, int width, int height, std::vector<f
 }
 
 /// Standard deviation of values that are mostly noise, from the median of their magnitudes.
-double noise_of(std::span<const float> values, std::vector<float>& room) {
-    room.clear();
+double noise_of(std::span<const float> values, std::vector<float>& scratch) {
+    scratch.clear();
     const std::size_t step = std::max<std::size_t>(1, values.size() / 4096);
     for (std::size_t k = 0; k < values.size(); k += step) {
-        room.push_back(std::abs(values[k]));
+        scratch.push_back(std::abs(values[k]));
     }
-    return 1.4826 * quantile_in(std::span(room), 0.5);
+    return 1.4826 * quantile_in(std::span(scratch), 0.5);
 }
 
 void add_to(std::vector<std::uint16_t>& sums, std::span<const std::uint8_t> luma, bool is_first) {
@@ -146,7 +146,7 @@ std::optional<FoundMark> MarkFinder::find(const std::optional<PixelWindow>& near
     take_difference(window);
     box_means(light_, size.x, size.y, rows_, means_);
     box_means(change_, size.x, size.y, rows_, change_means_);
-    const double noise = noise_of(light_, room_) / box;
+    const double noise = noise_of(light_, scratch_) / box;
     std::size_t peak = 0;
     const auto score = [&](std::size_t k) { return means_[k] - 2.0F * std::abs(change_means_[k]); };
     for (std::size_t k = 1; k < means_.size(); ++k) {

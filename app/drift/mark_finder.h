@@ -61,7 +61,7 @@ private:
     std::vector<std::uint16_t> before_, lit_, after_; ///< sums of frames
     // Values of a window, row by row:
     std::vector<float> light_, change_, means_, change_means_;
-    std::vector<float> rows_, room_;
+    std::vector<float> rows_, scratch_;
     std::vector<std::uint8_t> taken_;
     std::vector<std::size_t> part_; ///< the mark's pixels
 };

@@ -4,11 +4,11 @@
 
 namespace frustumscreen::exhibit {
 
-SentenceEnvironment environment_of(const ExhibitPlace& place, const Stand& stand, const glm::dvec3& eye_m,
+SentenceEnvironment environment_of(const ExhibitPlace& place, const DrawnPose& drawn, const glm::dvec3& eye_m,
                                    int quarter_turns) {
-    return {.around = stand_hides(place.prop, stand, place.lens_m),
-            .hidden = stand_hides(place.prop, stand, eye_m),
-            .prop_m = glm::dvec2(stand.table_from_prop.translation),
+    return {.around = area_hidden_by(place.prop, drawn, place.lens_m),
+            .hidden = area_hidden_by(place.prop, drawn, eye_m),
+            .prop_m = glm::dvec2(drawn.table_from_prop.translation),
             .quarter_turns = quarter_turns};
 }
 
@@ -29,7 +29,7 @@ AdvicePresenter::Output AdvicePresenter::step(MonotonicTime now, const Input& in
     const bool signs = input.note.sign && input.guidance != nullptr;
     SentenceEnvironment environment;
     if (signs || input.word || sentences_.busy()) {
-        environment = environment_of(input.place, input.stand, input.eye_m, input.quarter_turns);
+        environment = environment_of(input.place, input.drawn, input.eye_m, input.quarter_turns);
     }
     sign_.reset();
     if (signs && environment.around) {

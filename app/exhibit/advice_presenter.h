@@ -8,8 +8,8 @@
 #pragma once
 
 #include "app/exhibit/advice_sign.h"
-#include "app/exhibit/attract.h"
 #include "app/exhibit/catalogue.h"
+#include "app/exhibit/idle_pose.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/states.h"
 
@@ -22,7 +22,7 @@
 namespace frustumscreen::exhibit {
 
 /// The surroundings of a text that stands beside the artifact's place. `quarter_turns`: the reader's side.
-[[nodiscard]] SentenceEnvironment environment_of(const ExhibitPlace& place, const Stand& stand,
+[[nodiscard]] SentenceEnvironment environment_of(const ExhibitPlace& place, const DrawnPose& drawn,
                                                  const glm::dvec3& eye_m, int quarter_turns);
 
 class AdvicePresenter {
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] std::optional<WordIndex> find(std::string_view key, std::string_view language) const {
         return sentences_.find(key, language);
     }
-    /// Of the latest step.
+    /// The advice of the latest step.
     [[nodiscard]] const std::optional<PlacedSign>& sign() const { return sign_; }
 
     struct Input {
@@ -50,7 +50,7 @@ public:
         const guidance::Guidance* guidance = nullptr; ///< null: no advice
         std::optional<WordIndex> word;                ///< the sentence to show
         const ExhibitPlace& place;
-        const Stand& stand;
+        const DrawnPose& drawn;
         glm::dvec3 eye_m{0.0};
         int quarter_turns = 0; ///< the reader's side
     };

@@ -154,14 +154,14 @@ double reach(std::span<const glm::dvec2> polygon, const glm::dvec2& from, const 
 }
 
 /// Moves the sign into the picture, with a margin to its edges.
-void pull_inside(std::span<const glm::dvec2> room, Sign sign, SignPose& pose) {
+void pull_inside(std::span<const glm::dvec2> area, Sign sign, SignPose& pose) {
     for (int round = 0; round < 4; ++round) {
-        for (std::size_t k = 0; k < room.size(); ++k) {
-            const glm::dvec2 edge = glm::normalize(room[(k + 1) % room.size()] - room[k]);
+        for (std::size_t k = 0; k < area.size(); ++k) {
+            const glm::dvec2 edge = glm::normalize(area[(k + 1) % area.size()] - area[k]);
             const glm::dvec2 inward(-edge.y, edge.x);
             double least = std::numeric_limits<double>::infinity();
             for (const glm::dvec2& corner : corners_of(sign, pose)) {
-                least = std::fmin(least, glm::dot(corner - room[k], inward));
+                least = std::fmin(least, glm::dot(corner - area[k], inward));
             }
             pose.origin_m += inward * std::fmax(0.0, border_m - least);
         }
@@ -169,11 +169,11 @@ void pull_inside(std::span<const glm::dvec2> room, Sign sign, SignPose& pose) {
 }
 
 /// Moves the arrow so that all of its way is inside the picture, then moves it along the way.
-void glide_inside(std::span<const glm::dvec2> room, const glm::dvec2& ahead, double phase, SignPose& pose) {
+void glide_inside(std::span<const glm::dvec2> area, const glm::dvec2& ahead, double phase, SignPose& pose) {
     pose.origin_m += ahead * glide_m;
-    pull_inside(room, Sign::Arrow, pose);
+    pull_inside(area, Sign::Arrow, pose);
     pose.origin_m -= ahead * glide_m;
-    pull_inside(room, Sign::Arrow, pose);
+    pull_inside(area, Sign::Arrow, pose);
     pose.origin_m += ahead * (glide_m * phase);
 }
 
@@ -190,7 +190,7 @@ bool clear_of(const typography::TablePolygon& shadow, const std::array<glm::dvec
 /// The place of an arrow: in front of the prop, or farther along the way if there is room; otherwise beside the prop.
 std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ahead, double phase,
                                     const typography::TablePolygon& shadow,
-                                    std::span<const glm::dvec2> room) {
+                                    std::span<const glm::dvec2> area) {
     const glm::dvec2 aside(-ahead.y, ahead.x);
     const double angle = std::atan2(ahead.y, ahead.x);
     const double half = 0.5 * arrow_size_m.x;
@@ -199,7 +199,7 @@ std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ah
     const double right = reach(shadow.corners(), prop, -aside) + gap_m + 0.5 * arrow_size_m.y;
     for (const glm::dvec2& place : {prop + ahead * front, prop + aside * left, prop - aside * right}) {
         SignPose pose{place, angle};
-        glide_inside(room, ahead, phase, pose);
+        glide_inside(area, ahead, phase, pose);
         if (clear_of(shadow, corners_of(Sign::Arrow, pose))) {
             return pose;
         }
@@ -207,11 +207,11 @@ std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ah
     return std::nullopt;
 }
 
-bool inside(std::span<const glm::dvec2> room, const std::array<glm::dvec2, 4>& corners) {
-    for (std::size_t k = 0; k < room.size(); ++k) {
-        const glm::dvec2 edge = room[(k + 1) % room.size()] - room[k];
+bool inside(std::span<const glm::dvec2> area, const std::array<glm::dvec2, 4>& corners) {
+    for (std::size_t k = 0; k < area.size(); ++k) {
+        const glm::dvec2 edge = area[(k + 1) % area.size()] - area[k];
         for (const glm::dvec2& corner : corners) {
-            if (edge.x * (corner.y - room[k].y) - edge.y * (corner.x - room[k].x) < 0.0) {
+            if (edge.x * (corner.y - area[k].y) - edge.y * (corner.x - area[k].x) < 0.0) {
                 return false;
             }
         }
@@ -221,7 +221,7 @@ bool inside(std::span<const glm::dvec2> room, const std::array<glm::dvec2, 4>& c
 
 /// The place of an arc around the shadow, on the reader's side if there is room.
 std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise, double phase,
-                                  const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                  const typography::TablePolygon& shadow, std::span<const glm::dvec2> area,
                                   double readers_angle) {
     double radius = 0.0;
     for (const glm::dvec2& corner : shadow.corners()) {
@@ -233,7 +233,7 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
             .origin_m = prop, .angle = readers_angle + side, .scale = scale, .mirrored = !counter_clockwise};
         pose.angle += (counter_clockwise ? swing_rad : -swing_rad) * (phase - 0.5);
         const auto corners = corners_of(Sign::Turn, pose);
-        if (inside(room, corners) && clear_of(shadow, corners)) {
+        if (inside(area, corners) && clear_of(shadow, corners)) {
             return pose;
         }
     }
@@ -242,11 +242,11 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
 
 /// The place of an icon: beside the prop; with a way, where the prop should stand.
 std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm::dvec2& way,
-                                   const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                   const typography::TablePolygon& shadow, std::span<const glm::dvec2> area,
                                    double readers_angle) {
     if (way != glm::dvec2(0.0)) {
         SignPose pose{prop + way, readers_angle};
-        pull_inside(room, sign, pose);
+        pull_inside(area, sign, pose);
         if (clear_of(shadow, corners_of(sign, pose))) {
             return pose;
         }
@@ -255,7 +255,7 @@ std::optional<SignPose> place_icon(Sign sign, const glm::dvec2& prop, const glm:
         const glm::dvec2 ahead(std::sin(readers_angle + side), -std::cos(readers_angle + side));
         const double away = reach(shadow.corners(), prop, ahead) + gap_m + 0.5 * glm::length(icon_size_m);
         SignPose pose{prop + ahead * away, readers_angle};
-        pull_inside(room, sign, pose);
+        pull_inside(area, sign, pose);
         if (clear_of(shadow, corners_of(sign, pose))) {
             return pose;
         }
@@ -308,11 +308,11 @@ image::Image<std::uint8_t> sign_picture(Sign sign, double texels_per_m) {
 }
 
 std::optional<PlacedSign> place_sign(const guidance::Guidance& guidance, MonotonicTime now,
-                                     const typography::TablePolygon& shadow, std::span<const glm::dvec2> room,
+                                     const typography::TablePolygon& shadow, std::span<const glm::dvec2> area,
                                      int quarter_turns) {
     const guidance::Move& move = guidance.move;
     if (guidance.stage == guidance::GuidanceStage::Quiet || move.action == guidance::Action::Wait ||
-        room.empty()) {
+        area.empty()) {
         return std::nullopt;
     }
     const double since_s = to_seconds(now - guidance.since);
@@ -324,16 +324,16 @@ std::optional<PlacedSign> place_sign(const guidance::Guidance& guidance, Monoton
     if (move.action == guidance::Action::ComeRound) {
         const glm::dvec2 ahead = way_round(guidance);
         pose = SignPose{glm::dvec2(guidance.tracked_state.eye_m), std::atan2(ahead.y, ahead.x)};
-        glide_inside(room, ahead, phase, *pose);
+        glide_inside(area, ahead, phase, *pose);
         if (!clear_of(shadow, corners_of(sign, *pose))) {
             pose.reset();
         }
     } else if (sign == Sign::Arrow) {
-        pose = place_arrow(prop, glm::normalize(glm::dvec2(move.by_m)), phase, shadow, room);
+        pose = place_arrow(prop, glm::normalize(glm::dvec2(move.by_m)), phase, shadow, area);
     } else if (sign == Sign::Turn) {
-        pose = place_arc(prop, move.turn_rad > 0.0, phase, shadow, room, readers_angle);
+        pose = place_arc(prop, move.turn_rad > 0.0, phase, shadow, area, readers_angle);
     } else {
-        pose = place_icon(sign, prop, glm::dvec2(move.by_m), shadow, room, readers_angle);
+        pose = place_icon(sign, prop, glm::dvec2(move.by_m), shadow, area, readers_angle);
     }
     if (!pose) {
         return std::nullopt;

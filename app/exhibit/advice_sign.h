@@ -34,10 +34,10 @@ struct PlacedSign {
     [[nodiscard]] bool operator==(const PlacedSign&) const = default;
 };
 
-/// `shadow`: hidden_by_prop from the lens. `room`: the part of the table that the projector's picture covers, convex,
+/// `shadow`: hidden_by_prop from the lens. `area`: the part of the table that the projector's picture covers, convex,
 /// counter-clockwise. `quarter_turns`: the reader's side.
 [[nodiscard]] std::optional<PlacedSign> place_sign(const guidance::Guidance& guidance, MonotonicTime now,
                                                    const typography::TablePolygon& shadow,
-                                                   std::span<const glm::dvec2> room, int quarter_turns);
+                                                   std::span<const glm::dvec2> area, int quarter_turns);
 
 } // namespace frustumscreen::exhibit

@@ -9,8 +9,8 @@ namespace frustumscreen::exhibit {
 
 enum class ArtifactState : std::uint8_t {
     Ready,
-    Away,    ///< loaded on request
-    LeftOut, ///< cannot be shown, is not offered
+    Away,     ///< loaded on request
+    Unusable, ///< cannot be shown, is not offered
 };
 
 } // namespace frustumscreen::exhibit

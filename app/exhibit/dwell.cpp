@@ -42,9 +42,9 @@ DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_
                          std::span<const typography::TableRectangle> pictures, bool at_once) {
     const bool followed = at_m && last_ && now - *last_ < longest_gap;
     // On a picture's edge a trembling hand alternates between on and off the picture.
-    const bool rests = followed && rest_ && rest_->place < pictures.size() &&
-                       holds(pictures[rest_->place], *at_m, leaving_m) &&
-                       glm::distance(*at_m, rest_->anchor_m) < resting_m;
+    const bool rests = followed && filling_ && filling_->place < pictures.size() &&
+                       holds(pictures[filling_->place], *at_m, leaving_m) &&
+                       glm::distance(*at_m, filling_->anchor_m) < resting_m;
     if (!rests) {
         stop(now);
     }
@@ -56,27 +56,27 @@ DwellState Dwell::update(MonotonicTime now, const std::optional<glm::dvec2>& at_
     if (chosen_ && !holds(*chosen_, *at_m, leaving_m)) {
         chosen_.reset();
     }
-    if (!rest_ && !chosen_) {
+    if (!filling_ && !chosen_) {
         if (const std::optional<std::size_t> place = find(pictures, *at_m)) {
-            rest_ = Rest{.place = *place, .since = now, .anchor_m = *at_m};
+            filling_ = Ring{.place = *place, .since = now, .anchor_m = *at_m};
         }
     }
-    if (rest_ && !rest_->settled && now - rest_->since >= settles) {
-        rest_->settled = true;
-        rest_->anchor_m = *at_m;
+    if (filling_ && !filling_->settled && now - filling_->since >= settles) {
+        filling_->settled = true;
+        filling_->anchor_m = *at_m;
         left_.reset();
     }
     DwellState state = ring(now);
-    if (rest_ && (state.full >= 1.0 || (at_once && rest_->settled))) {
-        state.chosen = rest_->place;
-        chosen_ = pictures[rest_->place];
-        rest_.reset();
+    if (filling_ && (state.full >= 1.0 || (at_once && filling_->settled))) {
+        state.chosen = filling_->place;
+        chosen_ = pictures[filling_->place];
+        filling_.reset();
     }
     return state;
 }
 
 void Dwell::pictures_changed(std::span<const typography::TableRectangle> pictures) {
-    rest_.reset();
+    filling_.reset();
     left_.reset();
     chosen_.reset();
     if (const std::optional<std::size_t> on = last_ ? find(pictures, last_m_) : std::nullopt) {
@@ -84,21 +84,21 @@ void Dwell::pictures_changed(std::span<const typography::TableRectangle> picture
     }
 }
 
-double Dwell::Rest::full(MonotonicTime now) const {
+double Dwell::Ring::full(MonotonicTime now) const {
     return settled ? geometry::ramp(to_seconds(now - since - settles), to_seconds(fills)) : 0.0;
 }
 
 /// Empties a filling ring from its current share.
 void Dwell::stop(MonotonicTime now) {
-    if (rest_ && rest_->settled) {
-        left_ = Left{rest_->place, now, rest_->full(now)};
+    if (filling_ && filling_->settled) {
+        left_ = Left{filling_->place, now, filling_->full(now)};
     }
-    rest_.reset();
+    filling_.reset();
 }
 
 DwellState Dwell::ring(MonotonicTime now) const {
-    if (rest_ && rest_->settled) {
-        return {rest_->place, rest_->full(now), std::nullopt};
+    if (filling_ && filling_->settled) {
+        return {filling_->place, filling_->full(now), std::nullopt};
     }
     const double full = left_ ? left_->full - to_seconds(now - left_->at) / to_seconds(empties) : 0.0;
     return full > 0.0 ? DwellState{left_->place, full, std::nullopt} : DwellState{};

@@ -62,7 +62,7 @@ private:
     void stop(MonotonicTime now);
     [[nodiscard]] DwellState ring(MonotonicTime now) const;
 
-    struct Rest {
+    struct Ring {
         std::size_t place = 0;
         MonotonicTime since;
         glm::dvec2 anchor_m{0.0}; ///< the prop keeps close to this
@@ -77,7 +77,7 @@ private:
 
     std::optional<MonotonicTime> last_; ///< when the prop was last seen on the table
     glm::dvec2 last_m_{0.0};            ///< and where
-    std::optional<Rest> rest_;
+    std::optional<Ring> filling_;
     std::optional<Left> left_;                         ///< the ring that empties
     std::optional<typography::TableRectangle> chosen_; ///< until the prop has left it
 };

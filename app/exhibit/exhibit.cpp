@@ -7,7 +7,7 @@ namespace frustumscreen::exhibit {
 
 Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language,
                  MonotonicTime now)
-    : place_(place), house_language_(language), catalogue_(std::move(catalogue)),
+    : place_(place), first_language_(language), catalogue_(std::move(catalogue)),
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
       next_turn_(now + turn_time), table_(lay_out_catalogue(catalogue_.all(), place)),
       caption_(place.picture_m), labels_(place.picture_m), guide_(place.guidance),
@@ -29,19 +29,19 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
         take(command, now);
     }
     staff_.step(now);
-    if (!attract_) {
-        attract_.emplace(place_.attract_place_m, tracked_state.prop_known, now);
+    if (!idle_pose_) {
+        idle_pose_.emplace(place_.attract_place_m, tracked_state.prop_known, now);
     }
-    const Stand stand =
-        attract_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
+    const DrawnPose drawn =
+        idle_pose_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
     side_.update(tracked_state.eye_m);
-    go_to(state_after(state_, observe(now, tracked_state, stand)));
+    go_to(state_after(state_, observe(now, tracked_state, drawn)));
     set_change_.step(now, moment_for_set(now));
     if (state_ == State::Attract && now >= next_turn_ && !leaves_set()) {
         selection_.choose(selection_.next(), now);
         next_turn_ = now + turn_time;
     }
-    return present(now, tracked_state, stand, pressed);
+    return present(now, tracked_state, drawn, pressed);
 }
 
 void Exhibit::offer_what_can_be_shown(MonotonicTime now) {
@@ -103,26 +103,26 @@ void Exhibit::rest(MonotonicTime now) {
 }
 
 Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                          const Stand& stand) {
+                          const DrawnPose& drawn) {
     Observed seen;
     seen.nothing_to_show = !catalogue_.offers_something();
-    seen.tracker_lost = attract_->lost();
-    step_table(now, tracked_state, stand, seen);
-    step_guide(now, tracked_state, stand);
+    seen.tracker_lost = idle_pose_->lost();
+    step_table(now, tracked_state, drawn, seen);
+    step_guide(now, tracked_state, drawn);
     seen.narration_sequencer = tells();
     seen.advice_due = guide_.guidance() != nullptr;
     return seen;
 }
 
 /// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
-void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
-                         Observed& seen) {
+void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                         const DrawnPose& drawn, Observed& seen) {
     if (!table_) {
         return;
     }
     TableBrowser::Input input{.artifact = selection_.artifact(),
                               .quarter_turns = side_.quarter_turns(),
-                              .shadow = stand_hides(place_.prop, stand, place_.lens_m),
+                              .shadow = area_hidden_by(place_.prop, drawn, place_.lens_m),
                               .prop_m = std::nullopt,
                               .choose = presses_.choose(),
                               .sign = std::nullopt};
@@ -146,13 +146,14 @@ void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracke
 }
 
 /// A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
-void Exhibit::step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand) {
+void Exhibit::step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state,
+                         const DrawnPose& drawn) {
     const bool help = presses_.help();
     const bool narrates = state_ == State::Browse || state_ == State::Describe;
     guide_.step(now, {.tracked_state = tracked_state,
-                      .stand = stand,
+                      .drawn = drawn,
                       .presence = presence_,
-                      .lost = attract_->lost(),
+                      .lost = idle_pose_->lost(),
                       .permitted = state_ != State::Attract && state_ != State::Staff,
                       .help = help,
                       .may_speak = (!advice_.speaking() && !narrates) || (help && tells()),

@@ -21,9 +21,9 @@
 #include "app/exhibit/advice_presenter.h"
 #include "app/exhibit/artifact_caption.h"
 #include "app/exhibit/artifact_state.h"
-#include "app/exhibit/attract.h"
 #include "app/exhibit/catalogue.h"
 #include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/idle_pose.h"
 #include "app/exhibit/narrator.h"
 #include "app/exhibit/placeholder.h"
 #include "app/exhibit/presence.h"
@@ -113,10 +113,10 @@ private:
     /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
     [[nodiscard]] Observed observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                                   const Stand& stand);
-    void step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
+                                   const DrawnPose& drawn);
+    void step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
                     Observed& seen);
-    void step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand);
+    void step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn);
     /// True while something of the artifact is being told.
     [[nodiscard]] bool tells() const;
 
@@ -130,42 +130,44 @@ private:
     /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.all().empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                                       const Stand& stand, bool pressed);
+                                       const DrawnPose& drawn, bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;
-    [[nodiscard]] Placeholder::Output placeholder(MonotonicTime now, const Shown& shown, const Stand& stand);
+    [[nodiscard]] Placeholder::Output placeholder(MonotonicTime now, const Shown& shown,
+                                                  const DrawnPose& drawn);
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const tracking::TrackedState& tracked_state,
-                                                          const Stand& stand);
+                                                          const DrawnPose& drawn);
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
                                                         const tracking::TrackedState& tracked_state,
-                                                        const Stand& stand, const Presentation& presentation);
+                                                        const DrawnPose& drawn,
+                                                        const Presentation& presentation);
     [[nodiscard]] std::optional<WordIndex> word() const;
-    void advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
+    void advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
                 Presentation& presentation);
     void tell(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
-              const Stand& stand, bool pressed, Presentation& presentation);
+              const DrawnPose& drawn, bool pressed, Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
-    // What there is to show.
+    // The sets and artifacts.
     ExhibitPlace place_;
-    std::string house_language_;
+    std::string first_language_;
     ShownCatalogue catalogue_;
     SetChange set_change_;
     bool waits_ = false; ///< the artifact was not ready in the latest step
 
-    // What the visitor does.
+    // The visitor.
     Presses presses_;
     Selection selection_;
     Presence presence_;
-    typography::VisitorSide side_;   ///< the texts on the table are turned to this side
-    std::optional<Attract> attract_; ///< from the first step on
+    typography::VisitorSide side_;      ///< the texts on the table are turned to this side
+    std::optional<IdlePose> idle_pose_; ///< from the first step on
     StaffTool staff_;
 
     State state_ = State::Attract;
     State state_before_ = State::Attract;
     MonotonicTime next_turn_; ///< when the next artifact comes, in State::Attract
 
-    // What is shown and said.
+    // The presentation.
     Placeholder placeholder_;
     std::optional<TableBrowser> table_;
     ArtifactCaption caption_;

@@ -52,10 +52,10 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
 Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> table,
                             std::vector<AdviceLanguage> words, std::size_t artifact, MonotonicTime now) {
     // Without a chosen language the house's applies, and another set may have a nearer one.
-    const std::string chosen = selection_.is_at_first_language() ? house_language_ : selection_.language();
+    const std::string chosen = selection_.is_at_first_language() ? first_language_ : selection_.language();
     guide_.drop_artifact();
     Catalogue before = catalogue_.exchange(std::move(catalogue));
-    selection_ = make_selection(catalogue_.all(), house_language_, now);
+    selection_ = make_selection(catalogue_.all(), first_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_.all());
     selection_.begin_with(artifact, languages.empty() ? chosen : languages[caption_for(chosen, languages)],
                           now);

@@ -9,39 +9,39 @@
 namespace frustumscreen::exhibit {
 
 Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                              const Stand& stand, bool pressed) {
+                              const DrawnPose& drawn, bool pressed) {
     const Shown shown = selection_.at(now);
     Presentation presentation;
     presentation.state = state_;
     presentation.state_before = state_before_;
     presentation.artifact = shown.artifact;
-    const Placeholder::Output comes = placeholder(now, shown, stand);
-    presentation.brightness = comes.brightness * stand.brightness;
+    const Placeholder::Output comes = placeholder(now, shown, drawn);
+    presentation.brightness = comes.brightness * drawn.brightness;
     presentation.placeholder = comes.picture;
     presentation.wanted = wanted();
     presentation.wanted_language = selection_.language();
     presentation.language = catalogue_.language(shown.artifact, selection_.language());
-    advise(now, tracked_state, stand, presentation);
-    tell(now, tracked_state, shown, stand, pressed, presentation);
-    presentation.caption = caption(now, shown, tracked_state, stand);
+    advise(now, tracked_state, drawn, presentation);
+    tell(now, tracked_state, shown, drawn, pressed, presentation);
+    presentation.caption = caption(now, shown, tracked_state, drawn);
     if (presentation.caption && presentation.advice) {
         // Only one text at a time, so that the two do not overlap.
         presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
-    presentation.hotspot = label(now, shown, tracked_state, stand, presentation);
+    presentation.hotspot = label(now, shown, tracked_state, drawn, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
     // Table pictures invite the prop out of the zone, and the zone's frame would cross them.
-    const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
+    const bool framed = !drawn.attracts && !(table_ && table_->presented().count > 0);
     const ZoneFrame& zone = catalogue_.zone(shown.artifact, place_.zone);
     presentation.zone_sides = zone.sides();
-    presentation.zone_share = framed ? zone.share(stand.table_from_prop) * stand.brightness : 0.0;
-    presentation.table_from_prop = stand.table_from_prop;
-    presentation.attracts = stand.attracts;
+    presentation.zone_share = framed ? zone.share(drawn.table_from_prop) * drawn.brightness : 0.0;
+    presentation.table_from_prop = drawn.table_from_prop;
+    presentation.attracts = drawn.attracts;
     const double opacity = caption_.opacity(now);
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
+    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !drawn.changing &&
                            !comes.waits && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
     waits_ = comes.waits;
     dim_what_leaves(now, presentation);
@@ -90,7 +90,7 @@ typography::TableRectangle place_in(const geometry::PropShape& prop,
 
 } // namespace
 
-Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, const Stand& stand) {
+Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, const DrawnPose& drawn) {
     if (catalogue_.all().empty()) {
         return {0.0, std::nullopt, false};
     }
@@ -100,7 +100,7 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
                              .shown_ready = catalogue_.ready(shown.artifact),
                              .chosen_ready = catalogue_.ready(chosen),
                              .from = std::nullopt,
-                             .to = place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
+                             .to = place_in(place_.prop, drawn.table_from_prop, side_.quarter_turns())};
     if (table_) {
         for (const PlacedPicture& picture : table_->presented().pictures()) {
             if (picture.artifact == chosen) {
@@ -113,14 +113,14 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
         return {0.0, std::nullopt, false};
     }
     if (comes.picture) {
-        comes.picture->brightness *= stand.brightness;
+        comes.picture->brightness *= drawn.brightness;
     }
     return comes;
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
                                                  const tracking::TrackedState& tracked_state,
-                                                 const Stand& stand) {
+                                                 const DrawnPose& drawn) {
     const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
@@ -129,15 +129,15 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
         now, {.entry = *entry,
               .language = caption_for(shown.language, entry->languages),
               .text = narrator_.text(),
-              .light = shown.caption_brightness * stand.brightness,
-              .environment = environment_of(place_, stand, tracked_state.eye_m, side_.quarter_turns())});
+              .light = shown.caption_brightness * drawn.brightness,
+              .environment = environment_of(place_, drawn, tracked_state.eye_m, side_.quarter_turns())});
 }
 
 /// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
 /// priority.
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
                                                const tracking::TrackedState& tracked_state,
-                                               const Stand& stand, const Presentation& presentation) {
+                                               const DrawnPose& drawn, const Presentation& presentation) {
     const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
@@ -155,11 +155,11 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     return labels_.step(
         now, {.set = &entry->hotspots,
               .artifact = shown.artifact,
-              .hotspot = stand.attracts ? std::nullopt : presentation.tells_of,
+              .hotspot = drawn.attracts ? std::nullopt : presentation.tells_of,
               .language = caption_for(shown.language, entry->languages),
-              .brightness = shown.caption_brightness * stand.brightness * (1.0 - advised),
+              .brightness = shown.caption_brightness * drawn.brightness * (1.0 - advised),
               .prop = &place_.prop,
-              .table_from_prop = stand.table_from_prop,
+              .table_from_prop = drawn.table_from_prop,
               .eye_m = tracked_state.eye_m,
               .lens_m = place_.lens_m,
               .obstacles = std::span(obstacles).first(count),
@@ -168,13 +168,13 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
 }
 
 void Exhibit::tell(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
-                   const Stand& stand, bool pressed, Presentation& presentation) {
+                   const DrawnPose& drawn, bool pressed, Presentation& presentation) {
     NarratorInput input;
     input.subject = catalogue_.description(selection_.artifact(), selection_.language());
     input.visible = catalogue_.description(shown.artifact, shown.language);
     input.tellable = note_of(state_).artifact && !leaves_set() ? catalogue_.tellable(input.subject) : nullptr;
-    input.fades = shown.changing || stand.changing || leaves_set();
-    input.attracts = stand.attracts;
+    input.fades = shown.changing || drawn.changing || leaves_set();
+    input.attracts = drawn.attracts;
     input.there = presence_.is_there() && state_ != State::Attract;
     input.pressed = pressed;
     input.next = presses_.choose();
@@ -219,14 +219,14 @@ std::optional<WordIndex> Exhibit::word() const {
     return std::nullopt;
 }
 
-void Exhibit::advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const Stand& stand,
+void Exhibit::advise(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
                      Presentation& presentation) {
     const guidance::Guidance* const guidance = guide_.guidance();
     const AdvicePresenter::Output advice = advice_.step(now, {.note = note_of(state_),
                                                               .guidance = guidance,
                                                               .word = word(),
                                                               .place = place_,
-                                                              .stand = stand,
+                                                              .drawn = drawn,
                                                               .eye_m = tracked_state.eye_m,
                                                               .quarter_turns = side_.quarter_turns()});
     presentation.sign = advice_.sign();

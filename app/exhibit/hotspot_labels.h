@@ -59,7 +59,7 @@ class HotspotLabels {
 public:
     static constexpr Nanoseconds each_way = std::chrono::milliseconds(200); ///< fade out, or fade in
 
-    explicit HotspotLabels(std::span<const glm::dvec2> room) : placer_(room) {}
+    explicit HotspotLabels(std::span<const glm::dvec2> area) : placer_(area) {}
 
     struct Input {
         const HotspotSet* set = nullptr; ///< of the artifact that is shown

@@ -1,4 +1,4 @@
-/// What the exhibit shows in one step, as plain values: the code that draws, lights lamps or speaks needs nothing else.
+/// The exhibit's output of one step, as plain values: the code that draws, lights lamps or speaks needs nothing else.
 ///
 /// Frames   table T, metres.
 /// Threads  values; any.

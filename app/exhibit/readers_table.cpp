@@ -22,8 +22,8 @@ ReadersTable::ReadersTable(const TableSetUp& set_up, int quarter_turns)
     }
     const settings::Rectangle inside =
         picture.size() >= 3 ? settings::rectangle_inside(picture) : settings::Rectangle{};
-    room = {inside.centre_m, inside.half_m - border_m};
-    usable = room.half.x > 0.0 && room.half.y > 0.0 && !set_up.prop.corners.empty();
+    inner = {inside.centre_m, inside.half_m - border_m};
+    usable = inner.half.x > 0.0 && inner.half.y > 0.0 && !set_up.prop.corners.empty();
     const glm::dvec2 lens = typography::turned(glm::dvec2(set_up.lens_m), -quarter_turns);
     reach.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < direction_count; ++k) {

@@ -2,7 +2,7 @@
 ///
 /// Frames   the reader's: table T turned by quarter turns about its origin; metres.
 /// Threads  pure; any.
-/// Errors   none: a table without usable room is not `usable`.
+/// Errors   none: a table without usable area is not `usable`.
 #pragma once
 
 #include "app/exhibit/table_layout.h"
@@ -37,11 +37,11 @@ struct ReadersTable {
         return at.y > home.y && std::abs(at.x - home.x) < home_radius;
     }
 
-    TableArea room; ///< `border_m` inside the picture's edge
+    TableArea inner; ///< `border_m` inside the picture's edge
     glm::dvec2 home{0.0};
     double home_radius = 0.0;
     double hidden_around_home = 0.0; ///< in every direction
-    bool usable = false;             ///< there is room, and the lens is above the prop
+    bool usable = false;             ///< the inner area is not empty, and the lens is above the prop
     std::array<glm::dvec2, direction_count> directions{};
     std::array<double, direction_count> reach{};
 };

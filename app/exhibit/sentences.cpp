@@ -29,8 +29,8 @@ std::optional<WordIndex> Sentences::find(std::string_view key, std::string_view 
 
 bool Sentences::shows(MonotonicTime now, const WordIndex& word) const {
     const typography::CaptionPlace place = placer_.at(now);
-    const bool has_room = place.rectangle.size_m.x > 0.0;
-    return lies_ == word && has_room && (place.opacity > 0.0 || now - appears_ < leaves);
+    const bool has_space = place.rectangle.size_m.x > 0.0;
+    return lies_ == word && has_space && (place.opacity > 0.0 || now - appears_ < leaves);
 }
 
 std::optional<PresentedAdvice> Sentences::place(MonotonicTime now, const std::optional<WordIndex>& wanted,

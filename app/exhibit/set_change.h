@@ -18,7 +18,7 @@ public:
     static constexpr Nanoseconds longest_wait = std::chrono::seconds(20);
 
     enum class Moment : std::uint8_t {
-        Fits,  ///< nobody is disturbed
+        Fits,  ///< no visitor is disturbed
         Busy,  ///< a visitor is told something, or chooses: the set waits for at most longest_wait
         NotYet ///< something else has to end first
     };
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] bool leaves() const { return leaves_since_.has_value(); }
     /// True if everything of this set is dark; it stays dark.
     [[nodiscard]] bool has_left() const { return left_; }
-    /// Of everything of this set: 0..1, a factor on linear light.
+    /// Brightness of the whole set: 0..1, a factor on linear light.
     [[nodiscard]] double share(MonotonicTime now) const;
 
 private:

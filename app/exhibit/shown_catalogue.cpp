@@ -36,7 +36,7 @@ void ShownCatalogue::note_triangles(std::size_t artifact, ArtifactTriangles tria
 
 std::optional<ShownCatalogue::Offer> ShownCatalogue::next_offer() {
     for (std::size_t artifact = 0; artifact < states_.size(); ++artifact) {
-        const bool offered = states_[artifact] != ArtifactState::LeftOut;
+        const bool offered = states_[artifact] != ArtifactState::Unusable;
         if (offered != offered_[artifact]) {
             offered_[artifact] = offered;
             return Offer{artifact, offered};

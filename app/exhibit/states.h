@@ -56,20 +56,20 @@ struct StateNote {
 };
 inline constexpr std::array<StateNote, state_count> state_notes{{
     {State::Attract, "attract", true, false, Words::Invitation, false,
-     "nobody is there: the artifacts in turn, a line that invites; silent"},
+     "no visitor is present: the artifacts in turn and an inviting line; silent"},
     {State::View, "view", true, false, Words::None, false, "the artifact in the prop, and its caption"},
     {State::Browse, "browse", true, false, Words::None, false,
-     "the same; the ring of the picture that the prop rests on"},
+     "as view, with the ring of the picture that the prop rests on"},
     {State::Guide, "guide", true, true, Words::Advice, true,
-     "the same; what to do, as a sign, in words, aloud"},
+     "as view, with advice as a sign, in words and aloud"},
     {State::Describe, "describe", true, true, Words::NarrationSequencer, true,
-     "the same; what is told of the artifact, in words and aloud; signs"},
+     "as view, with narration in words and aloud, and signs"},
     {State::Degraded, "degraded", true, false, Words::Advice, true,
-     "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
+     "the prop's pose is unknown: the artifact turns at its idle place; advice in words and aloud"},
     {State::Fault, "fault", false, false, Words::Fault, false,
-     "no artifact can be shown: words that say so; silent"},
+     "no artifact can be shown: a text says so; silent"},
     {State::Staff, "staff", false, false, Words::None, false,
-     "the staff's picture, with pages; a test tone where they ask for it"},
+     "the pages of the staff picture; a test tone on request"},
 }};
 
 struct EventNote {
@@ -78,9 +78,9 @@ struct EventNote {
     std::string_view when;
 };
 inline constexpr std::array<EventNote, event_count> event_notes{{
-    {Event::Rest, "rest", "nobody has been there for `exhibit.rest_s`; in staff: its time is over"},
+    {Event::Rest, "rest", "no visitor for `exhibit.rest_s`; in staff: its time is over"},
     {Event::VisitorComes, "visitor comes",
-     "prop or head has moved, or something was pressed or told, since then"},
+     "prop or head has moved, a button was pressed, or narration ran, since then"},
     {Event::Chord, "chord", "the staff's two buttons were held"},
     {Event::Press, "press", "a button was pressed"},
     {Event::NothingToShow, "nothing to show", "no artifact can be shown"},
@@ -93,7 +93,7 @@ inline constexpr std::array<EventNote, event_count> event_notes{{
     {Event::NarrationBegins, "telling begins", "something of the artifact is being told"},
     {Event::NarrationEnds, "telling ends", "nothing is"},
     {Event::AdviceDue, "advice due", "a face is dark, the head is lost or metal is near"},
-    {Event::AdviceOver, "advice over", "nothing is to be mended, or nobody is there to do it"},
+    {Event::AdviceOver, "advice over", "the advice was followed, or no visitor is left"},
 }};
 
 struct Transition {

@@ -24,14 +24,14 @@ constexpr double size_for_better_shape = 0.015;
 std::vector<TableArea> caption_areas(const ReadersTable& table, const glm::dvec2& caption) {
     std::vector<TableArea> areas;
     const glm::dvec2 half = 0.5 * (caption + caption_slack_m);
-    const glm::dvec2 way = table.room.half - half;
+    const glm::dvec2 way = table.inner.half - half;
     if (way.x < 0.0 || way.y < 0.0) {
         return areas;
     }
     for (const glm::dvec2& anchor :
          {glm::dvec2(0, -1), glm::dvec2(1, -1), glm::dvec2(-1, -1), glm::dvec2(1, 0), glm::dvec2(-1, 0),
           glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(0, 1)}) {
-        const TableArea area{table.room.centre + anchor * way, half};
+        const TableArea area{table.inner.centre + anchor * way, half};
         if (table.is_clear_of_home(area, caption_margin_m)) {
             areas.push_back(area);
         }
@@ -56,23 +56,23 @@ struct Candidate {
     std::optional<TableArea> caption;
 };
 
-Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, double penalty, double min_score) {
-    FoundByCount found = find_places(room, set_up, min_score + penalty);
+Candidate candidate_for(const PictureArea& area, const TableSetUp& set_up, double penalty, double min_score) {
+    FoundByCount found = find_places(area, set_up, min_score + penalty);
     std::size_t most = max_table_places;
     while (most > 0 && found[most].size <= 0.0) {
         --most;
     }
     if (most < 2) {
-        return {.shown = 0, .score = 0.0, .found = {}, .caption = room.caption};
+        return {.shown = 0, .score = 0.0, .found = {}, .caption = area.caption};
     }
     const std::size_t places = places_of_page(set_up.artifacts, most);
     const std::size_t shown = places - (places < set_up.artifacts ? 1 : 0);
     Candidate candidate{.shown = shown,
                         .score = found[places].value - penalty,
                         .found = std::move(found[places]),
-                        .caption = room.caption};
-    if (room.symmetric) {
-        come_nearer_to_prop(room, size_of_place(candidate.found.size, set_up.title_m),
+                        .caption = area.caption};
+    if (area.symmetric) {
+        come_nearer_to_prop(area, size_of_place(candidate.found.size, set_up.title_m),
                             candidate.found.middles);
     }
     return candidate;
@@ -99,7 +99,7 @@ Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bo
     return best.shown > 0 ? best : candidate_for({table, std::nullopt, symmetric}, set_up, 0.0, 0.0);
 }
 
-/// Symmetric, unless an asymmetric layout has room for far more.
+/// Symmetric, unless an asymmetric layout holds far more.
 Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up) {
     Candidate symmetric = best_candidate(table, set_up, true);
     const double many = worth_being_lopsided * static_cast<double>(symmetric.shown);

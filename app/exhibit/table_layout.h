@@ -1,6 +1,6 @@
 /// Layout of the set's artifacts on the table: small pictures with titles, to choose from.
 ///
-/// Every artifact has a place of its own. The place of the artifact in the prop stays empty, so that nothing else
+/// Every artifact has a place of its own. The place of the artifact in the prop stays empty, so nothing else
 /// moves when another one is chosen. If not all fit there are several pages, and the last place leads to the next
 /// page. Nothing lies at the prop's home, nor in the prop's shadow there at any yaw, and an area is left for the
 /// caption. The layout depends only on the set-up, the number of artifacts and the reader's side: nothing that moves

@@ -142,10 +142,10 @@ void keep_better(FoundByCount& found, const Lattice& lattice) {
 }
 
 /// The spans for rows: between the table's edges, or between the caption and an edge.
-std::vector<Span> row_spans(const PictureRoom& room) {
-    const ReadersTable& table = room.table;
-    const std::optional<TableArea>& caption = room.caption;
-    const Span whole{table.room.centre.y - table.room.half.y, table.room.centre.y + table.room.half.y};
+std::vector<Span> row_spans(const PictureArea& area) {
+    const ReadersTable& table = area.table;
+    const std::optional<TableArea>& caption = area.caption;
+    const Span whole{table.inner.centre.y - table.inner.half.y, table.inner.centre.y + table.inner.half.y};
     std::vector<Span> spans{whole};
     if (caption) {
         spans.push_back({caption->centre.y + caption->half.y + table_gap_m, whole.high});
@@ -154,28 +154,28 @@ std::vector<Span> row_spans(const PictureRoom& room) {
     return spans;
 }
 
-Span column_span(const PictureRoom& room) {
-    const ReadersTable& table = room.table;
-    const double half_on_both_sides = table.room.half.x - std::abs(table.home.x - table.room.centre.x);
-    return room.symmetric
+Span column_span(const PictureArea& area) {
+    const ReadersTable& table = area.table;
+    const double half_on_both_sides = table.inner.half.x - std::abs(table.home.x - table.inner.centre.x);
+    return area.symmetric
                ? Span{table.home.x - half_on_both_sides, table.home.x + half_on_both_sides}
-               : Span{table.room.centre.x - table.room.half.x, table.room.centre.x + table.room.half.x};
+               : Span{table.inner.centre.x - table.inner.half.x, table.inner.centre.x + table.inner.half.x};
 }
 
 /// Fills a lattice with its usable places; of a symmetric one, those whose mirror image is usable too.
-void fill(Lattice& lattice, const PictureRoom& room, const Lines& rows, const Lines& columns,
+void fill(Lattice& lattice, const PictureArea& area, const Lines& rows, const Lines& columns,
           const glm::dvec2& whole) {
-    const ReadersTable& table = room.table;
-    const glm::dvec2 reader(table.home.x, table.room.centre.y - table.room.half.y);
+    const ReadersTable& table = area.table;
+    const glm::dvec2 reader(table.home.x, table.inner.centre.y - table.inner.half.y);
     lattice.split = rows.split;
     lattice.pairs.clear();
     lattice.singles.clear();
     for (const double y : rows.middles) {
         for (const double x : columns.middles) {
             const glm::dvec2 at(x, y);
-            const bool is_pair = room.symmetric && std::abs(x - lattice.line) > rounding_m;
-            if ((is_pair && x > lattice.line) || !room.holds({at, 0.5 * whole}) ||
-                (is_pair && !room.holds({{2.0 * lattice.line - x, y}, 0.5 * whole}))) {
+            const bool is_pair = area.symmetric && std::abs(x - lattice.line) > rounding_m;
+            if ((is_pair && x > lattice.line) || !area.holds({at, 0.5 * whole}) ||
+                (is_pair && !area.holds({{2.0 * lattice.line - x, y}, 0.5 * whole}))) {
                 continue;
             }
             const double behind = table.is_behind_prop(at) ? cost_behind_prop : 0.0;
@@ -190,7 +190,7 @@ void fill(Lattice& lattice, const PictureRoom& room, const Lines& rows, const Li
 
 } // namespace
 
-bool PictureRoom::holds(const TableArea& area) const {
+bool PictureArea::holds(const TableArea& area) const {
     return !(caption && area.overlaps(*caption, table_gap_m - rounding_m)) &&
            table.is_clear_of_home(area, home_margin_m);
 }
@@ -199,14 +199,14 @@ glm::dvec2 size_of_place(double picture, const glm::dvec2& title) {
     return {std::max(picture, title.x), picture + table_title_gap_m + title.y};
 }
 
-FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double min_size_m) {
+FoundByCount find_places(const PictureArea& area, const TableSetUp& set_up, double min_size_m) {
     FoundByCount found;
     const int steps =
         static_cast<int>(std::lround((max_table_picture_m - min_table_picture_m) / size_step_m));
-    const Span across = column_span(room);
+    const Span across = column_span(area);
     const std::size_t wanted = std::min(set_up.artifacts, max_table_places);
     Lattice lattice;
-    lattice.line = room.table.home.x;
+    lattice.line = area.table.home.x;
     for (int step = steps; step >= 0; --step) {
         lattice.size = min_table_picture_m + step * size_step_m;
         if (lattice.size < std::max(found[wanted].value + rounding_m, min_size_m)) {
@@ -214,10 +214,10 @@ FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, doub
         }
         const glm::dvec2 whole = size_of_place(lattice.size, set_up.title_m);
         const std::vector<Lines> columns = ways_to_line_up(across, 0.5 * (across.low + across.high), whole.x);
-        for (const Span& span : row_spans(room)) {
-            for (const Lines& rows : ways_to_line_up(span, room.table.home.y, whole.y)) {
+        for (const Span& span : row_spans(area)) {
+            for (const Lines& rows : ways_to_line_up(span, area.table.home.y, whole.y)) {
                 for (const Lines& each : columns) {
-                    fill(lattice, room, rows, each, whole);
+                    fill(lattice, area, rows, each, whole);
                     keep_better(found, lattice);
                 }
             }
@@ -226,15 +226,15 @@ FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, doub
     return found;
 }
 
-void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::vector<glm::dvec2>& middles) {
-    const double line = room.table.home.x;
+void come_nearer_to_prop(const PictureArea& area, const glm::dvec2& whole, std::vector<glm::dvec2>& middles) {
+    const double line = area.table.home.x;
     const auto nearer = [&](const glm::dvec2& at, double by) {
         return glm::dvec2(at.x + (at.x < line ? by : -by), at.y);
     };
     const auto holds = [&](double by) {
         return std::all_of(middles.begin(), middles.end(), [&](const glm::dvec2& at) {
-            const bool beside = std::abs(at.x - line) - by - 0.5 * whole.x > 0.5 * room.table.home_radius;
-            return beside && room.holds({nearer(at, by), 0.5 * whole});
+            const bool beside = std::abs(at.x - line) - by - 0.5 * whole.x > 0.5 * area.table.home_radius;
+            return beside && area.holds({nearer(at, by), 0.5 * whole});
         });
     };
     constexpr double step_m = 0.001;

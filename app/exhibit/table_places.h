@@ -21,7 +21,7 @@ inline constexpr double table_gap_m = 0.012;       ///< between neighbours
 inline constexpr double table_title_gap_m = 0.004; ///< between a picture and its title
 
 /// The area where pictures may lie: clear of the prop's home and of the caption.
-struct PictureRoom {
+struct PictureArea {
     const ReadersTable& table;
     std::optional<TableArea> caption;
     bool symmetric = true; ///< false: a place may be used without its mirror image
@@ -42,9 +42,9 @@ using FoundByCount = std::array<FoundPlaces, max_table_places + 1>;
 [[nodiscard]] glm::dvec2 size_of_place(double picture, const glm::dvec2& title);
 
 /// Finds the places for each number of pictures. Sizes below `min_size_m` are not tried.
-[[nodiscard]] FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double min_size_m);
+[[nodiscard]] FoundByCount find_places(const PictureArea& area, const TableSetUp& set_up, double min_size_m);
 
 /// Moves pictures on both sides of the prop to the middle between the prop and the edge.
-void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::vector<glm::dvec2>& middles);
+void come_nearer_to_prop(const PictureArea& area, const glm::dvec2& whole, std::vector<glm::dvec2>& middles);
 
 } // namespace frustumscreen::exhibit

@@ -15,19 +15,19 @@ const guidance::Guidance* VisitorGuide::guide(MonotonicTime now, const VisitorGu
     const guidance::Sensing sensing =
         sensed_.update(now, tracked_state, input.lost, input.presence.touched());
     const bool on_way = sensing == guidance::Sensing::Good && is_on_way_to_picture(now, input);
-    const bool can_be_guided = input.lost || (tracked_state.prop_known && !input.stand.attracts);
+    const bool can_be_guided = input.lost || (tracked_state.prop_known && !input.drawn.attracts);
     if (!guide_ || !input.presence.is_there() || !can_be_guided || !input.permitted) {
         return nullptr;
     }
     if (input.table != nullptr && input.table->prop_is_on_picture()) {
-        guide_->rest(now); // a prop that chooses a picture needs no advice
+        guide_->be_quiet(now); // a prop that chooses a picture needs no advice
         return nullptr;
     }
     guide_->show(input.hull);
     if (input.help) {
         guide_->ask();
     } else if (on_way) {
-        guide_->rest(now);
+        guide_->be_quiet(now);
         return nullptr;
     }
     const guidance::Guidance& guidance =

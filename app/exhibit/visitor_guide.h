@@ -5,7 +5,7 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/exhibit/attract.h"
+#include "app/exhibit/idle_pose.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/sensed.h"
 #include "app/exhibit/table_browser.h"
@@ -18,7 +18,7 @@ namespace frustumscreen::exhibit {
 
 struct VisitorGuideInput {
     const tracking::TrackedState& tracked_state;
-    const Stand& stand;
+    const DrawnPose& drawn;
     const Presence& presence;
     bool lost = false;                   ///< the prop's pose has been unknown for a while
     bool permitted = true;               ///< by the exhibit's state
@@ -34,7 +34,7 @@ public:
     explicit VisitorGuide(const std::optional<guidance::GuidanceSetup>& setup);
 
     void step(MonotonicTime now, const VisitorGuideInput& input);
-    /// Of the latest step; null: there is no visitor to guide, or nothing to correct.
+    /// The guidance of the latest step; null: there is no visitor to guide, or nothing to correct.
     [[nodiscard]] const guidance::Guidance* guidance() const { return guidance_; }
     /// True while advice for the visitor who asked for help is being searched.
     [[nodiscard]] bool answers() const { return answers_; }

@@ -109,10 +109,10 @@ public:
         }
         double scale = 1.0;
         for (const Face& face : faces_) {
-            const double room = face.offset - glm::dot(face.normal, middle);
+            const double distance = face.offset - glm::dot(face.normal, middle);
             for (const Face& with : faces_) {
                 for (const std::size_t point : with.outside) {
-                    scale = std::fmax(scale, (room + before(face, point)) / room);
+                    scale = std::fmax(scale, (distance + before(face, point)) / distance);
                 }
             }
         }

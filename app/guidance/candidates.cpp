@@ -90,17 +90,17 @@ void add_turns(std::span<const double> turns_deg, Candidates& candidates) {
 
 void add_heights(std::span<const double> heights_m, const GuidanceSetup& setup,
                  const GuidedState& tracked_state, Candidates& candidates) {
-    const double room_below_m = lowest_m(setup.prop, tracked_state.table_from_prop);
-    if (room_below_m > heights_m.front()) {
+    const double height_now_m = lowest_m(setup.prop, tracked_state.table_from_prop);
+    if (height_now_m > heights_m.front()) {
         Move move{Action::Lower};
-        move.by_m.z = -room_below_m;
-        candidates.add(move, 0.9 + room_below_m / 0.15);
+        move.by_m.z = -height_now_m;
+        candidates.add(move, 0.9 + height_now_m / 0.15);
     }
     for (const double height_m : heights_m) {
         Move move{Action::Raise};
         move.by_m.z = height_m;
         candidates.add(move, 1.0 + height_m / 0.15);
-        if (height_m <= room_below_m) {
+        if (height_m <= height_now_m) {
             move = {Action::Lower};
             move.by_m.z = -height_m;
             candidates.add(move, 0.9 + height_m / 0.15);

@@ -91,7 +91,7 @@ void Guide::raise_stage(MonotonicTime now, bool may_speak) {
     }
 }
 
-void Guide::rest(MonotonicTime now) {
+void Guide::be_quiet(MonotonicTime now) {
     guidance_ = {};
     asked_ = false;
     needed_for_ = Nanoseconds(0);
@@ -148,7 +148,7 @@ const Guidance& Guide::step(MonotonicTime now, const GuidedState& tracked_state,
     note_need(now, needed);
     if (!needed) {
         if (needed_for_ <= Nanoseconds(0)) {
-            rest(now);
+            be_quiet(now);
         }
         return guidance_;
     }

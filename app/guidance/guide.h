@@ -72,7 +72,7 @@ public:
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
     /// No advice is needed now, whatever the visitor sees; the next step starts a new search.
-    void rest(MonotonicTime now);
+    void be_quiet(MonotonicTime now);
     /// Call when a visitor asks for help: the next steps search for an advice and give it in all forms at once.
     void ask() { asked_ = true; }
     /// True while the answer to `ask` is being searched.

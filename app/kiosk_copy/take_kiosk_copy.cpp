@@ -28,7 +28,7 @@ tl::unexpected<library::ImportFailure> failed(library::ImportRefusal refusal, st
         library::ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = false});
 }
 
-/// What of a copy was new to the kiosk, in words.
+/// The parts of a copy that were new to the kiosk, in words.
 using News = std::vector<std::string>;
 
 Outcome<void> take_days(const KioskCopy& copy, const KioskFolders& kiosk, Today today, News& news) {

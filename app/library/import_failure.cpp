@@ -75,7 +75,7 @@ ImportFailure failure_of(const pack::PackRefusal& refusal) {
     return {.refusal = ImportRefusal::NotAPack, .reason = refusal.error.message, .whole = false};
 }
 
-ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin) {
+ImportFailure no_space(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
     return {.refusal = ImportRefusal::NoRoom,
             .reason = fmt::format(

@@ -34,7 +34,7 @@ template <typename T> using ImportResult = tl::expected<T, ImportFailure>;
 [[nodiscard]] ImportFailure failure_of(const pack::PackRefusal& refusal);
 [[nodiscard]] ImportFailure failure_of(const pack::SignatureRefusal& refusal);
 /// The packs need `wanted` bytes; `free` are left, of which `margin` must stay free.
-[[nodiscard]] ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin);
+[[nodiscard]] ImportFailure no_space(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin);
 /// The new set is shown, but may not be on the disk.
 [[nodiscard]] ImportFailure unsure_switch();
 [[nodiscard]] ImportFailure too_slow();

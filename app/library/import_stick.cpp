@@ -40,7 +40,7 @@ private:
     ImportResult<void> look();
     void weigh();
     [[nodiscard]] ImportResult<PlannedSet> plan() const;
-    ImportResult<void> look_for_room();
+    ImportResult<void> check_space();
     ImportResult<void> copy();
     ImportResult<void> read_verdict_again();
     ImportResult<void> switch_set();
@@ -104,7 +104,7 @@ ImportResult<PlannedSet> Import::plan() const {
                     contents_.exhibit ? std::optional(contents_.exhibit->file) : std::nullopt);
 }
 
-ImportResult<void> Import::look_for_room() {
+ImportResult<void> Import::check_space() {
     std::uint64_t wanted = 0;
     for (const StickPack& pack : contents_.packs) {
         wanted += pack.is_wanted() ? pack.pack.bytes : 0;
@@ -122,7 +122,7 @@ ImportResult<void> Import::look_for_room() {
     if (!free) {
         return failed(disk_failure(packs_folder_name, free.error()));
     }
-    return *free < needed ? failed(no_room(wanted, *free, request_.limits.margin_bytes))
+    return *free < needed ? failed(no_space(wanted, *free, request_.limits.margin_bytes))
                           : ImportResult<void>();
 }
 
@@ -199,7 +199,7 @@ ImportResult<void> Import::all() {
             weigh();
             return without_value(plan());
         })
-        .and_then([this] { return look_for_room(); })
+        .and_then([this] { return check_space(); })
         .and_then([this] { return copy(); })
         .and_then([this] { return read_verdict_again(); })
         .and_then([this] { return shows_another_ ? ImportResult<void>() : switch_set(); });

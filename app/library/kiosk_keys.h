@@ -28,7 +28,7 @@ public:
 
     /// True if a trusted key has a last day.
     [[nodiscard]] bool some_end() const;
-    /// What a signature is checked against today; valid until the keys change.
+    /// The keys that a signature is checked against today; valid until the keys change.
     [[nodiscard]] pack::PackTrust trust() const { return {trusted_, today(), request_.unsigned_packs}; }
     /// For the next set.txt.
     [[nodiscard]] const std::vector<CarriedKey>& carried() const { return carried_; }

@@ -70,7 +70,7 @@ Outcome<OwnSettings> read_own_settings(WritableTree& folder) {
     }
     if (!keys) {
         return failed(ImportRefusal::Unwritable, "the kiosk's own settings are damaged, so it does not know "
-                                                 "which keys to trust; write the image onto its disk anew");
+                                                 "which keys to trust; write the image onto its disk again");
     }
     own.keys = *std::move(keys);
     const FileResult<std::string> serial = read_text(folder, settings_serial_name, max_serial_bytes);

@@ -1,4 +1,4 @@
-/// Who signed the installed packs, and whether that key still counts.
+/// The signers of the installed packs, and whether their keys are still valid.
 ///
 /// An installed pack was checked when it was taken, and its file is named by its hash, so its signature is not
 /// checked again.

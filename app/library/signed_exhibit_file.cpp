@@ -18,7 +18,7 @@ tl::unexpected<ImportFailure> failed_whole(ImportFailure failure) {
     return tl::unexpected<ImportFailure>(std::move(failure));
 }
 
-/// Nothing: the file is unsigned, which is allowed.
+/// nullopt: the file is unsigned, which is allowed.
 tl::expected<std::optional<pack::Signer>, ImportFailure> signer_of(const SignedText& file,
                                                                    const pack::PackTrust& trust) {
     if (!file.signature && trust.unsigned_packs == pack::UnsignedPacks::Allow) {

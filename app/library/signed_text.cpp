@@ -67,11 +67,12 @@ tl::expected<pack::Signer, ImportFailure> signer_of(std::string_view name, const
 }
 
 ImportFailure lower_serial(std::string_view name, std::uint64_t serial, std::uint64_t latest) {
-    return {.refusal = ImportRefusal::Older,
-            .reason = fmt::format("{}: its serial {} is lower than that of the one that was taken last, {}; "
-                                  "sign it anew to go back to it",
-                                  name, serial, latest),
-            .whole = false};
+    return {
+        .refusal = ImportRefusal::Older,
+        .reason = fmt::format(
+            "{}: its serial {} is lower than {}, that of the last one taken; sign it again to go back to it",
+            name, serial, latest),
+        .whole = false};
 }
 
 } // namespace frustumscreen::library

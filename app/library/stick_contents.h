@@ -1,4 +1,4 @@
-/// What an import has found on a stick so far, and a line of the report for each of it.
+/// The files that an import has found on a stick so far, and a line of the report for each.
 ///
 /// Threads  values and pure functions; any.
 #pragma once

@@ -72,7 +72,7 @@ void weigh(StickPack& candidate, const InstalledSet& shown, const SetFile& known
                {.refusal = ImportRefusal::Older,
                 .reason = candidate.is_signed
                               ? fmt::format("it is older (serial {}) than one that was taken before (serial "
-                                            "{}); sign it anew to go back to it",
+                                            "{}); sign it again to go back to it",
                                             pack.serial, highest)
                               : "it is unsigned, and a signed one of the same id was taken before; sign it",
                 .whole = false});

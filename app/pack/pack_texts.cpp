@@ -166,7 +166,7 @@ std::string folder_of(std::string_view section, std::string language) {
 Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, Bytes>& parts,
                            Atlases atlases = Atlases::Read) {
     TRY(GlyphRuns runs, at(entry.glyphs, decode_glyph_runs(parts.at(entry.glyphs))));
-    if (atlases == Atlases::LeftOut) {
+    if (atlases == Atlases::NotRead) {
         return SetLanguage{entry.language, std::move(runs), {}};
     }
     static const Bytes none;

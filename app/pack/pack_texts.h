@@ -39,8 +39,8 @@ struct SpokenLanguage {
 void put_sounds(Pack& pack, std::span<const SpokenLanguage> languages);
 void put_set_texts(Pack& pack, std::span<const SetLanguage> languages);
 
-/// `LeftOut`: layout alone needs no pictures of the glyphs.
-enum class Atlases : std::uint8_t { Read, LeftOut };
+/// `NotRead`: layout alone needs no pictures of the glyphs.
+enum class Atlases : std::uint8_t { Read, NotRead };
 /// The languages that the pack has, of `languages`; parts of others are not read.
 [[nodiscard]] Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& file,
                                                               std::span<const std::string> languages,

@@ -117,14 +117,15 @@ private:
     }
 
     static constexpr std::size_t max_eights = 64;
-    static constexpr std::size_t room = (max_eights + 1) * lanes; ///< including an eight that is overwritten
+    static constexpr std::size_t capacity =
+        (max_eights + 1) * lanes; ///< including an eight that is overwritten
     std::size_t eights_ = 0;
-    std::array<float, room> u_, v_, nearness_;
-    std::array<std::int32_t, room> sample_;
-    std::array<std::uint32_t, room> place_;
+    std::array<float, capacity> u_, v_, nearness_;
+    std::array<std::int32_t, capacity> sample_;
+    std::array<std::uint32_t, capacity> place_;
     std::array<std::int32_t, max_eights + 1> row_;
     std::array<std::uint8_t, max_eights + 1> bits_; ///< which lanes are valid
-    std::array<std::uint16_t, room> list_;          ///< eight elements are written, however many are valid
+    std::array<std::uint16_t, capacity> list_;      ///< eight elements are written, however many are valid
 };
 
 FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixels) {
@@ -284,7 +285,7 @@ glm::vec2 sample_place(int k, int n) {
 
 } // namespace
 
-void RasterSamples::make_room(int width, int height, int count) {
+void RasterSamples::make_space(int width, int height, int count) {
     const std::size_t samples =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(count) +
         lanes;
@@ -296,7 +297,7 @@ void RasterSamples::make_room(int width, int height, int count) {
 }
 
 void RasterSamples::begin(const PixelRectangle& pixels, int count) {
-    make_room(pixels.width, pixels.height, count);
+    make_space(pixels.width, pixels.height, count);
     pixels_ = pixels;
     places_.clear();
     for (int k = 0; k < count; ++k) {

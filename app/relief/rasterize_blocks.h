@@ -29,7 +29,7 @@ public:
     static constexpr std::uint32_t most = 16; ///< a pixel
 
     /// Reserves memory: a later `begin` that needs no more allocates nothing.
-    void make_room(int width, int height, int count);
+    void make_space(int width, int height, int count);
     /// Resets to `count` samples a pixel, a power of two, without hits. Keeps its memory.
     void begin(const PixelRectangle& pixels, int count);
 

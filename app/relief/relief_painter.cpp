@@ -94,7 +94,7 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
     }
     list(relief, view);
     for (RasterSamples& each : samples_) { // any thread may get the widest band
-        each.make_room(view.lit.width, rows_of_band, samples);
+        each.make_space(view.lit.width, rows_of_band, samples);
     }
     const int bands = bands_of(view.lit);
     painted_.resize(static_cast<std::size_t>(bands) * strips_of_band);

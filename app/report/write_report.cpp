@@ -39,7 +39,7 @@ tl::unexpected<library::ImportFailure> failed(library::ImportRefusal refusal, st
         library::ImportFailure{.refusal = refusal, .reason = std::move(reason), .whole = false});
 }
 
-tl::unexpected<library::ImportFailure> no_room_on_stick(std::uint64_t needed) {
+tl::unexpected<library::ImportFailure> no_space_on_stick(std::uint64_t needed) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
     return failed(library::ImportRefusal::NoRoom,
                   fmt::format("the stick is full; {} MB are needed on it: make room, or take another stick",
@@ -50,7 +50,7 @@ tl::unexpected<library::ImportFailure> stick_refuses(FileFault fault, std::uint6
     switch (fault.number) {
     case ENOSPC:
     case EDQUOT:
-        return no_room_on_stick(needed);
+        return no_space_on_stick(needed);
     case EROFS:
     case EACCES:
     case EPERM:
@@ -128,7 +128,7 @@ tl::expected<void, library::ImportFailure> write_all(WritableTree& folder, std::
     return folder.sync_folder("").map_error(refused);
 }
 
-/// So that a full stick has its room again. It may fail: the stick may be gone.
+/// Frees the space on a full stick. It may fail, because the stick may be gone.
 void take_back(WritableTree& folder, std::span<const ReportFile> files, const CopiedFiles& large) {
     static_cast<void>(folder.remove(std::string(next_name)));
     for (const ReportFile& file : files) {
@@ -155,7 +155,7 @@ write_report(WritableTree& folder, std::span<const ReportFile> files, const Copi
                       "the folder for the report has files in it; a report goes into an empty one");
     }
     if (*free < needed) {
-        return no_room_on_stick(needed);
+        return no_space_on_stick(needed);
     }
     tl::expected<void, library::ImportFailure> written = write_all(folder, files, large, needed);
     if (!written) {

@@ -30,7 +30,7 @@ std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
 
 ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
     : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), exhibit::ArtifactState::Away),
-      left_out_(std::make_shared<const std::vector<library::PackLeftOut>>(set_up_.left_out)) {
+      left_out_(std::make_shared<const std::vector<library::UnshownPack>>(set_up_.left_out)) {
     const std::uint64_t texture_bytes = texture_bytes_of(first);
     for (std::size_t artifact = 0; artifact < size(); ++artifact) {
         const KnownArtifact& of = known(artifact);
@@ -297,9 +297,9 @@ void ArtifactCache::leave_out(std::size_t item, const std::string& reason) {
     records_[item].left_out = true;
     if (!items_[item].part) {
         const std::size_t artifact = items_[item].artifact;
-        states_[artifact] = exhibit::ArtifactState::LeftOut;
-        auto more = std::make_shared<std::vector<library::PackLeftOut>>(*left_out_);
-        more->push_back(library::pack_left_out(known(artifact).file.string(), reason));
+        states_[artifact] = exhibit::ArtifactState::Unusable;
+        auto more = std::make_shared<std::vector<library::UnshownPack>>(*left_out_);
+        more->push_back(library::unshown_pack(known(artifact).file.string(), reason));
         left_out_ = std::move(more);
     }
 }

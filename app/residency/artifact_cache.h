@@ -18,7 +18,7 @@
 #pragma once
 
 #include "app/exhibit/artifact_state.h"
-#include "app/library/pack_left_out.h"
+#include "app/library/unshown_pack.h"
 #include "app/pack/container/limits.h"
 #include "app/render/gpu_store.h"
 #include "app/residency/artifact_reader.h"
@@ -48,7 +48,7 @@ struct ArtifactCacheSetUp {
     bool waits = false; ///< `step` returns once loading is complete, so that a run of simulated time is
                         ///< repeatable
     std::string_view program = "frustumscreen";      ///< prefix of its lines on standard error
-    std::vector<library::PackLeftOut> left_out = {}; ///< left out before
+    std::vector<library::UnshownPack> left_out = {}; ///< left out before
 };
 
 /// The cache request: the shown artifact, and those that may be shown next.
@@ -101,7 +101,7 @@ public:
     [[nodiscard]] std::span<const exhibit::ArtifactState> states() const { return states_; }
     /// Includes those of the set-up. A list is immutable, so that another thread can report it; a change
     /// makes a new list.
-    [[nodiscard]] const library::PacksLeftOut& left_out() const { return left_out_; }
+    [[nodiscard]] const library::UnshownPacks& left_out() const { return left_out_; }
 
     [[nodiscard]] std::size_t ready() const;                 ///< artifacts that can be drawn at once
     [[nodiscard]] std::uint64_t bytes() const;               ///< of everything loaded or being uploaded
@@ -157,7 +157,7 @@ private:
     std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; null: not loaded
     std::vector<ResidentItem> records_;           ///< by item
     std::vector<exhibit::ArtifactState> states_;
-    library::PacksLeftOut left_out_;
+    library::UnshownPacks left_out_;
     std::optional<std::size_t> shown_;
     std::uint64_t shows_ = 0; ///< number of changes of the shown artifact
     bool steady_ = false;     ///< the latest step left nothing to do

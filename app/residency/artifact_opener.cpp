@@ -104,7 +104,7 @@ std::string after(const std::string& place, const std::string& what) {
 }
 
 /// The message must be complete by itself: the lines on standard error may not be visible to its reader.
-tl::unexpected<Error> nothing_to_show(const std::vector<library::PackLeftOut>& left_out,
+tl::unexpected<Error> nothing_to_show(const std::vector<library::UnshownPack>& left_out,
                                       const std::string& packs_key) {
     if (left_out.empty()) {
         return fail(ErrorKind::BadConfiguration, "show.no_pack_named",
@@ -135,7 +135,7 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
     all.left_out.reserve(packs.size());
     const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
         say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
-        all.left_out.push_back(library::pack_left_out(file.string(), error.message));
+        all.left_out.push_back(library::unshown_pack(file.string(), error.message));
     };
     for (const std::filesystem::path& file : packs) {
         if (!all.known.empty() && !options.other_packs) {

@@ -7,7 +7,7 @@
 ///          out with a line on standard error; if none is left, BadConfiguration.
 #pragma once
 
-#include "app/library/pack_left_out.h"
+#include "app/library/unshown_pack.h"
 #include "app/residency/prepared_artifact.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
@@ -42,7 +42,7 @@ struct OpenerOptions {
 struct OpenedArtifacts {
     std::vector<KnownArtifact> known;
     std::optional<PreparedArtifact> first; ///< levels of the first of `known`; set on success
-    std::vector<library::PackLeftOut> left_out;
+    std::vector<library::UnshownPack> left_out;
     scene::RenderNeeds needs;
     std::vector<std::string> languages; ///< of all captions of the packs opened, shown or not
     std::vector<std::string> notes;     ///< sentences about settings that may be unintended

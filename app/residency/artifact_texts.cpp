@@ -251,7 +251,7 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
     const std::vector<std::string>& languages = made.entry.languages;
     TRY(const std::vector<pack::SetLanguage> set,
         languages.empty() ? std::vector<pack::SetLanguage>()
-                          : pack::load_set_texts(source.file, languages, pack::Atlases::LeftOut));
+                          : pack::load_set_texts(source.file, languages, pack::Atlases::NotRead));
     const Result<std::vector<pack::SpokenText>> sounds =
         spoken ? pack::list_sounds(source.pack) : std::vector<pack::SpokenText>();
     CaptionSetter setter(style);

@@ -304,8 +304,8 @@ void camera_settings(auto& fields, auto& camera) {
         "kind", camera.kind, camera_names,
         "v4l2: a camera at USB, or another that the kernel has a driver for. Its frames are never kept");
     fields.text("device", camera.device,
-                "\"any\": the first that can be read; or a path such as \"/dev/video0\"; or the name that "
-                "frustumscreen camera says");
+                "\"any\": the first that can be read; or a path such as \"/dev/video0\"; or a name that "
+                "frustumscreen camera prints");
     fields.integer("width", camera.width, 16, 8192,
                    "columns; the nearest size that the camera offers is used");
     fields.integer("height", camera.height, 16, 8192, "rows");
@@ -323,9 +323,9 @@ void camera_settings(auto& fields, auto& camera) {
     fields.flag("visitor", camera.visitor,
                 "finds the visitor's eye, with nothing on the head: while no sensor reports the head, the "
                 "picture turns to the person nearest to the prop");
-    fields.flag(
-        "drift", camera.drift,
-        "checks with drift marks whether the picture lies where it was calibrated, while nobody is there");
+    fields.flag("drift", camera.drift,
+                "checks with drift marks whether the picture lies where it was calibrated, while no visitor "
+                "is present");
     camera_lens_settings(fields, camera);
     fields.tables(
         "tag", camera.tag, max_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },
@@ -366,7 +366,7 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.path("library", exhibit.library,
                 "where packs from sticks are installed; a set there is shown instead of `packs`");
     fields.path("counts", exhibit.counts,
-                "where numbers of visits are kept ([counts.md](counts.md)); a folder that is not there, such "
+                "folder of the counts of visits ([counts.md](counts.md)); a folder that does not exist, such "
                 "as `off`: nothing is counted");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
                   "first language of the captions");
@@ -443,17 +443,16 @@ void all_settings(auto& file, auto& settings) {
           [&](auto& fields) { prop_settings(fields, settings.prop); });
     table("table", "The table's top.", [&](auto& fields) { table_settings(fields, settings.table); });
     table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });
-    table("tracker", "What knows where the prop and the visitor's head are.",
+    table("tracker", "The tracker of the prop and of the visitor's head.",
           [&](auto& fields) { tracker_settings(fields, settings.tracker); });
-    table("calibration", "What was measured of projector and tracker.",
+    table("calibration", "The measured projector and tracker.",
           [&](auto& fields) { calibration_settings(fields, settings.calibration); });
     table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
     table("camera", "What looks at the table.",
           [&](auto& fields) { camera_settings(fields, settings.camera); });
     table("exhibit", "What is shown and said.",
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
-    table("sound", "What is said aloud, and how loud.",
-          [&](auto& fields) { sound_settings(fields, settings.sound); });
+    table("sound", "Speech and its volume.", [&](auto& fields) { sound_settings(fields, settings.sound); });
     table(
         "hours",
         "When the exhibit is awake. Outside of these times the projector is dark and the sound off, until a "

@@ -54,9 +54,9 @@ Rectangle rectangle_inside(const Polygon& polygon) {
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             const glm::dvec2 along = polygon[(k + 1) % polygon.size()] - polygon[k];
             const glm::dvec2 outward(along.y, -along.x);
-            const double room = glm::dot(outward, polygon[k] - best.centre_m);
+            const double distance = glm::dot(outward, polygon[k] - best.centre_m);
             const double reach = glm::dot(glm::abs(outward), half);
-            scale = reach > 0.0 ? std::fmin(scale, room / reach) : scale;
+            scale = reach > 0.0 ? std::fmin(scale, distance / reach) : scale;
         }
         const glm::dvec2 scaled = half * scale;
         best.half_m = scaled.x * scaled.y > best.half_m.x * best.half_m.y ? scaled : best.half_m;

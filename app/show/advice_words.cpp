@@ -2,14 +2,12 @@
 
 #include "app/exhibit/languages.h"
 #include "app/pack/words_file.h"
+#include "app/show/default_words.h"
 #include "app/typography/caption_image.h"
 #include "firmware_host/base/file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -30,28 +28,11 @@ constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
 /// The languages of the file that are nearest to some shown language.
 std::set<std::string> nearest(const std::vector<pack::WordsLanguage>& listed,
                               const std::vector<std::string>& shown) {
-    std::vector<std::string> there;
-    std::transform(listed.begin(), listed.end(), std::back_inserter(there),
-                   [](const pack::WordsLanguage& language) { return language.language; });
     std::set<std::string> chosen;
     for (const std::string& language : shown) {
-        chosen.insert(there[exhibit::caption_for(language, there)]);
+        chosen.insert(listed[exhibit::item_for(language, listed)].language);
     }
     return chosen;
-}
-
-residency::SharedRecording recording_of(const pack::LanguageWords& words, const std::string& key) {
-    const auto sound = words.sounds.find(key);
-    if (sound == words.sounds.end()) {
-        return nullptr;
-    }
-    return std::make_shared<const residency::PromptRecording>(
-        residency::PromptRecording{.name = fmt::format("{} in '{}'", key, words.language),
-                                   .opus = sound->second,
-                                   .pack = {},
-                                   .language = words.language,
-                                   .key = key,
-                                   .portions = {}});
 }
 
 /// The exhibit's key of a word; nothing: the exhibit does not use it.
@@ -84,7 +65,7 @@ void add_language(const pack::LanguageWords& words, const AdviceWordsRequest& re
             all.pictures.push_back(std::move(image.coverage));
         }
         if (request.spoken && word.key.starts_with(advice_prefix)) {
-            one.recording = recording_of(words, word.key);
+            one.recording = word_recording(words, word.key);
         }
         language.texts.push_back(std::move(text));
         made.push_back(std::move(one));
@@ -108,36 +89,29 @@ Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request) {
 
 Result<void> set_attract_line(std::span<const AttractLine> lines, const std::string& language,
                               const residency::TextStyle& style, AdviceWords& words) {
-    std::vector<std::string> there;
-    std::transform(lines.begin(), lines.end(), std::back_inserter(there),
-                   [](const AttractLine& line) { return line.language; });
-    if (there.empty()) {
+    if (lines.empty()) {
         return {};
     }
     residency::CaptionSetter setter(style);
     TRY(std::vector<typography::CaptionImage> images,
         setter.set(
-            {{}, {{typography::CaptionRole::Text, {}, lines[exhibit::caption_for(language, there)].text}}},
-            {}));
+            {{}, {{typography::CaptionRole::Text, {}, lines[exhibit::item_for(language, lines)].text}}}, {}));
     if (words.languages.empty()) {
         words.languages.push_back({language, {}});
         words.words.emplace_back();
     }
-    std::vector<std::string> known;
-    std::transform(words.languages.begin(), words.languages.end(), std::back_inserter(known),
-                   [](const exhibit::AdviceLanguage& each) { return each.language; });
-    const std::size_t house = exhibit::caption_for(language, known);
+    const std::size_t nearest_language = exhibit::item_for(language, words.languages);
     exhibit::AdviceText line{std::string(attract_key), {}};
     const AdviceWord word{words.pictures.size(), nullptr};
     for (typography::CaptionImage& image : images) {
         line.sizes_m.push_back(image.size_m);
         words.pictures.push_back(std::move(image.coverage));
     }
-    std::vector<exhibit::AdviceText>& texts = words.languages[house].texts;
+    std::vector<exhibit::AdviceText>& texts = words.languages[nearest_language].texts;
     const auto old = std::find_if(texts.begin(), texts.end(),
                                   [](const exhibit::AdviceText& text) { return text.key == attract_key; });
     if (old != texts.end()) {
-        AdviceWord& replaced = words.words[house][static_cast<std::size_t>(old - texts.begin())];
+        AdviceWord& replaced = words.words[nearest_language][static_cast<std::size_t>(old - texts.begin())];
         for (std::size_t shape = 0; shape < old->sizes_m.size(); ++shape) {
             words.pictures[replaced.first_picture + shape] = {}; // replaced, so not shown
         }
@@ -145,7 +119,7 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
         *old = std::move(line);
     } else {
         texts.push_back(std::move(line));
-        words.words[house].push_back(word);
+        words.words[nearest_language].push_back(word);
     }
     return {};
 }

@@ -58,7 +58,7 @@ struct ShowUse {
     int samples = 1;                  ///< a pixel, that the render target holds
 };
 
-class ArtifactShow final : public ExhibitStage {
+class ArtifactShow final : public PresentationShow {
 public:
     /// Loads the first artifact and measures its levels on this GPU by drawing into `target`, whose contents are
     /// undefined afterwards.
@@ -97,7 +97,7 @@ public:
     [[nodiscard]] ShowUse use() const;
     /// Sentences about settings that may be unintended.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    [[nodiscard]] const library::PacksLeftOut& left_out() const { return set_->artifact_cache->left_out(); }
+    [[nodiscard]] const library::UnshownPacks& left_out() const { return set_->artifact_cache->left_out(); }
 
     // For a change of the set, where `other_sets` may come:
     [[nodiscard]] SetOptions set_options() const {

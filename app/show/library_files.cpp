@@ -109,7 +109,7 @@ SetRequest request_of(const library::InstalledSet& set, const std::filesystem::p
     return request;
 }
 
-std::string fault_of(const library::PacksLeftOut& left_out, bool shows_nothing) {
+std::string fault_of(const library::UnshownPacks& left_out, bool shows_nothing) {
     if (left_out && !left_out->empty()) {
         return fmt::format("{}: {}", left_out->front().pack, left_out->front().reason);
     }

@@ -25,9 +25,9 @@ struct FileStamp {
 };
 /// None: there is no set.txt.
 [[nodiscard]] std::optional<FileStamp> stamp_of_set(const std::filesystem::path& library);
-/// Nothing: there is no set.txt.
+/// nullopt: there is no set.txt.
 [[nodiscard]] Result<std::optional<library::SetChoice>> read_choice(const std::filesystem::path& library);
-/// Nothing: there is none, or it is unusable, as after a power cut; then the set's trial starts again.
+/// nullopt: there is none, or it is unusable, as after a power cut; then the set's trial starts again.
 [[nodiscard]] std::optional<library::SetVerdict> read_verdict(const std::filesystem::path& library);
 [[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library,
                                         const library::SetVerdict& verdict);
@@ -51,6 +51,6 @@ struct LibraryStart {
 [[nodiscard]] SetRequest request_of(const library::InstalledSet& set, const std::filesystem::path& library,
                                     const settings::Settings& settings);
 /// Why a set that shows this is bad, as a sentence; empty: no fault so far.
-[[nodiscard]] std::string fault_of(const library::PacksLeftOut& left_out, bool shows_nothing);
+[[nodiscard]] std::string fault_of(const library::UnshownPacks& left_out, bool shows_nothing);
 
 } // namespace frustumscreen::show

@@ -27,7 +27,7 @@ struct ShownReport {
     MonotonicTime now;
     std::uint64_t number = 0; ///< of the set
     bool shows_nothing = false;
-    library::PacksLeftOut left_out;
+    library::UnshownPacks left_out;
 };
 
 class LibraryWatch {

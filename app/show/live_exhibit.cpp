@@ -59,9 +59,10 @@ sound::Volume volume_of(const settings::SoundSettings& settings) {
     return volume;
 }
 
-LiveExhibit::LiveExhibit(const settings::Settings& settings, std::unique_ptr<ExhibitStage> stage,
+LiveExhibit::LiveExhibit(const settings::Settings& settings, std::unique_ptr<PresentationShow> show,
                          exhibit::Exhibit exhibit, std::string driver, residency::PromptReader::Answer answer)
-    : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
+    : settings_(settings), presentation_show_(std::move(show)), driver_(std::move(driver)),
+      exhibit_(std::move(exhibit)),
       notice_(settings, answer == residency::PromptReader::Answer::Always ? ImportWatch::Answer::Always
                                                                           : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)), gain_db_(settings.sound.gain_db) {
@@ -81,8 +82,8 @@ void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> com
         presentation_.artifact = exhibit_.chosen(); // the previous presentation belongs to the old set
         speaker_.forget();
     }
-    exhibit_.note(stage_->artifacts());
-    exhibit_.note_triangles(presentation_.artifact, stage_->triangles(presentation_.artifact));
+    exhibit_.note(presentation_show_->artifacts());
+    exhibit_.note_triangles(presentation_.artifact, presentation_show_->triangles(presentation_.artifact));
     exhibit_.offer_reset(reset_.at(now));
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
     if (set_switch_ && !asleep) { // a set that was not visible is neither good nor bad
@@ -94,16 +95,16 @@ void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> com
         reset_.take(now, import->report, import->is_old);
     }
     dim(presentation_, light_);
-    const bool has_room = mark_ && has_room_for_mark(mark_->place_m, presentation_,
-                                                     0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
-    stage_->set_mark(has_room ? mark_ : std::nullopt);
+    const bool has_space = mark_ && has_space_for_mark(mark_->place_m, presentation_,
+                                                       0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
+    presentation_show_->set_mark(has_space ? mark_ : std::nullopt);
     follow_staff_mode();
     speaker_.set_gain_db(gain_db_ + presentation_.louder_db);
     if (asleep) {
         speaker_.fall_silent();
         return;
     }
-    if (speaker_.step(presentation_, *stage_, notice_.announcement())) {
+    if (speaker_.step(presentation_, *presentation_show_, notice_.announcement())) {
         notice_.announced();
     }
 }
@@ -130,7 +131,7 @@ void LiveExhibit::hear(const sound::SoundReport& report) {
 }
 
 ShowState LiveExhibit::state() const {
-    ShowState state = stage_->state(presentation_);
+    ShowState state = presentation_show_->state(presentation_);
     state.told = told_by(presentation_);
     state.set = set_switch_ ? set_switch_->status() : nullptr;
     state.library_hangs = set_switch_ && set_switch_->library_hangs();
@@ -177,8 +178,9 @@ render::DrawResult LiveExhibit::draw(MonotonicTime now, const tracking::TrackedS
         staff_->set_viewfinder(viewfinder_);
         staff_->show(now, presentation_.staff_view, prop_signal_, head_signal_);
     }
-    const render::DrawResult drawn = staff_ ? staff_->draw(now, on_table, own, redraw)
-                                            : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
+    const render::DrawResult drawn =
+        staff_ ? staff_->draw(now, on_table, own, redraw)
+               : presentation_show_->draw(now, presentation_, on_table.eye_m, own, redraw);
     if (presents_ && drawn.drawn) {
         ++*presents_;
     }
@@ -187,7 +189,7 @@ render::DrawResult LiveExhibit::draw(MonotonicTime now, const tracking::TrackedS
 
 void LiveExhibit::record_time(MonotonicTime now, double ms) {
     if (!staff_) {
-        stage_->record_time(now, ms);
+        presentation_show_->record_time(now, ms);
     }
 }
 

@@ -1,5 +1,5 @@
-/// The exhibit for visitors: what `Exhibit` decides, drawn on the stage. For the staff it shows the staff picture
-/// (staff_show.h).
+/// The exhibit for visitors: what `Exhibit` decides, drawn by a PresentationShow. For the staff it shows the staff
+/// picture (staff_show.h).
 ///
 /// Memory   the staff picture is created on request and freed afterwards: it costs nothing the rest of the time.
 /// Threads  the render thread, with the display's context current.
@@ -29,11 +29,11 @@ class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
     /// `answer`: Always on a simulated clock.
-    LiveExhibit(const settings::Settings& settings, std::unique_ptr<ExhibitStage> stage,
+    LiveExhibit(const settings::Settings& settings, std::unique_ptr<PresentationShow> show,
                 exhibit::Exhibit exhibit, std::string driver,
                 residency::PromptReader::Answer answer = residency::PromptReader::Answer::WhenReady);
 
-    /// Accepts other sets from here on; `artifacts` is the stage.
+    /// Accepts other sets from here on; `artifacts` is the PresentationShow.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
 
     void step(MonotonicTime now, std::span<const settings::Command> commands,
@@ -44,7 +44,7 @@ public:
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
     [[nodiscard]] const sound::SoundRequest& sound_request() const override { return speaker_.request(); }
-    [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
+    [[nodiscard]] bool speaks() const override { return presentation_show_->speaks() || notice_.speaks(); }
     void hear(const sound::SoundReport& report) override;
     [[nodiscard]] bool sleeps() const override { return true; }
     void set_light(double light) override { light_ = light; }
@@ -62,7 +62,7 @@ private:
     void follow_staff_mode();
 
     const settings::Settings& settings_;
-    std::unique_ptr<ExhibitStage> stage_;
+    std::unique_ptr<PresentationShow> presentation_show_;
     std::string driver_;
     std::unique_ptr<SetSwitch> set_switch_; ///< none: the set never changes
     exhibit::Exhibit exhibit_;

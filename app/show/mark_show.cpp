@@ -34,7 +34,7 @@ bool is_apart(const typography::TableRectangle& mark, const typography::TableRec
 
 } // namespace
 
-bool has_room_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation, double prop_m) {
+bool has_space_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation, double prop_m) {
     const typography::TableRectangle mark{place_m, glm::dvec2(mark_size_m), 0};
     bool free =
         glm::distance(place_m, glm::dvec2(presentation.table_from_prop.translation)) > prop_m + mark_size_m;

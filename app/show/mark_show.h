@@ -19,8 +19,8 @@ inline constexpr double mark_size_m = 0.016;    ///< across
 inline constexpr double mark_brightness = 0.25; ///< fraction of the projector's light, in its middle
 
 /// True if a mark is clear of the prop and of everything lit. `prop_m`: reach of the prop from its axis.
-[[nodiscard]] bool has_room_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation,
-                                     double prop_m);
+[[nodiscard]] bool has_space_for_mark(const glm::dvec2& place_m, const exhibit::Presentation& presentation,
+                                      double prop_m);
 
 class MarkShow {
 public:

@@ -6,7 +6,7 @@
 #include "app/scene/scene_plan.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
-#include "app/show/house_words.h"
+#include "app/show/default_words.h"
 #include "app/typography/ring.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
@@ -25,22 +25,6 @@ namespace {
 constexpr double empty_ring_brightness = 0.2; ///< relative to a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
-
-residency::SharedRecording recording_of(const pack::LanguageWords& words, const std::string& key,
-                                        double gain_db) {
-    const auto sound = words.sounds.find(key);
-    if (sound == words.sounds.end()) {
-        return nullptr;
-    }
-    return std::make_shared<const residency::PromptRecording>(
-        residency::PromptRecording{.name = fmt::format("{} in '{}'", key, words.language),
-                                   .opus = sound->second,
-                                   .pack = {},
-                                   .language = words.language,
-                                   .key = key,
-                                   .portions = {},
-                                   .gain_db = gain_db});
-}
 
 /// The function that draws notices; null: notices cannot be drawn, and a line says why.
 ImportWatch::Draw draws_with(pack::LanguageWords words, double texels_per_m) {
@@ -132,10 +116,10 @@ NoticeShow::NoticeShow(const settings::Settings& settings, ImportWatch::Answer a
         watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
         return;
     }
-    Result<pack::LanguageWords> words = read_house_words(settings, "stick.take_out");
+    Result<pack::LanguageWords> words = read_default_words(settings, "stick.take_out");
     if (words && settings.sound.kind != settings::SoundKind::None) {
-        found_ = recording_of(*words, "stick.found", found_gain_db);
-        take_out_ = recording_of(*words, "stick.take_out", 0.0);
+        found_ = word_recording(*words, "stick.found", found_gain_db);
+        take_out_ = word_recording(*words, "stick.take_out");
     }
     if (words) {
         draw = draws_with(std::move(*words), residency::text_style(settings).texels_per_m);
@@ -245,7 +229,7 @@ std::uint64_t NoticeTextures::planned_gpu_bytes() const {
 void NoticeTextures::place(const std::optional<exhibit::PresentedNotice>& notice, double brightness,
                            const geometry::Pinhole& projector,
                            const geometry::RigidTransform& table_from_projector,
-                           std::span<const glm::dvec2> room, render::GpuStore& store,
+                           std::span<const glm::dvec2> area, render::GpuStore& store,
                            residency::OnTable& on_table) {
     follow(notice ? notice->picture : nullptr, notice ? notice->shape : 0, store);
     if (!notice) {
@@ -260,7 +244,7 @@ void NoticeTextures::place(const std::optional<exhibit::PresentedNotice>& notice
         return;
     }
     const typography::Ring ring =
-        typography::ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, room);
+        typography::ring_around(*round, notice->ring_full, notice->rectangle.quarter_turns, area);
     for (const typography::RingPiece& piece : ring.pieces()) {
         on_table.add(
             {.corners_m = residency::flat_corners(piece.corners_m),

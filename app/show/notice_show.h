@@ -84,7 +84,7 @@ public:
     /// light.
     void place(const std::optional<exhibit::PresentedNotice>& notice, double brightness,
                const geometry::Pinhole& projector, const geometry::RigidTransform& table_from_projector,
-               std::span<const glm::dvec2> room, render::GpuStore& store, residency::OnTable& on_table);
+               std::span<const glm::dvec2> area, render::GpuStore& store, residency::OnTable& on_table);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
 
 private:

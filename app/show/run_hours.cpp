@@ -87,10 +87,9 @@ status::HoursStatus RunHours::status() const {
             "awake: closed{}, but a button was pressed; it sleeps ten minutes after the latest press{}",
             until.view(), zone_missing_.view());
     } else {
-        status.why =
-            format_sentence("awake: closed{}; it sleeps when nobody has used the prop for two minutes, after "
-                            "fifteen at the latest{}",
-                            until.view(), zone_missing_.view());
+        status.why = format_sentence("awake: closed{}; it sleeps when the prop has not been used for two "
+                                     "minutes, after fifteen at the latest{}",
+                                     until.view(), zone_missing_.view());
     }
     return status;
 }

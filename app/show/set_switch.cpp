@@ -50,7 +50,7 @@ void SetSwitch::take_the_new(exhibit::Exhibit& exhibit) {
 std::optional<std::size_t> SetSwitch::goal(exhibit::State state, const exhibit::Exhibit& exhibit) const {
     const std::span<const exhibit::ArtifactState> states = coming_->artifact_cache->states();
     const auto can_be_shown = [&](std::size_t artifact) {
-        return states[artifact] != exhibit::ArtifactState::LeftOut;
+        return states[artifact] != exhibit::ArtifactState::Unusable;
     };
     if (state != exhibit::State::Attract) { // in other states a visitor is looking at it
         const std::vector<std::string>& names = coming_->names;

@@ -30,7 +30,7 @@ struct ShowState {
     bool settled = true; ///< no artifact or caption fades: a good moment for a picture
     /// The prop's pose drawn for, if it is not the known one.
     std::optional<geometry::RigidTransform> stands = {};
-    library::PacksLeftOut left_out = {};
+    library::UnshownPacks left_out = {};
     status::SharedSetStatus set = {};
     bool library_hangs = false;     ///< as RunStatus
     std::uint32_t lamps = 0;        ///< buttons that do something; bit k = button k
@@ -86,9 +86,9 @@ public:
 };
 
 /// Draws a Presentation.
-class ExhibitStage {
+class PresentationShow {
 public:
-    virtual ~ExhibitStage() = default;
+    virtual ~PresentationShow() = default;
     /// `eye_m`: table frame. Allocates nothing after the start.
     [[nodiscard]] virtual render::DrawResult draw(MonotonicTime now,
                                                   const exhibit::Presentation& presentation,

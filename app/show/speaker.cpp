@@ -12,15 +12,15 @@ void Speaker::begin(residency::PromptReader::Answer answer) {
     tone_ = test_tone();
 }
 
-bool Speaker::step(const exhibit::Presentation& presentation, const ExhibitStage& stage,
+bool Speaker::step(const exhibit::Presentation& presentation, const PresentationShow& show,
                    const residency::SharedRecording& announcement) {
     if (!reader_) {
         return false;
     }
     reader_->want(residency::SpokenUse::Word,
-                  presentation.prepares_word ? stage.recording(*presentation.prepares_word) : announcement);
+                  presentation.prepares_word ? show.recording(*presentation.prepares_word) : announcement);
     reader_->want(residency::SpokenUse::Description,
-                  presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
+                  presentation.prepares ? show.recording(*presentation.prepares) : nullptr);
     if (presentation.staff) {
         fall_silent();
         play_tones(presentation.staff_tones);
@@ -29,8 +29,8 @@ bool Speaker::step(const exhibit::Presentation& presentation, const ExhibitStage
     if (is_alive(tone_number_)) {
         request_.stop();
     }
-    tell(presentation, stage);
-    advise(presentation, stage);
+    tell(presentation, show);
+    advise(presentation, show);
     return announcement && !presentation.prepares_word && announce(announcement);
 }
 
@@ -69,7 +69,7 @@ void Speaker::end_description(bool at_pause) {
     }
 }
 
-void Speaker::tell(const exhibit::Presentation& presentation, const ExhibitStage& stage) {
+void Speaker::tell(const exhibit::Presentation& presentation, const PresentationShow& show) {
     if (told_ != presentation.tells) {
         end_description(!presentation.tells && presentation.leaves);
         told_ = presentation.tells;
@@ -91,7 +91,7 @@ void Speaker::tell(const exhibit::Presentation& presentation, const ExhibitStage
     if (!told_ || description_ != 0) {
         return;
     }
-    const residency::SharedRecording recording = stage.recording(*told_);
+    const residency::SharedRecording recording = show.recording(*told_);
     reading_ = recording ? reader_->find(recording) : nullptr;
     comes_ = recording && !reading_;
     if (reading_ && reading_->prompt) {
@@ -102,7 +102,7 @@ void Speaker::tell(const exhibit::Presentation& presentation, const ExhibitStage
     }
 }
 
-void Speaker::advise(const exhibit::Presentation& presentation, const ExhibitStage& stage) {
+void Speaker::advise(const exhibit::Presentation& presentation, const PresentationShow& show) {
     if (presentation.falls_silent) {
         word_.reset();
         if (is_alive(advice_) && advice_ > description_) {
@@ -115,7 +115,7 @@ void Speaker::advise(const exhibit::Presentation& presentation, const ExhibitSta
     if (!word_) {
         return;
     }
-    const residency::SharedRecording recording = stage.recording(*word_);
+    const residency::SharedRecording recording = show.recording(*word_);
     const residency::SharedReading reading = recording ? reader_->find(recording) : nullptr;
     if (recording && !reading) {
         word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // not needed any more

@@ -27,7 +27,7 @@ public:
     void begin(residency::PromptReader::Answer answer);
     /// `announcement`: to be played when nothing else is, or is about to be; null: none. Returns true if it begins in
     /// this step.
-    bool step(const exhibit::Presentation& presentation, const ExhibitStage& stage,
+    bool step(const exhibit::Presentation& presentation, const PresentationShow& show,
               const residency::SharedRecording& announcement = nullptr);
     void hear(const sound::SoundReport& report);
     /// Call when another set is shown: forgets the previous set's decisions and ends its speech.
@@ -46,8 +46,8 @@ private:
     /// Plays only the tones that the staff asked for.
     void play_tones(std::uint32_t asked);
     void end_description(bool at_pause);
-    void tell(const exhibit::Presentation& presentation, const ExhibitStage& stage);
-    void advise(const exhibit::Presentation& presentation, const ExhibitStage& stage);
+    void tell(const exhibit::Presentation& presentation, const PresentationShow& show);
+    void advise(const exhibit::Presentation& presentation, const PresentationShow& show);
     [[nodiscard]] bool announce(const residency::SharedRecording& announcement);
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 

@@ -43,9 +43,9 @@ public:
         add_buttons();
         add_end();
     }
-    /// Sets the words as large as fits the room, `em_px` at most.
+    /// Sets the words as large as fits the space, `em_px` at most.
     [[nodiscard]] image::Image<std::uint8_t> set(const typography::Typesetter& typesetter,
-                                                 const glm::dvec2& room, double em_px) const {
+                                                 const glm::dvec2& space, double em_px) const {
         std::vector<typography::Paragraph> paragraphs;
         for (;; em_px *= 0.93) {
             paragraphs.clear();
@@ -56,8 +56,8 @@ public:
                                       .brightness = 1.0,
                                       .space_before_px = em_px * line.space});
             }
-            if (em_px <= smallest_em_px || typesetter.extent(paragraphs, room.x).y <= room.y) {
-                return typesetter.set(paragraphs, room.x);
+            if (em_px <= smallest_em_px || typesetter.extent(paragraphs, space.x).y <= space.y) {
+                return typesetter.set(paragraphs, space.x);
             }
         }
     }
@@ -179,7 +179,7 @@ private:
         }
         const bool measures = view_.page == exhibit::StaffPage::Place && facts_.calibrates;
         if (measures) {
-            add_button(fmt::format("{} held for two seconds: the table is measured anew", circled(0, view_)));
+            add_button(fmt::format("{} held for two seconds: measures the table", circled(0, view_)));
         }
         const bool resets = view_.page == exhibit::StaffPage::Status && view_.resets;
         if (resets) {
@@ -289,8 +289,8 @@ image::Image8 staff_picture(const exhibit::StaffView& view, const StaffFacts& fa
     const double margin = 34.0 * unit;
     typography::Canvas canvas(background);
     const PageWords words(view, facts);
-    const auto put_words = [&](const glm::dvec2& corner, const glm::dvec2& room, double em) {
-        put(canvas, words.set(typesetter, room, em * unit), glm::ivec2(glm::round(corner)));
+    const auto put_words = [&](const glm::dvec2& corner, const glm::dvec2& space, double em) {
+        put(canvas, words.set(typesetter, space, em * unit), glm::ivec2(glm::round(corner)));
     };
     const double wide = width - 2.0 * margin;
     switch (view.page) {

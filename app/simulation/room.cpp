@@ -20,11 +20,11 @@ constexpr double pole_half_m = 0.015;
 
 } // namespace
 
-std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m) {
+std::vector<RoomObject> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m) {
     const glm::dvec2 half = table_size_m / 2.0;
     const glm::dvec3 case_middle = lens_m + glm::dvec3(0.0, 0.0, case_half_m.z);
     const glm::dvec3 pole_half(pole_half_m, pole_half_m, 0.0);
-    std::vector<Block> blocks{
+    std::vector<RoomObject> objects{
         {{-room_m, -room_m, -table_height_m - 0.1}, {room_m, room_m, -table_height_m}, floor_albedo},
         {{-room_m, wall_m, -table_height_m}, {room_m, wall_m + 0.1, room_m}, wall_albedo},
         {glm::dvec3(-half, -top_thickness_m), glm::dvec3(half, -1e-6), table_albedo},
@@ -35,10 +35,10 @@ std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3&
          {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
         const glm::dvec2 outer = side * half;
         const glm::dvec2 inner = side * (half - leg_m);
-        blocks.push_back({glm::dvec3(glm::min(outer, inner), -table_height_m),
-                          glm::dvec3(glm::max(outer, inner), -top_thickness_m), table_albedo});
+        objects.push_back({glm::dvec3(glm::min(outer, inner), -table_height_m),
+                           glm::dvec3(glm::max(outer, inner), -top_thickness_m), table_albedo});
     }
-    return blocks;
+    return objects;
 }
 
 } // namespace frustumscreen::simulation

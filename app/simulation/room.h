@@ -12,6 +12,6 @@
 namespace frustumscreen::simulation {
 
 /// `lens_m`: the projector's position.
-[[nodiscard]] std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m);
+[[nodiscard]] std::vector<RoomObject> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m);
 
 } // namespace frustumscreen::simulation

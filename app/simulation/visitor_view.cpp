@@ -28,23 +28,23 @@ struct Place {
     double room_share = 1.0; ///< share of the room's light that arrives
 };
 
-struct BlockHit {
+struct ObjectHit {
     double t = std::numeric_limits<double>::infinity();
     glm::dvec3 normal{0.0};
-    const Block* block = nullptr;
+    const RoomObject* object = nullptr;
 };
 
-/// The first hit of a ray from outside a block.
-BlockHit first_block(const std::vector<Block>& blocks, const glm::dvec3& origin,
-                     const glm::dvec3& direction) {
-    BlockHit first;
-    for (const Block& block : blocks) {
+/// The first hit of a ray from outside an object.
+ObjectHit first_object(const std::vector<RoomObject>& objects, const glm::dvec3& origin,
+                       const glm::dvec3& direction) {
+    ObjectHit first;
+    for (const RoomObject& object : objects) {
         double enters = 0.0;
         double leaves = first.t;
         glm::dvec3 normal(0.0);
         for (int axis = 0; axis < 3; ++axis) {
-            const double a = (block.low_m[axis] - origin[axis]) / direction[axis];
-            const double b = (block.high_m[axis] - origin[axis]) / direction[axis];
+            const double a = (object.low_m[axis] - origin[axis]) / direction[axis];
+            const double b = (object.high_m[axis] - origin[axis]) / direction[axis];
             if (std::min(a, b) > enters) {
                 enters = std::min(a, b);
                 normal = glm::dvec3(0.0);
@@ -53,7 +53,7 @@ BlockHit first_block(const std::vector<Block>& blocks, const glm::dvec3& origin,
             leaves = std::min(leaves, std::max(a, b));
         }
         if (enters > 0.0 && enters < leaves) {
-            first = {enters, normal, &block};
+            first = {enters, normal, &object};
         }
     }
     return first;
@@ -73,8 +73,8 @@ public:
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
         const glm::dvec3 in_prop = prop_from_table_.direction(direction);
         geometry::PropHit hit;
-        const BlockHit block = first_block(scene_.blocks, scene_.eye_m, direction);
-        if (geometry::enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < block.t) {
+        const ObjectHit object = first_object(scene_.objects, scene_.eye_m, direction);
+        if (geometry::enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < object.t) {
             const auto bound = static_cast<std::size_t>(hit.face);
             const geometry::Plane& plane = scene_.prop.bounds[bound];
             return Place{.point_m = scene_.eye_m + hit.t * direction,
@@ -84,12 +84,12 @@ public:
         }
         const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
         const glm::dvec3 point = scene_.eye_m + t * direction;
-        if (block.block != nullptr && (t <= 0.0 || block.t < t || !on_table(point))) {
-            const glm::dvec3 meets = scene_.eye_m + block.t * direction;
+        if (object.object != nullptr && (t <= 0.0 || object.t < t || !on_table(point))) {
+            const glm::dvec3 meets = scene_.eye_m + object.t * direction;
             return Place{.point_m = meets,
-                         .normal = block.normal,
+                         .normal = object.normal,
                          .lit = false,
-                         .albedo = block.block->albedo,
+                         .albedo = object.object->albedo,
                          .room_share = fading(meets)};
         }
         if (t <= 0.0 || !on_table(point)) {

@@ -27,7 +27,7 @@
 namespace frustumscreen::simulation {
 
 /// An object of the room, axis-aligned in the table frame, which only the room's light reaches.
-struct Block {
+struct RoomObject {
     glm::dvec3 low_m{0.0};
     glm::dvec3 high_m{0.0};
     double albedo = 0.3;
@@ -40,8 +40,8 @@ struct VisitorScene {
     geometry::PropShape prop;
     geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
-    glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
-    std::vector<Block> blocks = {};    ///< they cast no shadows; empty for pictures that are measured
+    glm::dvec2 table_size_m{0.8, 0.5};    ///< along X and Y
+    std::vector<RoomObject> objects = {}; ///< they cast no shadows; empty for pictures that are measured
 };
 
 struct VisitorCamera {

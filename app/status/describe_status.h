@@ -243,10 +243,10 @@ void drawing_fields(auto& fields, auto& status) {
     fields.field("level_switches", status.level_switches, "changes of level or of samples",
                  Metric{"level_switches_total", "Changes of level or of samples."});
     fields.field("ignored_times", status.ignored_times, "frame times that were left out as impossible");
-    fields.field("frames", status.frames, "looks at the devices, one for each display time",
-                 Metric{"frames_total", "Looks at the devices, one for each display time."});
+    fields.field("frames", status.frames, "polls of the devices, one for each display time",
+                 Metric{"frames_total", "Polls of the devices, one for each display time."});
     fields.field("drawn", status.drawn, "of these: something had changed, a picture was drawn",
-                 Metric{"frames_drawn_total", "Of these, those for which a picture was drawn."});
+                 Metric{"frames_drawn_total", "Display times for which a picture was drawn."});
     fields.field("unchanged", status.unchanged, "of these: nothing had changed, the picture stayed");
     fields.field("probes", status.probes, "of the unchanged: the picture was shown again, for the watchdog");
     fields.field("skipped", status.skipped,
@@ -359,8 +359,8 @@ void device_fields(auto& fields, auto& status) {
                  "a sensor on the visitor's head says where it is now; else see `eye_by`",
                  Metric{"head_known", "1: the visitor's head is known."});
     fields.field("eye_by", status.eye_by,
-                 "who says where the visitor's eye is: `sensor` on the head, `camera`, or `settings`: "
-                 "nobody, it is `eye.default_m`");
+                 "source of the visitor's eye: `sensor` on the head, `camera`, or `settings`: "
+                 "none, it is `eye.default_m`");
     fields.field("eye_sd_mm", status.eye_sd_m,
                  "how far an eye by the camera may be off across its line to the prop, RMS on each axis; "
                  "`null`: it is by another",

@@ -25,7 +25,7 @@ ExhibitVerdict not_running(MessageId id, std::string sentence) {
 /// Why the status is not current; nothing if it is.
 std::optional<ExhibitVerdict> why_not_running(const StatusDocument& status) {
     if (status.fields.is_null()) {
-        return not_running("exhibit.unknown", fmt::format("Nothing is known of the exhibit: {}", status.why));
+        return not_running("exhibit.unknown", fmt::format("The exhibit's status is unknown: {}", status.why));
     }
     if (status.other_boot) {
         return not_running("exhibit.other_boot",
@@ -33,7 +33,7 @@ std::optional<ExhibitVerdict> why_not_running(const StatusDocument& status) {
     }
     if (!status.age_s) {
         return not_running("exhibit.no_time",
-                           "Nothing is known of the exhibit: its status does not say when it was written");
+                           "The exhibit's status is unknown: its file does not say when it was written");
     }
     if (!status.fresh()) {
         return not_running(
@@ -76,7 +76,7 @@ std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog)
     return std::nullopt;
 }
 
-/// What the staff must put right on the devices: the first clause of each sentence, since the lines below tell what
+/// The devices' faults for the staff: the first clause of each sentence, since the lines below tell what
 /// to do.
 struct Complaints {
     std::string id; ///< of the first one

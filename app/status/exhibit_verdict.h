@@ -12,7 +12,7 @@
 
 namespace frustumscreen::status {
 
-/// What the watchdog does in the mode with this word; `word` itself if there is no such mode.
+/// The watchdog's action in the mode with this word; `word` itself if there is no such mode.
 [[nodiscard]] std::string_view sentence_of_mode(std::string_view word);
 
 struct ExhibitVerdict {

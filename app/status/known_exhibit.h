@@ -1,4 +1,4 @@
-/// What is known of the exhibit from outside, running or not: its status, its watchdog's status, and how its
+/// The exhibit's state as seen from outside, running or not: its status, its watchdog's status, and how its
 /// process ended.
 ///
 /// Time     ages are by the monotonic clock and the kernel's id of this boot. The wall clock may be wrong.
@@ -52,7 +52,7 @@ struct MachineState {
 };
 inline constexpr Nanoseconds between_looks_at_machine = std::chrono::seconds(10);
 
-/// What other programs know of the exhibit's run; it never changes.
+/// Facts of other programs about the exhibit's run; they never change.
 struct Environment {
     StatusDocument watchdog;
     watch::ServiceEnds ends;

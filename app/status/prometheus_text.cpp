@@ -81,7 +81,8 @@ void add_machine(Metrics& metrics, const Environment& environment) {
     const MachineState& machine = environment.machine;
     metrics.add({"machine_uptime_seconds", "Time since the machine was started."}, environment.monotonic_s);
     if (machine.hottest_c) {
-        metrics.add({"temperature_celsius", "Of the hottest of the machine's sensors."}, *machine.hottest_c);
+        metrics.add({"temperature_celsius", "Temperature of the machine's hottest sensor."},
+                    *machine.hottest_c);
     }
     if (machine.disk) {
         metrics.add({"disk_free_bytes", "Free space of the disk with the packs."},
@@ -97,7 +98,7 @@ void add_system(Metrics& metrics, const SystemImage& image) {
                      .scale = 1.0,
                      .label = "version"},
                     image.version, 1.0);
-        metrics.add({"system_notes", "What was wrong when it started, such as an update that did not start."},
+        metrics.add({"system_notes", "Faults at its start, such as an update that did not start."},
                     static_cast<double>(image.notes.size()));
     }
 }
@@ -108,8 +109,7 @@ std::string prometheus_text(const KnownExhibit& known) {
     const ExhibitVerdict verdict = verdict_of(known);
     Metrics metrics;
     metrics.add({"up", "1: the exhibit runs."}, verdict.runs ? 1.0 : 0.0);
-    metrics.add({"well", "1: it runs, nobody has a complaint, and its devices are there."},
-                verdict.well ? 1.0 : 0.0);
+    metrics.add({"well", "1: it runs without faults, and all its devices work."}, verdict.well ? 1.0 : 0.0);
     if (known.status.age_s) {
         metrics.add({"status_age_seconds", "Age of the exhibit's status."}, *known.status.age_s);
     }

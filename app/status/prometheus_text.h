@@ -1,4 +1,4 @@
-/// What is known of the exhibit, as metrics in Prometheus' text format, for node_exporter's textfile collector.
+/// The exhibit's state as metrics in Prometheus' text format, for node_exporter's textfile collector.
 ///
 /// Units    base units: seconds, bytes, metres, ratios. Names of counters end in _total.
 /// Source   Prometheus' exposition formats, text format 0.0.4; its page on metric and label naming.

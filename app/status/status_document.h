@@ -1,4 +1,4 @@
-/// What is known of the exhibit, as one JSON document with fixed keys: docs/status.md.
+/// The exhibit's state as one JSON document with fixed keys: docs/status.md.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -178,7 +178,7 @@ std::string left_out_line(const StatusReport& status) {
     if (!status.left_out) {
         return {};
     }
-    const std::vector<library::PackLeftOut>& packs = *status.left_out;
+    const std::vector<library::UnshownPack>& packs = *status.left_out;
     std::string text;
     for (std::size_t k = 0; k < std::min(packs.size(), max_told); ++k) {
         text += fmt::format("{}{}: {}", k == 0 ? "" : "; ", brief(packs[k].pack), brief(packs[k].reason));
@@ -375,7 +375,7 @@ std::string status_text(const KnownExhibit& known, std::time_t now) {
         verdict.sentence + (verdict.runs ? ".\n" : "; systemctl status frustumscreen says more.\n");
     const bool is_known = known.status.fields.is_object();
     if (!verdict.runs && is_known) {
-        text += "What it said last:\n";
+        text += "Its last messages:\n";
     }
     const StatusReport report = read_status_report(known.status.fields);
     for (const StatusLine& line :

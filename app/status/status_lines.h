@@ -1,4 +1,4 @@
-/// What is known of the exhibit, in lines that a technician can read out on the telephone.
+/// The exhibit's state, in lines that a technician can read out on the telephone.
 ///
 /// Threads  pure; any.
 /// Errors   none: what is unknown has no line, or its line says so.

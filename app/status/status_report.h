@@ -7,7 +7,7 @@
 #pragma once
 
 #include "app/library/import_report.h"
-#include "app/library/pack_left_out.h"
+#include "app/library/unshown_pack.h"
 #include "app/pack/pack_file.h"
 #include "app/status/set_status.h"
 #include "firmware_host/base/device_state.h"
@@ -102,13 +102,13 @@ struct ProgramStatus {
     std::optional<double> resident_mib = 0.0;
 };
 
-/// What is shown, and where it comes from.
+/// The shown artifact and its source.
 struct ShownStatus {
     PresentedPicture presented;
     std::optional<std::uint8_t> shown_code; ///< last read back from what the display shows
     std::string mode{"normal"};             ///< word_of(Mode)
     Sentence settings;
-    library::PacksLeftOut left_out; ///< null: none
+    library::UnshownPacks left_out; ///< null: none
     SharedSetStatus set;            ///< null: no set is installed, and none is looked for
     bool library_hangs = false; ///< the thread that looks for another set hangs on the disk; see trouble_of
     std::string state;          ///< name_of(State), or asleep_name
@@ -167,14 +167,14 @@ struct DriftStatus {
     bool drifted = false;          ///< too far: the exhibit must be calibrated again
 };
 
-/// What is known of prop and eye, and from where.
+/// The poses of prop and eye, and their sources.
 struct TrackedStatus {
     std::string prop_by; ///< tracker or tags; empty: neither is there
     std::uint64_t hand_overs = 0;
     bool prop_known = false;
     bool head_known = false;
     std::string eye_by{"settings"}; ///< sensor, camera or settings
-    std::optional<double> eye_sd_m; ///< of an eye measured by the camera, Situation::eye_sd_m
+    std::optional<double> eye_sd_m; ///< of an eye measured by the camera, TrackedState::eye_sd_m
 };
 
 /// The fields in groups by subject.

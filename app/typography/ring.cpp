@@ -96,13 +96,13 @@ Stop between(const Stop& from, const Stop& to, double share) {
 
 /// The part of an edge inside a convex polygon.
 std::optional<std::pair<Stop, Stop>> part_within(const Stop& from, const Stop& to,
-                                                 std::span<const glm::dvec2> room) {
+                                                 std::span<const glm::dvec2> area) {
     constexpr double shortest_m = 1e-6;
     double first = 0.0;
     double last = 1.0;
-    for (std::size_t k = 0; k < room.size(); ++k) {
-        const glm::dvec2 side = room[(k + 1) % room.size()] - room[k];
-        const double inside = cross(side, from.at - room[k]);
+    for (std::size_t k = 0; k < area.size(); ++k) {
+        const glm::dvec2 side = area[(k + 1) % area.size()] - area[k];
+        const double inside = cross(side, from.at - area[k]);
         const double rate = cross(side, to.at - from.at);
         if (rate > 0.0) {
             first = std::max(first, -inside / rate);
@@ -129,13 +129,13 @@ RingPiece piece(const Stop& from, const Stop& to, bool filled) {
 } // namespace
 
 Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns,
-                 std::span<const glm::dvec2> room) {
+                 std::span<const glm::dvec2> area) {
     const Outline outline = outline_of(shadow, quarter_turns);
     std::array<std::pair<Stop, Stop>, Ring::most> parts{};
     std::size_t count = 0;
     double length = 0.0;
     for (std::size_t k = 0; k + 1 < outline.count; ++k) {
-        if (const auto part = part_within(outline.stops[k], outline.stops[k + 1], room)) {
+        if (const auto part = part_within(outline.stops[k], outline.stops[k + 1], area)) {
             length += glm::distance(part->first.at, part->second.at);
             parts[count++] = *part;
         }

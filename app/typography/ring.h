@@ -36,10 +36,10 @@ struct Ring {
     [[nodiscard]] std::span<const RingPiece> pieces() const { return std::span(all).first(count); }
 };
 
-/// `full`: the share of its length that is filled, 0..1. `quarter_turns`: the reader's side. `room`: the part
+/// `full`: the share of its length that is filled, 0..1. `quarter_turns`: the reader's side. `area`: the part
 /// of the table that the projector's picture covers, convex, counter-clockwise.
 [[nodiscard]] Ring ring_around(const TablePolygon& shadow, double full, int quarter_turns,
-                               std::span<const glm::dvec2> room);
+                               std::span<const glm::dvec2> area);
 
 /// Factor of linear light that fades the ring in as it fills, and out as it empties.
 [[nodiscard]] double ring_brightness(double full);

@@ -7,14 +7,14 @@ namespace frustumscreen::watch {
 Judge::Judge(const Patience& patience, MonotonicTime start)
     : patience_(patience), looked_(start), counted_(start), judged_since_(start), drained_(start) {}
 
-void Judge::begin_anew(MonotonicTime now) {
+void Judge::restart(MonotonicTime now) {
     judged_since_ = counted_ = now;
     has_lived_ = false;
     bad_since_.fill(std::nullopt);
 }
 
 void Judge::step_taken(MonotonicTime now) {
-    begin_anew(now);
+    restart(now);
     endings_ = 0.0;
 }
 
@@ -78,7 +78,7 @@ std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome
 
 Observation Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
     if (now - looked_ > late_look) {
-        begin_anew(now);
+        restart(now);
     }
     looked_ = now;
     count_endings(now, outcome.failures);

@@ -47,7 +47,7 @@ private:
     [[nodiscard]] std::optional<Cause> trouble_of(MonotonicTime now, const Outcome& outcome, bool lives);
     /// True if `bad` was true at every look for `patience`.
     [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience);
-    void begin_anew(MonotonicTime now);
+    void restart(MonotonicTime now);
 
     Patience patience_;
     MonotonicTime looked_;

@@ -308,7 +308,7 @@ BakedProp baked_cube() {
     return {"cube", geometry::make_cube(geometry::FrustumSize{}.base_m), ViewingZone::all_around()};
 }
 
-std::uintmax_t room_for_pack(int size) {
+std::uintmax_t space_for_pack(int size) {
     constexpr std::uintmax_t triangles_bytes = 20'000'000;
     constexpr std::uintmax_t bytes_each_square = 200; // for all levels and the relief
     constexpr std::uintmax_t max_bytes = std::uintmax_t{2} << 30;

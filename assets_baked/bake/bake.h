@@ -56,7 +56,7 @@ struct BakeOptions {
 
 /// Disk space in bytes that a pack of this size (texels) may need. The largest pack measured, a helmet of
 /// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack's limit.
-[[nodiscard]] std::uintmax_t room_for_pack(int size);
+[[nodiscard]] std::uintmax_t space_for_pack(int size);
 
 /// Texels of a scan's pictures, all together, beyond which a pack of this size shows no more of them. The largest atlas
 /// has 4 x 4 times `size` squared texels, each of which is the mean of four; 16 times as many as its texels allow for

@@ -81,9 +81,9 @@ void Chart::reach(const glm::ivec2& low, const glm::ivec2& high) {
         return;
     }
     // A growing chart reserves a margin, so that it is seldom copied.
-    const glm::ivec2 room = empty ? glm::ivec2(0) : old_size / 4 + 4;
-    const glm::ivec2 new_low = empty ? low : glm::min(low - room, origin_);
-    const glm::ivec2 new_high = empty ? high : glm::max(high + room, origin_ + old_size - 1);
+    const glm::ivec2 margin = empty ? glm::ivec2(0) : old_size / 4 + 4;
+    const glm::ivec2 new_low = empty ? low : glm::min(low - margin, origin_);
+    const glm::ivec2 new_high = empty ? high : glm::max(high + margin, origin_ + old_size - 1);
     image::Image<Texel> larger(new_high.x - new_low.x + 1, new_high.y - new_low.y + 1);
     for (int y = 0; y < old_size.y; ++y) {
         for (int x = 0; x < old_size.x; ++x) {

@@ -71,9 +71,9 @@ void ChartFinder::take_from(const TriangleMesh& other, const std::vector<std::ui
 std::vector<std::uint32_t> ChartFinder::find() {
     constexpr int passes = 4; // the last pass changes hardly anything
     const bool is_first = charts_.empty();
-    grow_the_rest();
+    grow_others();
     for (int pass = 0; is_first && pass < passes; ++pass) {
-        grow_anew();
+        regrow();
     }
     straighten_borders(is_first ? min_facing : min_facing_later);
     return std::move(chart_of_);
@@ -119,7 +119,7 @@ void ChartFinder::grow_from(std::uint32_t seed, const glm::vec3& direction) {
     spread({seed}, min_facing);
 }
 
-void ChartFinder::grow_the_rest() {
+void ChartFinder::grow_others() {
     for (const std::uint32_t seed : large_first_) {
         if (chart_of_[seed] == no_chart && areas_[seed] > 0.0F) {
             grow_from(seed, direction_at(seed));
@@ -128,7 +128,7 @@ void ChartFinder::grow_the_rest() {
 }
 
 /// Only for charts that are all this mesh's own.
-void ChartFinder::grow_anew() {
+void ChartFinder::regrow() {
     std::vector<glm::vec3> means(charts_.size(), glm::vec3(0.0F));
     std::vector<float> sizes(charts_.size(), 0.0F);
     for (std::size_t t = 0; t < chart_of_.size(); ++t) {
@@ -147,7 +147,7 @@ void ChartFinder::grow_anew() {
             grow_from(seed, glm::normalize(means[chart]));
         }
     }
-    grow_the_rest();
+    grow_others();
 }
 
 /// Moves a triangle to the chart that two of its neighbours share, if it fits there.

@@ -39,8 +39,8 @@ private:
     void spread(std::vector<std::uint32_t> taken, float facing);
     [[nodiscard]] glm::vec3 direction_at(std::uint32_t seed) const;
     void grow_from(std::uint32_t seed, const glm::vec3& direction);
-    void grow_the_rest();
-    void grow_anew();
+    void grow_others();
+    void regrow();
     void straighten_borders(float facing);
     [[nodiscard]] std::uint32_t chart_of_two_neighbours(std::uint32_t triangle) const;
     [[nodiscard]] std::vector<std::uint32_t> beside_in(const TriangleMesh& other) const;

@@ -19,7 +19,7 @@ namespace frustumscreen::bake {
 
 namespace {
 
-/// Of what triangles use.
+/// Bounds and area of the vertices that triangles use.
 struct Extent {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};

@@ -1,4 +1,4 @@
-/// What a reduced scan (reduce_scan.h) adds to errors that are measured against it: a surface lies from the scan at most as
+/// The share of a reduced scan (reduce_scan.h) in errors that are measured against it: a surface lies from the scan at most as
 /// far as from the reduced scan, and as that from the scan.
 ///
 /// Frame    box.

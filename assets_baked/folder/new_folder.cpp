@@ -77,15 +77,15 @@ void take_away(const fs::path& folder, const Copies& copies) {
 
 Result<void> not_copied(const fs::path& from, const fs::path& to, const std::error_code& why) {
     std::error_code none;
-    const fs::space_info room = fs::space(to.parent_path(), none);
+    const fs::space_info space = fs::space(to.parent_path(), none);
     const std::uintmax_t bytes = fs::file_size(from, none);
-    if (why == std::errc::no_space_on_device || (!none && room.available < bytes)) {
+    if (why == std::errc::no_space_on_device || (!none && space.available < bytes)) {
         return bad_input(
             "folder.no_space",
             "{}: no space is left for it in {}: it needs {:.1f} MB and {:.1f} MB are free; make room, or "
             "choose a folder on another disk",
             from.string(), to.parent_path().string(), static_cast<double>(bytes) / 1e6,
-            static_cast<double>(room.available) / 1e6);
+            static_cast<double>(space.available) / 1e6);
     }
     return bad_input("folder.not_copied", "{}: cannot be copied to {}: {}", from.string(), to.string(),
                      why.message());

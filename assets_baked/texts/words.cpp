@@ -291,7 +291,7 @@ Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& f
                                                   std::span<const std::string> languages) {
     if (languages.empty()) {
         return bad_input("words.no_language_named",
-                         "no language is named; name at least that of the house, such as en");
+                         "no language is named; name at least the exhibit's first language, such as en");
     }
     const std::string& house = languages.front();
     TRY(const WrittenWords fallback, words_of(folder, house));

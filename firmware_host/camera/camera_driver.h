@@ -39,8 +39,8 @@ public:
                  CpuThrottle share = CpuThrottle(1.0));
 
     struct Step {
-        bool fresh = false; ///< a frame was taken
-        Nanoseconds rest{}; ///< pause before the next step
+        bool fresh = false;  ///< a frame was taken
+        Nanoseconds pause{}; ///< pause before the next step
     };
     /// One round; a frame that was taken has already been used.
     [[nodiscard]] Step step(CameraFrame& frame);

@@ -14,7 +14,7 @@ void V4l2Camera::run(const std::stop_token& stop) {
     CameraFrame frame;
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + (driver_.is_open() ? longest_round : longest_search));
-        const auto [fresh, rest] = driver_.step(frame);
+        const auto [fresh, pause] = driver_.step(frame);
         if (fresh) {
             mailbox_.put(frame);
         }
@@ -25,7 +25,7 @@ void V4l2Camera::run(const std::stop_token& stop) {
             counts_ = driver_.counts();
             set_up_ = driver_.set_up();
         }
-        sleep_until_stop(stop, rest);
+        sleep_until_stop(stop, pause);
     }
 }
 

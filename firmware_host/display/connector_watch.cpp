@@ -50,9 +50,9 @@ void ConnectorWatch::run() {
             news_ = seen;
             last = std::move(seen);
         }
-        const Nanoseconds rest = lit_ ? between_looks_while_lit : between_looks_in_the_dark;
-        heartbeat_.promise(monotonic_now() + rest + longest_glance);
-        plugged = hotplug_->wait(rest);
+        const Nanoseconds pause = lit_ ? between_looks_while_lit : between_looks_in_the_dark;
+        heartbeat_.promise(monotonic_now() + pause + longest_glance);
+        plugged = hotplug_->wait(pause);
     }
 }
 

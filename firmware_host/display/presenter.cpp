@@ -39,7 +39,7 @@ void Presenter::connected(CardSeen seen) {
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = rest_ != Rest::None ? asleep() : why_dark(seen_, request_);
+        state_ = sleep_ != Sleep::None ? asleep() : why_dark(seen_, request_);
     }
 }
 
@@ -65,8 +65,8 @@ void Presenter::take_flips() {
 
 /// A picture is due, so the projector is lit with it.
 void Presenter::wake() {
-    if (rest_ != Rest::None) {
-        rest_ = Rest::None;
+    if (sleep_ != Sleep::None) {
+        sleep_ = Sleep::None;
         try_again_.reset();
         stuck_since_.reset();
         if (lit_) {
@@ -79,13 +79,13 @@ void Presenter::wake() {
 
 Result<void> Presenter::stay_dark(bool may_set) {
     TRY_VOID(check_card());
-    if (rest_ == Rest::None) {
-        rest_ = Rest::Wanted;
+    if (sleep_ == Sleep::None) {
+        sleep_ = Sleep::Wanted;
         try_again_.reset();
     }
     take_flips();
     const bool may_try = !(try_again_ && device_.now() < *try_again_);
-    if (rest_ == Rest::Wanted && seen_.state == CardState::There && !queued_ && may_set && may_try) {
+    if (sleep_ == Sleep::Wanted && seen_.state == CardState::There && !queued_ && may_set && may_try) {
         darken();
     }
     return {};
@@ -158,7 +158,7 @@ void Presenter::wait_for_flip() {
     }
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
         const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("display.no_flip", "the graphics card does not answer; the projector will be lit anew");
+        lose("display.no_flip", "the graphics card does not answer; the projector will be lit again");
         try_again_ = device_.now();
         stuck_since_ = since;
     }
@@ -206,7 +206,7 @@ void Presenter::darken() {
         went_wrong(answer);
         return; // retried with the next picture
     }
-    if (answer == KmsAnswer::Refused && rest_ != Rest::None) {
+    if (answer == KmsAnswer::Refused && sleep_ != Sleep::None) {
         try_again_ = device_.now() + between_tries; // it is still lit
         return;
     }
@@ -216,8 +216,8 @@ void Presenter::darken() {
     clock_ = {};
     if (answer != KmsAnswer::Done && answer != KmsAnswer::Refused) {
         went_wrong(answer);
-    } else if (rest_ != Rest::None) {
-        rest_ = Rest::Dark;
+    } else if (sleep_ != Sleep::None) {
+        sleep_ = Sleep::Dark;
         state_ = asleep();
     } else {
         state_ = why_dark(seen_, request_);
@@ -335,7 +335,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Refused:
         lose("display.picture_refused",
-             "the graphics card refused a picture; the projector will be lit anew");
+             "the graphics card refused a picture; the projector will be lit again");
         try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:

@@ -125,8 +125,8 @@ private:
     bool late_ = false; ///< the queued flip did not come in time
     bool master_ = true;
     bool darken_ = false; ///< turn off the lit output
-    enum class Rest : std::uint8_t { None, Wanted, Dark };
-    Rest rest_ = Rest::None; ///< dark on purpose: to be turned off, or turned off
+    enum class Sleep : std::uint8_t { None, Wanted, Dark };
+    Sleep sleep_ = Sleep::None; ///< dark on purpose: to be turned off, or turned off
     DeviceState state_;
 };
 

@@ -28,8 +28,8 @@ public:
     void add(std::string_view name, std::string_view value) {
         assert(count_ < parts_.size());
         char* const begin = text_.data() + used_;
-        const std::size_t room = text_.size() - used_;
-        const auto end = fmt::format_to_n(begin, room, "{}={}", name, value).out;
+        const std::size_t free = text_.size() - used_;
+        const auto end = fmt::format_to_n(begin, free, "{}={}", name, value).out;
         const auto size = static_cast<std::size_t>(end - begin);
         parts_.at(count_++) = {begin, size};
         used_ += size;

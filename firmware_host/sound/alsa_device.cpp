@@ -130,7 +130,7 @@ public:
         }
     }
 
-    [[nodiscard]] Result<std::size_t> room() override {
+    [[nodiscard]] Result<std::size_t> free_samples() override {
         snd_pcm_sframes_t free = ::snd_pcm_avail(pcm_.get());
         if (free >= 0 && ::snd_pcm_state(pcm_.get()) == SND_PCM_STATE_SUSPENDED) {
             free = -ESTRPIPE; // a plugin with a full queue does not report it by itself
@@ -175,7 +175,7 @@ public:
     void wait(Nanoseconds longest) override {
         const auto ms = std::chrono::ceil<std::chrono::milliseconds>(longest);
         if (::snd_pcm_wait(pcm_.get(), static_cast<int>(ms.count())) < 0) {
-            std::this_thread::sleep_for(longest); // `room` reports the error
+            std::this_thread::sleep_for(longest); // `free_samples` reports the error
         }
     }
 

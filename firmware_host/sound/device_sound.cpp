@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 constexpr Nanoseconds look_again = std::chrono::seconds(1);
 /// Opening a device blocks the time of a spoken prompt, so a device that takes long to fail is tried less
 /// often.
-constexpr int rests_for_each_look = 10;
+constexpr int pauses_for_each_look = 10;
 constexpr Nanoseconds round = milliseconds(10);
 constexpr Nanoseconds stalls_after = milliseconds(500);
 
@@ -70,7 +70,7 @@ void DeviceSound::run(const std::stop_token& stop) {
             said_.put(away(device.error()));
         }
         device = {}; // close it before the next attempt
-        rest(std::max(look_again, rests_for_each_look * took), stop);
+        pause(std::max(look_again, pauses_for_each_look * took), stop);
     }
 }
 
@@ -82,27 +82,27 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
         const MonotonicTime now = monotonic_now();
         heartbeat_.promise(now + longest_round);
         follow_request();
-        const Result<std::size_t> room = device.room();
-        if (!room) {
-            return room.error();
+        const Result<std::size_t> free = device.free_samples();
+        if (!free) {
+            return free.error();
         }
         const std::size_t allowed = allowance.samples(now);
         Result<void> written;
-        mix_in_blocks(mixer_, std::min(*room, allowed), [&](std::span<const std::int16_t> block) {
+        mix_in_blocks(mixer_, std::min(*free, allowed), [&](std::span<const std::int16_t> block) {
             written = written ? device.write(block) : written;
         });
         if (!written) {
             return written.error();
         }
-        allowance.use(std::min(*room, allowed));
-        moved = *room > 0 ? now : moved;
+        allowance.use(std::min(*free, allowed));
+        moved = *free > 0 ? now : moved;
         if (now - moved > stalls_after) {
             return Error{ErrorKind::DeviceLost, "sound.stalled",
                          "the sound device takes no more samples; it is opened again"};
         }
         underruns_ = underruns_before + device.underruns();
         report(duration_of(device.queued()), true);
-        if (*room > allowed) {
+        if (*free > allowed) {
             std::this_thread::sleep_for(round);
         } else {
             device.wait(round);
@@ -111,7 +111,7 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
     return Error{ErrorKind::DeviceLost, "sound.ended", {}};
 }
 
-void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {
+void DeviceSound::pause(Nanoseconds length, const std::stop_token& stop) {
     const MonotonicTime end = monotonic_now() + length;
     while (!stop.stop_requested() && monotonic_now() < end) {
         heartbeat_.promise(monotonic_now() + longest_round);

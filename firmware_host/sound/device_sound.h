@@ -42,7 +42,7 @@ private:
     /// Plays until the device is lost, and returns that error, or until `stop` is requested.
     [[nodiscard]] Error play(PcmDevice& device, const std::stop_token& stop);
     /// Keeps time without a device.
-    void rest(Nanoseconds length, const std::stop_token& stop);
+    void pause(Nanoseconds length, const std::stop_token& stop);
     void go_on_silently();
     void follow_request();
     void report(Nanoseconds queued, bool audible);
@@ -58,7 +58,7 @@ private:
     SoundReport report_;
     DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
                        Sentence("its sound device is not opened yet")};
-    // Of the thread:
+    // Used by the thread:
     Mixer mixer_;
     SampleClock clock_{monotonic_now()}; ///< used while there is no device
     std::uint64_t underruns_ = 0;        ///< of all devices

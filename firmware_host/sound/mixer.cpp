@@ -46,9 +46,9 @@ float amplitude_of(double gain_db) {
 
 float soft_limit(float x) {
     constexpr float knee = Mixer::linear_up_to;
-    constexpr float room = 1.0F - knee;
+    constexpr float range = 1.0F - knee;
     const float size = std::abs(x);
-    return size <= knee ? x : std::copysign(knee + room * std::tanh((size - knee) / room), x);
+    return size <= knee ? x : std::copysign(knee + range * std::tanh((size - knee) / range), x);
 }
 
 void Mixer::follow(const SoundRequest& request) {

@@ -20,12 +20,12 @@ class PcmDevice {
 public:
     virtual ~PcmDevice() = default;
     /// Number of samples that it accepts now. Recovers from an underrun, and counts it.
-    [[nodiscard]] virtual Result<std::size_t> room() = 0;
-    /// Takes `samples`, at most as many as `room` returned.
+    [[nodiscard]] virtual Result<std::size_t> free_samples() = 0;
+    /// Takes `samples`, at most as many as `free_samples` returned.
     [[nodiscard]] virtual Result<void> write(std::span<const std::int16_t> samples) = 0;
-    /// Samples in its queue, as of the last `room` and `write`.
+    /// Samples in its queue, as of the last `free_samples` and `write`.
     [[nodiscard]] virtual std::size_t queued() const = 0;
-    /// Waits until there may be room, or `longest` has passed.
+    /// Waits until there may be space, or `longest` has passed.
     virtual void wait(Nanoseconds longest) = 0;
     [[nodiscard]] virtual std::uint64_t underruns() const = 0;
     [[nodiscard]] virtual DeviceState state() const = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Nanoseconds between_writes = std::chrono::milliseconds(250);
 constexpr Nanoseconds between_syncs = std::chrono::seconds(1);
-constexpr std::size_t room_for_gap = 64; ///< for the packet that records a gap
+constexpr std::size_t space_for_gap = 64; ///< for the packet that records a gap
 
 } // namespace
 
@@ -24,9 +24,9 @@ PacketRecorder::PacketRecorder(GrowingFile file, std::string_view about, Monoton
     thread_ = std::jthread([this](const std::stop_token& stop) { write(stop); });
 }
 
-bool PacketRecorder::has_room(std::size_t payload) const {
+bool PacketRecorder::has_space(std::size_t payload) const {
     return payload <= longest_packet &&
-           waiting_.size() + packet_size(payload) + room_for_gap <= max_waiting_bytes;
+           waiting_.size() + packet_size(payload) + space_for_gap <= max_waiting_bytes;
 }
 
 void PacketRecorder::take(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) {
@@ -39,7 +39,7 @@ void PacketRecorder::packet(PacketKind kind, MonotonicTime time, std::span<const
     if (finished_) {
         return;
     }
-    if (!has_room(payload.size())) {
+    if (!has_space(payload.size())) {
         ++counts_.dropped;
         ++gap_;
         gap_until_ = time;

@@ -43,7 +43,7 @@ public:
 private:
     void write(const std::stop_token& stop);
     // Call with the lock held.
-    [[nodiscard]] bool has_room(std::size_t payload) const;
+    [[nodiscard]] bool has_space(std::size_t payload) const;
     void take(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload);
     void name_gap(MonotonicTime time);
     void say();

@@ -15,7 +15,7 @@ void UsbTracker::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + (driver_.is_open() ? longest_round : longest_search));
         samples.clear();
-        const Nanoseconds rest = driver_.step(samples);
+        const Nanoseconds pause = driver_.step(samples);
         if (!samples.empty()) {
             mailbox_.put(samples);
         }
@@ -24,7 +24,7 @@ void UsbTracker::run(const std::stop_token& stop) {
             const std::lock_guard lock(counts_mutex_);
             counts_ = driver_.counts();
         }
-        sleep_until_stop(stop, rest);
+        sleep_until_stop(stop, pause);
     }
 }
 

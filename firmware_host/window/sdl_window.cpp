@@ -113,11 +113,11 @@ Result<void> SdlWindow::open() {
 
 /// Both halves next to each other, as large as the picture if the desktop has the space.
 Result<void> SdlWindow::create_window() {
-    SDL_Rect room{0, 0, 2 * set_up_.width, set_up_.height};
+    SDL_Rect desktop{0, 0, 2 * set_up_.width, set_up_.height};
     double scale = 1.0;
-    if (SDL_GetDisplayUsableBounds(0, &room) == 0) {
-        scale = std::min({1.0, used_share_of_desktop * room.w / (2.0 * set_up_.width),
-                          used_share_of_desktop * room.h / set_up_.height});
+    if (SDL_GetDisplayUsableBounds(0, &desktop) == 0) {
+        scale = std::min({1.0, used_share_of_desktop * desktop.w / (2.0 * set_up_.width),
+                          used_share_of_desktop * desktop.h / set_up_.height});
     }
     window_ = SDL_CreateWindow("FrustumScreen - H: help", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                static_cast<int>(2.0 * scale * set_up_.width),

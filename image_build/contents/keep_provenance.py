@@ -46,7 +46,7 @@ def keep_compiled_in(names, out):
         for name in sorted(names):
             found = subprocess.run(["dpkg-query", "--status", name], capture_output=True, text=True)
             if found.returncode or "\nStatus: install ok installed\n" not in found.stdout:
-                raise Wrong(f"{name}, of which our programs have something compiled in, is not installed: ./setup.sh kiosk")
+                raise Wrong(f"{name}, parts of which are compiled into our programs, is not installed: ./setup.sh kiosk")
             status.write(f"{found.stdout.strip()}\n\n")
             copyright_file = pathlib.Path("usr/share/doc") / name / "copyright"
             copy_inside(pathlib.Path("/"), "/" / copyright_file, out / copyright_file)

@@ -130,7 +130,7 @@ class Squashfs:
         return file
 
     def share_out(self):
-        """What two files have in common counts for the first of them; a fragment block is shared by size."""
+        """Data shared by two files counts for the first; a fragment block is divided by size."""
         seen, in_fragment = set(), {}
         owners = []
         for file in self.files.values():

@@ -8,7 +8,7 @@ import re
 
 
 class Wrong(Exception):
-    """What a person can mend, in one sentence."""
+    """A mistake that a person can correct, in one sentence."""
 
 
 def lines_of(path):

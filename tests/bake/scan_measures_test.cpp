@@ -1,4 +1,4 @@
-// What is said of a scan before a bake: points and extents by hand, the estimate against bakes.
+// The findings of a check before a bake: points and extents by hand, the estimate against bakes.
 #include "app/pack/pack_file.h"
 #include "assets_baked/bake/scan_measures.h"
 #include "tests/bake/shapes.h"
@@ -12,7 +12,7 @@ TEST(ScanMeasures, CountDifferentPointsAndMeasureAlongTheFilesAxes) {
     SourceMesh mesh = test::empty_mesh();
     test::add_box(mesh, {10, 20, 30}, {11, 22, 35});
     mesh.positions.insert(mesh.positions.end(), {{10, 20, 30}, {11, 22, 35}, {11, 20, 35}, {1000, 0, 0}});
-    test::add_triangle(mesh, 8, 9, 10); // corners of the box again; nobody uses the last point
+    test::add_triangle(mesh, 8, 9, 10); // corners of the box again; the last point is unused
     BakeOptions options;
     options.up = "x";
     options.turn_deg = 30.0;

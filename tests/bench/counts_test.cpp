@@ -48,8 +48,8 @@ TEST(Counts, AFrameTakesNoMoreThanTheProjectsReference) {
         const std::vector<CountedPack> now{*counted};
         const std::vector<CountChange> against = changes(now, reference());
         ASSERT_EQ(against.size(), 1U) << counted->artifact << " in " << name << " is not in the reference";
-        EXPECT_FALSE(against[0].grown)
-            << counts_table(now, against) << "explain the growth, then write docs/reference_counts.json anew";
+        EXPECT_FALSE(against[0].grown) << counts_table(now, against)
+                                       << "explain the growth, then write docs/reference_counts.json again";
     }
 }
 

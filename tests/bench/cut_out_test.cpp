@@ -62,8 +62,8 @@ protected:
     }
 
     [[nodiscard]] PictureError error_of(std::uint32_t level, const BenchPose& pose) {
-        auto technique = make_pack_level(stage_, pack_, level, {render::finest_samples}, "level").value();
-        const Truth truth = Truth::build(mesh_, pack::place(pack_, stage_.prop).prop_from_artifact).value();
+        auto technique = make_pack_level(kiosk_, pack_, level, {render::finest_samples}, "level").value();
+        const Truth truth = Truth::build(mesh_, pack::place(pack_, kiosk_.prop).prop_from_artifact).value();
         return DrawnNear::error_of(*technique, pose, ray_cast(truth, pose));
     }
 
@@ -73,7 +73,7 @@ protected:
 
 TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
     ASSERT_NO_FATAL_FAILURE(bake_fence(false));
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 3);
     ASSERT_TRUE(poses);
     for (const std::uint32_t level :
          {pack_.default_level, static_cast<std::uint32_t>(pack_.levels.size() - 1)}) {
@@ -89,7 +89,7 @@ TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
 TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
     ASSERT_NO_FATAL_FAILURE(bake_fence(true));
     const auto finest = static_cast<std::uint32_t>(pack_.levels.size() - 1);
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 3);
     ASSERT_TRUE(poses);
     for (const BenchPose& pose : *poses) {
         const PictureError error = error_of(finest, pose);
@@ -103,14 +103,14 @@ TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
 TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
     for (const bool with_wall : {false, true}) {
         ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall, true));
-        const Truth truth = Truth::build(mesh_, pack::place(pack_, stage_.prop).prop_from_artifact).value();
+        const Truth truth = Truth::build(mesh_, pack::place(pack_, kiosk_.prop).prop_from_artifact).value();
         const std::vector<pack::ReliefOutline> outlines = pack::reliefs_of(pack_).value();
         ASSERT_FALSE(outlines.empty());
         const auto relief =
             std::make_shared<const relief::BlockRelief>(pack::relief_of(pack_, outlines.back()).value());
         auto technique =
-            make_pack_relief(stage_, pack_, relief, {}, {render::finest_samples}, "relief").value();
-        const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 3);
+            make_pack_relief(kiosk_, pack_, relief, {}, {render::finest_samples}, "relief").value();
+        const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 3);
         ASSERT_TRUE(poses);
         for (const BenchPose& pose : *poses) {
             const TruthPicture cast = ray_cast(truth, pose);

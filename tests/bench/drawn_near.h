@@ -17,20 +17,20 @@ namespace frustumscreen::bench {
 class DrawnNear : public ::testing::Test {
 protected:
     [[nodiscard]] TruthPicture ray_cast(const Truth& truth, const BenchPose& pose) const {
-        return truth.cast(stage_.prop, view_of(stage_.settings, pose), true);
+        return truth.cast(kiosk_.prop, view_of(kiosk_.settings, pose), true);
     }
     /// The error of the picture drawn by `technique` for `pose`.
     [[nodiscard]] PictureError error_of(Technique& technique, const BenchPose& pose,
                                         const TruthPicture& truth) const {
         technique.draw(pose);
-        image::Image8 colour = render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+        image::Image8 colour = render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
         auto points = technique.hit_points(pose);
         return measure(truth, {std::move(colour), std::move(points).value()});
     }
 
     std::unique_ptr<display::SurfacelessDisplay> display_ =
         display::SurfacelessDisplay::create(640, 400).value();
-    Stage stage_{near_settings(), geometry::make_frustum({}), display_->framebuffer()};
+    Kiosk kiosk_{near_settings(), geometry::make_frustum({}), display_->framebuffer()};
 };
 
 } // namespace frustumscreen::bench

@@ -16,9 +16,9 @@ namespace {
 class Floor : public DrawnNear {
 protected:
     [[nodiscard]] std::unique_ptr<Technique> floor(FloorFilter filter) const {
-        return make_floor(stage_, filter).value();
+        return make_floor(kiosk_, filter).value();
     }
-    std::vector<BenchPose> poses_ = draw_poses(stage_.settings, stage_.prop, 6, 5).value();
+    std::vector<BenchPose> poses_ = draw_poses(kiosk_.settings, kiosk_.prop, 6, 5).value();
     Truth truth_ = Truth::build(ring(), glm::dmat4(1.0)).value();
 };
 
@@ -31,7 +31,7 @@ TEST_F(Floor, ItsCodesAreAveragedAsCodesAndLieOnThePropAlone) {
         for (const BenchPose& pose : poses_) {
             technique->draw(pose);
             const image::Image8 drawn =
-                render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
             const TruthPicture truth = ray_cast(truth_, pose);
             double sum = 0.0;
             int lit = 0;
@@ -61,7 +61,7 @@ TEST_F(Floor, EachVisibleFaceIsTwoTrianglesDrawnOnce) {
             GLuint triangles = 0;
             glGetQueryObjectuiv(query, GL_QUERY_RESULT, &triangles);
             glDeleteQueries(1, &query);
-            EXPECT_EQ(triangles, 2 * peer_view(stage_, pose).faces.size());
+            EXPECT_EQ(triangles, 2 * peer_view(kiosk_, pose).faces.size());
         }
     }
 }

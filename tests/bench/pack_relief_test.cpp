@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
-    Result<Comparison> opened = open_comparison({"near", stage_.settings}, pack_, {}, mesh_, {{}, 4, 3});
+    Result<Comparison> opened = open_comparison({"near", kiosk_.settings}, pack_, {}, mesh_, {{}, 4, 3});
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->set->add_reliefs(pack_, {}));
     ASSERT_TRUE(opened->set->add_reliefs_on_gpu(pack_, {}));
@@ -64,7 +64,7 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
         EXPECT_EQ(reliefs[k].samples, pack_.samples);
         EXPECT_GT(reliefs[k].error.mean.truth_pixels, 300);
         EXPECT_GT(reliefs[k].error.mean.geometric_mean_mm, 0.0);
-        const double texel_mm = 1e3 * pack::place(pack_, stage_.prop).metres_per_box / outlines[k].texels;
+        const double texel_mm = 1e3 * pack::place(pack_, kiosk_.prop).metres_per_box / outlines[k].texels;
         EXPECT_LT(reliefs[k].error.mean.geometric_mean_mm, 0.5 * texel_mm);
         EXPECT_LT(reliefs[k].error.worst.outline_shift_px, 1.0);
         EXPECT_FALSE(reliefs[k].drawn_as.empty());
@@ -89,7 +89,7 @@ TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
     for (const pack::Pack* const pack : std::array<const pack::Pack*, 2>{&pack_, &with_light}) {
         const std::vector<std::uint32_t> levels{pack->default_level};
         Result<Comparison> opened =
-            open_comparison({"near", stage_.settings}, *pack, levels, mesh_, {{}, 3, 3});
+            open_comparison({"near", kiosk_.settings}, *pack, levels, mesh_, {{}, 3, 3});
         ASSERT_TRUE(opened) << opened.error().message;
         ASSERT_TRUE(opened->set->add_reliefs(*pack, {}));
         ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));

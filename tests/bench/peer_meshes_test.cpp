@@ -24,7 +24,7 @@ double distance_from_ring(const glm::dvec3& point) {
 class PeerMeshes : public DrawnNear {
 protected:
     std::shared_ptr<bake::SourceMesh> mesh_ = ring();
-    std::vector<BenchPose> poses_ = draw_poses(stage_.settings, stage_.prop, 5, 11).value();
+    std::vector<BenchPose> poses_ = draw_poses(kiosk_.settings, kiosk_.prop, 5, 11).value();
 };
 
 TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {
@@ -39,12 +39,12 @@ TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {
         }
         const auto truth = Truth::build(mesh_, glm::dmat4(1.0));
         ASSERT_TRUE(truth);
-        const auto cast = make_ray_cast(stage_, truth->traced());
+        const auto cast = make_ray_cast(kiosk_, truth->traced());
         ASSERT_TRUE(cast) << cast.error().message;
         for (const BenchPose& pose : poses_) {
-            const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), false);
+            const TruthPicture picture = truth->cast(kiosk_.prop, view_of(kiosk_.settings, pose), false);
             (*cast)->draw(pose);
-            const image::Image8 colour = render::read_colour(stage_.framebuffer, 640, 400);
+            const image::Image8 colour = render::read_colour(kiosk_.framebuffer, 640, 400);
             const auto points = (*cast)->hit_points(pose);
             ASSERT_TRUE(points);
             int hits = 0;
@@ -74,7 +74,7 @@ TEST_F(PeerMeshes, ASimplifiedMeshLiesWithinTheSimplifiersError) {
         EXPECT_GT(level.mesh.triangles.size(), level.target / 2);
         const auto peer = PeerMesh::upload(level.mesh, glm::dmat4(1.0));
         ASSERT_TRUE(peer);
-        const auto drawn = make_full_mesh(stage_, *peer, nullptr, "LOD");
+        const auto drawn = make_full_mesh(kiosk_, *peer, nullptr, "LOD");
         ASSERT_TRUE(drawn);
         EXPECT_EQ((*drawn)->name(), "LOD");
         for (const BenchPose& pose : poses_) {
@@ -131,10 +131,10 @@ TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
         const auto truth = Truth::build(mesh_, glm::dmat4(1.0));
         const auto peer = PeerMesh::upload(*mesh_, glm::dmat4(1.0));
         ASSERT_TRUE(peer && truth);
-        const auto drawn = make_full_mesh(stage_, *peer);
+        const auto drawn = make_full_mesh(kiosk_, *peer);
         ASSERT_TRUE(drawn);
         for (const BenchPose& pose : poses_) {
-            const TruthPicture picture = truth->cast(stage_.prop, view_of(stage_.settings, pose), false);
+            const TruthPicture picture = truth->cast(kiosk_.prop, view_of(kiosk_.settings, pose), false);
             const auto points = (*drawn)->hit_points(pose);
             ASSERT_TRUE(points);
             const PictureError error = measure(picture, {picture.colour, *points});

@@ -18,9 +18,9 @@ protected:
 };
 
 TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
-    auto full = make_full_mesh(stage_, peer_);
+    auto full = make_full_mesh(kiosk_, peer_);
     ASSERT_TRUE(full);
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 6, 5);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 5);
     ASSERT_TRUE(poses);
     for (const BenchPose& pose : *poses) {
         const PictureError error = error_of(**full, pose, ray_cast(truth_, pose));
@@ -33,10 +33,10 @@ TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
 }
 
 TEST_F(Peers, TwoPassesComeNearerToTheRayCastWithALargerEyeImage) {
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 4, 6);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 4, 6);
     ASSERT_TRUE(poses);
-    auto coarse = make_two_pass(stage_, peer_, 128);
-    auto fine = make_two_pass(stage_, peer_, 1024);
+    auto coarse = make_two_pass(kiosk_, peer_, 128);
+    auto fine = make_two_pass(kiosk_, peer_, 1024);
     ASSERT_TRUE(coarse && fine);
     for (const BenchPose& pose : *poses) {
         const TruthPicture truth = ray_cast(truth_, pose);
@@ -51,14 +51,14 @@ TEST_F(Peers, TwoPassesComeNearerToTheRayCastWithALargerEyeImage) {
 }
 
 TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 2, 8);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 2, 8);
     ASSERT_TRUE(poses);
-    auto one = make_full_mesh(stage_, peer_);
+    auto one = make_full_mesh(kiosk_, peer_);
     ASSERT_TRUE(one);
     for (const int samples : {2, 4, 8}) {
-        const auto grid = PeerSamples::create(stage_, samples);
+        const auto grid = PeerSamples::create(kiosk_, samples);
         ASSERT_TRUE(grid);
-        const Result<std::unique_ptr<Technique>> several = make_full_mesh(stage_, peer_, *grid);
+        const Result<std::unique_ptr<Technique>> several = make_full_mesh(kiosk_, peer_, *grid);
         ASSERT_TRUE(several);
         EXPECT_NE((*several)->name().find(std::to_string(samples)), std::string::npos);
         for (const BenchPose& pose : *poses) {
@@ -75,23 +75,23 @@ TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
 
 /// Only lit pixels are cleared: nothing of the previous pose may remain.
 TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 3, 9);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 3, 9);
     ASSERT_TRUE(poses);
-    const auto grid = PeerSamples::create(stage_, 4);
+    const auto grid = PeerSamples::create(kiosk_, 4);
     ASSERT_TRUE(grid);
     for (const auto& samples : {std::shared_ptr<const PeerSamples>(), *grid}) {
-        const auto full = [&] { return make_full_mesh(stage_, peer_, samples).value(); };
-        const auto two = [&] { return make_two_pass(stage_, peer_, 256, samples).value(); };
+        const auto full = [&] { return make_full_mesh(kiosk_, peer_, samples).value(); };
+        const auto two = [&] { return make_two_pass(kiosk_, peer_, 256, samples).value(); };
         const std::array used = {full(), two()};
         for (const BenchPose& pose : *poses) {
             const std::array fresh = {full(), two()};
             for (std::size_t k = 0; k < used.size(); ++k) {
                 used[k]->draw(pose);
                 const image::Image8 after_others =
-                    render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                    render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
                 fresh[k]->draw(pose);
                 const image::Image8 alone =
-                    render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+                    render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
                 EXPECT_TRUE(after_others.texels == alone.texels) << used[k]->name();
             }
         }
@@ -99,13 +99,13 @@ TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
 }
 
 TEST_F(Peers, TheRayCastsSamplesComeNearerToSixteenRays) {
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 2, 8);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 2, 8);
     ASSERT_TRUE(poses);
     for (const BenchPose& pose : *poses) {
         const TruthPicture truth = ray_cast(truth_, pose);
         double before = 1e9;
         for (const int samples : {1, 2, 4, 8}) {
-            const auto cast = make_ray_cast(stage_, truth_.traced(), samples);
+            const auto cast = make_ray_cast(kiosk_, truth_.traced(), samples);
             ASSERT_TRUE(cast);
             const PictureError error = error_of(**cast, pose, truth);
             EXPECT_LT(error.sixteen_rays.rmse, 0.85 * before) << samples;

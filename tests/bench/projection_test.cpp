@@ -122,13 +122,13 @@ class ProjectedRing : public ::testing::Test {
 protected:
     [[nodiscard]] static double right_percent(const BenchPose& drawn, const BenchPose& stands) {
         auto display = display::SurfacelessDisplay::create(640, 400);
-        const Stage stage{near_settings(), geometry::make_frustum({}), (*display)->framebuffer()};
+        const Kiosk kiosk{near_settings(), geometry::make_frustum({}), (*display)->framebuffer()};
         auto mesh = std::make_shared<bake::SourceMesh>(*ring());
         auto peer = PeerMesh::upload(*mesh, glm::dmat4(1.0));
-        auto full = make_full_mesh(stage, *peer);
+        auto full = make_full_mesh(kiosk, *peer);
         (*full)->draw(drawn);
-        const image::Image8 picture = render::read_colour(stage.framebuffer, 640, 400);
-        const simulation::VisitorScene scene = scene_of(stage.settings, stage.prop, stands);
+        const image::Image8 picture = render::read_colour(kiosk.framebuffer, 640, 400);
+        const simulation::VisitorScene scene = scene_of(kiosk.settings, kiosk.prop, stands);
         const simulation::VisitorCamera camera = no_finer_camera(scene);
         simulation::VisitorViewOptions sixteen = simulation::exact_check();
         sixteen.rays_per_side = 4;

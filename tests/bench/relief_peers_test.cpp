@@ -117,10 +117,10 @@ TEST_F(ReliefPeers, EachComesNearToTheRayCastOfARing) {
     const auto mesh = ring();
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));
     ASSERT_TRUE(truth);
-    auto peers = make_relief_peers(stage_, *truth, *mesh, glm::dmat4(1.0), 256);
+    auto peers = make_relief_peers(kiosk_, *truth, *mesh, glm::dmat4(1.0), 256);
     ASSERT_TRUE(peers) << peers.error().message;
     ASSERT_EQ(peers->size(), 5U);
-    const auto poses = draw_poses(stage_.settings, stage_.prop, 4, 5);
+    const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 4, 5);
     ASSERT_TRUE(poses);
     for (const BenchPose& pose : *poses) {
         const TruthPicture picture = ray_cast(*truth, pose);

@@ -179,10 +179,10 @@ TEST_F(ReportPage, ATableWithoutItsCsvStaysAndSaysWhichFilesAreMissing) {
     ASSERT_TRUE(filled) << filled.error().message;
     EXPECT_EQ(filled->text, page);
     ASSERT_EQ(filled->tables.size(), 2U);
-    EXPECT_EQ(line_of(filled->tables[0], false),
-              "ladder: left as it is, " + folder.string() + "/ladder/ladder_policies.csv has no row for it");
+    EXPECT_EQ(line_of(filled->tables[0], false), "ladder: unchanged, because " + folder.string() +
+                                                     "/ladder/ladder_policies.csv has no row for it");
     EXPECT_EQ(line_of(filled->tables[1], true),
-              "shimmer: left as it is, there is no " + folder.string() + "/shimmer/*/shimmer.csv");
+              "shimmer: unchanged, because " + folder.string() + "/shimmer/*/shimmer.csv is missing");
 }
 
 TEST_F(ReportPage, AFolderWithoutAnyCsvIsAnError) {

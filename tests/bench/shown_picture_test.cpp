@@ -37,7 +37,7 @@ protected:
         PictureOptions options;
         options.samples = samples;
         Result<Comparison> opened =
-            open_comparison({"near", stage_.settings}, pack_, std::vector{level}, mesh_, {options, 3, 3});
+            open_comparison({"near", kiosk_.settings}, pack_, std::vector{level}, mesh_, {options, 3, 3});
         EXPECT_TRUE(opened && opened->set->add_finest_relief(pack_, options) &&
                     opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
         Errors errors;
@@ -63,7 +63,7 @@ protected:
 
 TEST_F(ShownPictureTest, LightSoftEdgesAndCoverAreTheTruths) {
     for (const auto& [k1, share] : {std::pair(0.0, 1.0F), std::pair(0.1, 0.15F)}) {
-        stage_.settings.projector.pinhole.lens = {k1, 0.0};
+        kiosk_.settings.projector.pinhole.lens = {k1, 0.0};
         bake_in(share);
         const Errors errors = errors_of(finest(), 16);
         EXPECT_LT(errors.level.colour.rmse, 1.0);
@@ -90,23 +90,23 @@ TEST_F(ShownPictureTest, FewSamplesCostWhatExactRaysAtTheirPlacesDo) {
 TEST_F(ShownPictureTest, AnotherLightIsAnError) {
     bake_in(1.0F);
     const Result<Comparison> opened =
-        open_comparison({"near", stage_.settings}, pack_, {}, mesh_, {{}, 1, 3});
+        open_comparison({"near", kiosk_.settings}, pack_, {}, mesh_, {{}, 1, 3});
     const BenchPose& pose = opened->poses.front();
-    const Stage& stage = opened->set->stage();
+    const Kiosk& kiosk = opened->set->kiosk();
     PictureOptions options;
     options.samples = 16;
-    const auto level = make_pack_level(stage, pack_, finest(), options, "finest").value();
+    const auto level = make_pack_level(kiosk, pack_, finest(), options, "finest").value();
     ShownPicture& shown = *level->as_shown();
     shown.draw_shown(pose);
-    const auto read = [&] { return render::read_colour(stage.framebuffer, stage.width(), stage.height()); };
+    const auto read = [&] { return render::read_colour(kiosk.framebuffer, kiosk.width(), kiosk.height()); };
     ShownImages images{read(), {}, shown.draw_white(pose)};
     ASSERT_EQ(images.samples, 16);
     images.white = read();
     const image::ImageFloat points = level->hit_points(pose).value();
-    const TruthView view = view_of(stage.settings, pose);
+    const TruthView view = view_of(kiosk.settings, pose);
     const auto error_in = [&](const LightAim& aim) {
-        const TruthPicture truth = opened->truth.cast(stage.prop, view, true, &aim);
-        return measure_shown(truth, images, opened->truth.cover(stage.prop, view, truth, {4, 4}), points);
+        const TruthPicture truth = opened->truth.cast(kiosk.prop, view, true, &aim);
+        return measure_shown(truth, images, opened->truth.cover(kiosk.prop, view, truth, {4, 4}), points);
     };
     const LightAim aim = shown.light(pose);
     EXPECT_LT(error_in(aim).colour.rmse, 1.0);

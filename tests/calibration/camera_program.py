@@ -72,17 +72,17 @@ class Camera(unittest.TestCase):
         done = self.run_program(*table, **ALWAYS_BACK)
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "Back goes on to measuring it with crosses.",
-                                 "Staff: measure the table anew", "Nothing was changed.", "it ended before a calibration was kept")
+                                 "Staff: measure the whole table", "Nothing was changed.", "it ended before a calibration was kept")
         # Next does nothing if there is no camera.
         done = self.run_program(*table, presses=((5.0, NEXT), (8.0, BACK), (11.0, BACK), (14.0, BACK)))
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "The camera cannot be used now No camera is connected",
-                                 "press Back to measure the table with crosses.", "Staff: measure the table anew", "Nothing was changed.")
+                                 "press Back to measure the table with crosses.", "Staff: measure the whole table", "Nothing was changed.")
         self.assertNotIn("The camera looks at the light", done.stderr)
         # If Next comes at once, the fault is reported there.
         done = self.run_program(*table, presses=((0.5, NEXT), (3.5, BACK), (6.5, BACK), (9.5, BACK)))
         self.assert_said_in_turn(done, "The camera looks at the light", "Back goes on to the crosses. No camera is connected",
-                                 "Staff: measure the table anew", "Nothing was changed.")
+                                 "Staff: measure the whole table", "Nothing was changed.")
         self.assertFalse((self.folder / "kept").exists())
 
     def test_after_the_touch_up_comes_the_camera(self):
@@ -91,13 +91,13 @@ class Camera(unittest.TestCase):
         done = self.run_program("table", "--config", self.config, "--headless", **ALWAYS_BACK)
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: put the picture right", "Staff: measure the table with the camera",
-                                 "Staff: measure the table anew", "Nothing was changed.")
+                                 "Staff: measure the whole table", "Nothing was changed.")
 
     def test_without_a_camera_or_its_board_the_crosses_come_first(self):
         for camera, base, said in (("none", 0.30, ""), ("v4l2", 0.36, "leaves no room for tags on a sheet of A3")):
             done = self.run_program("table", "--config", self.config, "--headless", camera=camera, base=base, **ALWAYS_BACK)
             self.assertEqual(done.returncode, 1)
-            self.assert_said_in_turn(done, said, "Staff: measure the table anew", "Nothing was changed.")
+            self.assert_said_in_turn(done, said, "Staff: measure the whole table", "Nothing was changed.")
             self.assertNotIn("with the camera", done.stderr)
 
     def test_wrong_use(self):

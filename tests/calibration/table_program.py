@@ -214,7 +214,7 @@ class Table(unittest.TestCase):
         self.config.write_text(self.config.read_text().replace("script = []", f"script = [{presses}]"))
         left = self.run_program("table", "--config", self.config, "--headless")
         self.assertEqual(left.returncode, 1)
-        self.assertRegex(left.stderr, r"(?s)Staff: put the picture right.*Staff: measure the table anew.*Nothing was changed")
+        self.assertRegex(left.stderr, r"(?s)Staff: put the picture right.*Staff: measure the whole table.*Nothing was changed")
         self.assertEqual([each.name for each in (self.folder / "kept").iterdir()], ["calibration-0001.toml"])
 
     def test_back_leaves_it_and_changes_nothing(self):

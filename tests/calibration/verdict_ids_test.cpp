@@ -1,4 +1,4 @@
-/// Each verdict's sentence has an id of its own, which docs/calibration.md lists. The ids are read from the sources
+/// Each verdict's sentence has an id of its own, which docs/verdicts.md lists. The ids are read from the sources
 /// and from the page, not from the library.
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/corners.h"
@@ -52,11 +52,10 @@ std::map<std::string, std::set<std::string>> ids_in_sources() {
 }
 
 TEST(VerdictIds, AreThoseOfThePage) {
-    const std::string page = text_of(source_dir() + "/docs/calibration.md");
-    const std::size_t begin = page.find("### Ids of the sentences");
-    ASSERT_NE(begin, std::string::npos);
-    const std::size_t table = page.find("|---|---|", begin);
-    const std::string rows = page.substr(table, page.find("\n## ", table) - table);
+    const std::string page = text_of(source_dir() + "/docs/verdicts.md");
+    const std::size_t table = page.find("|---|---|");
+    ASSERT_NE(table, std::string::npos);
+    const std::string rows = page.substr(table);
     std::set<std::string> listed;
     for (const std::string& id : found_in(rows, std::regex("`([a-z_]+\\.[a-z_]+)`"))) {
         EXPECT_TRUE(listed.insert(id).second) << id << " is listed twice";
@@ -82,7 +81,7 @@ TEST(VerdictIds, AreSetWithTheirSentences) {
     EXPECT_GT(reasons, 40);
 }
 
-/// What each way says of nothing at all.
+/// Each way's verdict on an empty input.
 TEST(VerdictIds, OfNoPoints) {
     constexpr int width = 1920;
     constexpr int height = 1200;

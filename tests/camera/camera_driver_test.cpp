@@ -32,9 +32,9 @@ struct Driven {
     int run(Nanoseconds time) {
         int frames = 0;
         for (const MonotonicTime end = now() + time; now() < end;) {
-            const auto [fresh, rest] = driver.step(frame);
+            const auto [fresh, pause] = driver.step(frame);
             frames += fresh ? 1 : 0;
-            now() += rest;
+            now() += pause;
         }
         return frames;
     }
@@ -43,9 +43,9 @@ struct Driven {
         const MonotonicTime begin = now();
         MonotonicTime told = begin;
         while (driver.state() != state && now() < begin + seconds(60)) {
-            const Nanoseconds rest = driver.step(frame).rest;
+            const Nanoseconds pause = driver.step(frame).pause;
             told = now();
-            now() += rest;
+            now() += pause;
         }
         return told - begin;
     }

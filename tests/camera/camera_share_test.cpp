@@ -161,7 +161,7 @@ public:
                 used_ = poses_ = heads_ = 0;
             }
             static_cast<void>(drift_.step(*camera_.now, on_.drift));
-            *camera_.now += driver_.step(frame).rest;
+            *camera_.now += driver_.step(frame).pause;
         }
         const double busy_s = thread_seconds() - *began_s;
         const double measured_s = to_seconds(end - warm);

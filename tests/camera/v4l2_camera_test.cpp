@@ -71,7 +71,7 @@ TEST(FrameMailbox, ThreeFramesGoRoundAndNoneIsCopied) {
     filled.number = 2;
     filled.luma.resize(100);
     mailbox.put(filled);
-    EXPECT_EQ(filled.luma.data(), memory) << "the first one was not taken, and is filled anew";
+    EXPECT_EQ(filled.luma.data(), memory) << "the first one was not taken, and is filled again";
     ASSERT_TRUE(mailbox.try_take(taken));
     EXPECT_EQ(taken.number, 2U);
     EXPECT_FALSE(mailbox.try_take(taken));

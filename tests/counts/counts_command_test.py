@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`frustumscreen counts` on folders that an exhibit could have left, and on damaged ones: its table is summed anew from the files.
+"""`frustumscreen counts` on folders that an exhibit could have left, and on damaged ones: its table is summed again from the files.
 
 counts_command_test.py PROGRAM [unittest's arguments]
 """
@@ -48,7 +48,7 @@ class Counts(unittest.TestCase):
                               encoding="utf-8")
 
     def a_year(self):
-        """Of seeds; returns the sums."""
+        """Writes counts from seeds; returns the sums."""
         drawn = random.Random(3)
         visits = 0
         minutes = {"Amphora": 0.0, "Cup, \"nautilus\"": 0.0}
@@ -104,7 +104,7 @@ class Counts(unittest.TestCase):
         self.assertEqual(len(list(self.folder.iterdir())), 3)
 
     def test_nothing_to_read(self):
-        self.assertEqual(self.run_counts().stdout, "Nothing was counted yet.\n")
+        self.assertEqual(self.run_counts().stdout, "No visits have been counted yet.\n")
         self.folder.rmdir()
         done = self.run_counts()
         self.assertEqual(done.returncode, 1)

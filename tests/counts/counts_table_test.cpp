@@ -40,8 +40,8 @@ TEST(CountsTable, SumsDaysHoursAndNames) {
 }
 
 TEST(CountsTable, WithoutNumbersItSaysSo) {
-    EXPECT_EQ(counts_text({}), "Nothing was counted yet.\n");
-    EXPECT_NE(counts_plot({}).find("Nothing was counted yet."), std::string::npos);
+    EXPECT_EQ(counts_text({}), "No visits have been counted yet.\n");
+    EXPECT_NE(counts_plot({}).find("No visits have been counted yet."), std::string::npos);
     EXPECT_EQ(counts_csv({}), "day,kind,name,visits,minutes\n");
     DayCounts undated = day_of(0, 2, 3);
     undated.day.reset();

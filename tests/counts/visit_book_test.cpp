@@ -88,7 +88,7 @@ TEST_F(KeptDays, TellADamagedFileAndCountOn) {
     keeper_.finish();
     EXPECT_EQ(kept("2026-11-27.json"), 1U);
     EXPECT_EQ(text_of("2026-11-27.json.bad"), "damaged");
-    EXPECT_NE(keeper_.visits().trouble, "") << "somebody has to look at the disk";
+    EXPECT_NE(keeper_.visits().trouble, "") << "the disk needs attention";
 }
 
 TEST_F(KeptDays, AreWrittenLaterWhereTheyCannotBeWrittenNow) {

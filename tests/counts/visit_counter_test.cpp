@@ -55,7 +55,7 @@ private:
 TEST(VisitCounter, AVisitLastsFromTheFirstTouchUntilTheExhibitRests) {
     Exhibit exhibit;
     exhibit.stand_idle(seconds(300));
-    EXPECT_TRUE(exhibit.pieces.empty()) << "nobody was there";
+    EXPECT_TRUE(exhibit.pieces.empty()) << "no visitor was present";
     exhibit.touch();
     exhibit.stand_idle(seconds(30));
     exhibit.touch();

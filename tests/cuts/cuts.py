@@ -29,16 +29,16 @@ from write_log import MARK, Replay, moments
 MIB = 1 << 20
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
 PHASES = ("first start", "save", "import", "running", "update", "start")
-# What only a start with the firmware and the boot loader can tell about; they take most of a start's time
+# Cases that need a start with firmware and boot loader, which take most of a start's time
 OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "empty kernel image", "second partition table"}
 AGAIN = "after a cut: "
 CUTS_AGAIN = 40  # of a start after a cut
-KEPT_DISKS = 3  # faulty ones of each recording, for whoever looks into it
+KEPT_DISKS = 3  # faulty states of each recording, for debugging
 ENOUGH = 40  # cuts while settings are saved, of which some must lose what was not synced: one in eight does
 
 
 class Row:
-    """Of the table: what came of a phase's cuts."""
+    """A row of the table: the results of a phase's cuts."""
 
     def __init__(self):
         self.states = self.faulty = self.boots = self.dark = 0
@@ -190,7 +190,7 @@ class Cuts:
 
     @staticmethod
     def _lost(pc, must):
-        """What the started kiosk does not have, as it itself sees it."""
+        """The parts that the started kiosk lacks, by its own report."""
         wrong = []
         if "machine-id" in must.least and pc.check("cat /etc/machine-id").strip() != must.least["machine-id"]:
             wrong.append("another machine-id")

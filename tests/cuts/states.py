@@ -29,7 +29,7 @@ def _run(*words, **options):
 
 
 def kept_text(number):
-    """What stands in for a calibration: its words say whether it is whole."""
+    """A stand-in for a calibration: its words show whether it is complete."""
     return "".join(f"{number} {line}\n" for line in range(400)) + f"end {number}\n"
 
 
@@ -98,7 +98,7 @@ class Version:
 
 @dataclass
 class State:
-    """What was found."""
+    """The findings."""
 
     faults: list = field(default_factory=list)
     notes: set = field(default_factory=set)  # what is no fault: which repairs there were
@@ -184,7 +184,7 @@ class Checker:
         self._choose(esp, disk, found, generation, state)
 
     def _choose(self, esp, disk, found, generation, state):
-        """What the boot loader takes first must be whole, and so must its root."""
+        """The boot loader's first choice must be complete, and so must its root."""
         listed = _run("mdir", "-b", "-i", esp, "::EFI/Linux").stdout.split()
         names = sorted((name for name in (path.rpartition("/")[2] for path in listed) if _tries(name)), key=_order)
         state.kernel = self.folder / "kernel.efi"
@@ -301,7 +301,7 @@ class Checker:
 
 
 def _saved_number(text):
-    """Of the museum's settings; 0: as shipped."""
+    """Number of the museum's settings; 0: as shipped."""
     found = re.search(r"# saved (\d+)\n$", text)
     if found:
         return int(found[1])
@@ -329,7 +329,7 @@ def _are_lines(data):
 
 
 class Must:
-    """What marks of a log say: `least`: what was acknowledged; `most`: what was begun."""
+    """The marks of a log: `least`: acknowledged; `most`: begun."""
 
     def __init__(self):
         self.phase, self.least, self.most = "", {}, {}

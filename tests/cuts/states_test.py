@@ -1,4 +1,4 @@
-"""What is looked at on a disk that a cut has left: a made-up kiosk's disk is sound, and each damage to it is found."""
+"""The checks of a disk after a power cut: a made-up kiosk's disk is sound, and each damage to it is found."""
 
 import pathlib
 import shutil
@@ -101,7 +101,7 @@ class States(unittest.TestCase):
         self.assertTrue(any(words in fault for fault in faults), faults)
 
     def boot_place(self, data):
-        """Of these bytes on the boot partition."""
+        """The offset of these bytes on the boot partition."""
         place = (self.disk.read_bytes()[self.parts[ESP][0]:self.parts[ESP][0] + 34 * MIB]).find(data)
         self.assertGreater(place, 0)
         return place

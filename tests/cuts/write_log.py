@@ -1,4 +1,4 @@
-"""What a disk was told, in order, and what it may hold if its power fails at any moment of it.
+"""A disk's commands in order, and its possible contents if the power fails at any moment.
 
 A machine runs once on a RecordedDisk, which keeps each write and each flush. A Replay goes through that log and makes, for a moment
 and a seed, a disk as a volatile write cache may leave it: all that was flushed is there; of what was not, chance says for each piece
@@ -51,7 +51,7 @@ class RecordedDisk(nbd.Server):
         self.records += 1
 
     def mark(self, words):
-        """What the machine has just acknowledged: whatever is cut later must keep it."""
+        """Marks data that the machine has just acknowledged: every later cut must keep it."""
         with self._lock:
             self._record(MARK, False, 0, words.encode())
 
@@ -80,7 +80,7 @@ class Entry:
 
 
 def entries(log):
-    """Of an open log; a last record that is cut off is left out."""
+    """The records of an open log, without a last one that is cut off."""
     found, at, size = [], 0, os.fstat(log.fileno()).st_size
     while at + RECORD.size <= size:
         kind, through, place, length, at_s = RECORD.unpack(os.pread(log.fileno(), RECORD.size, at))

@@ -88,7 +88,7 @@ class Log(Recorded):
         self.assertGreater(len(found), 30)
 
     def test_moments(self):
-        """Of each phase as many as were asked for, none before it or behind it, half of them where few writes are; a seed gives the same."""
+        """As many cuts of each phase as requested, none outside it, half of them where writes are few; a seed repeats them."""
         def machine(client, disk):
             for phase in ("one", "two"):
                 disk.mark('{"phase": "%s"}' % phase)

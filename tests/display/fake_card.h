@@ -136,7 +136,7 @@ public:
                    mode.vdisplay == other.mode.vdisplay && mode.clock == other.mode.clock;
         }
     };
-    /// What a monitor at the connector would show; nullopt: it is dark.
+    /// The picture of a monitor at the connector; nullopt: it is dark.
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
     /// A framebuffer's memory, row by row.
     [[nodiscard]] std::span<const std::byte> pixels(std::uint32_t framebuffer) const {

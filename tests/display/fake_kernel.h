@@ -55,7 +55,7 @@ public:
     [[nodiscard]] FakeCard* card_at(std::string_view path);
     [[nodiscard]] const FakeGpu* gpu_at(std::string_view path) const;
     [[nodiscard]] const std::vector<FakeGpu>& gpus() const { return gpus_; }
-    /// Of a card, or otherwise of a GPU.
+    /// True for a card, false for a GPU.
     int open_file(FakeCard* card, const FakeGpu* gpu, int flags);
     void close_file(int number);
     void hand_out(const void* what, std::string kind, std::shared_ptr<void> memory = nullptr);

@@ -53,7 +53,7 @@ TEST_F(KmsCardTest, SeesWhatIsConnected) {
 TEST_F(KmsCardTest, AskingThoroughlyFindsWhatWasPluggedSilently) {
     const Result<KmsCard> card = KmsCard::open(card_path, {});
     ASSERT_TRUE(card);
-    EXPECT_EQ(card->look(false).connectors[0].plugged, Plugged::No) << "nobody has asked the projector yet";
+    EXPECT_EQ(card->look(false).connectors[0].plugged, Plugged::No) << "the projector was not asked yet";
     EXPECT_EQ(card->look(true).connectors[0].plugged, Plugged::Yes);
     desk.card.unplug(desk.hdmi);
     EXPECT_EQ(card->look(false).connectors[0].plugged, Plugged::Yes);

@@ -242,7 +242,7 @@ TEST_P(KmsEvening, AFlipThatNeverComesIsGivenUpAndAtLastTheCard) {
     if (GetParam()) {
         EXPECT_TRUE(holds(end, "has taken no picture for 10 s")) << end;
     } else {
-        EXPECT_EQ(end, "") << "SETCRTC blocks until the flip is done, and lights it anew";
+        EXPECT_EQ(end, "") << "SETCRTC blocks until the flip is done, and lights it again";
     }
 }
 

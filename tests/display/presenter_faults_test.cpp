@@ -37,7 +37,7 @@ TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
     exhibit.kms.hangs = false;
     exhibit.frames(10);
     EXPECT_TRUE(exhibit.says("is lit"));
-    EXPECT_EQ(exhibit.kms.lights, 1) << "nothing was lost, so nothing is set anew";
+    EXPECT_EQ(exhibit.kms.lights, 1) << "nothing was lost, so nothing is set again";
 }
 
 TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {

@@ -100,7 +100,7 @@ TEST(PresenterSleep, FallsAsleepWithoutAProjector) {
 TEST(PresenterSleep, WaitsForAGoodMomentAndTriesAgain) {
     SleepingExhibit exhibit;
     exhibit.sleep(10, false);
-    EXPECT_EQ(exhibit.kms.darkenings, 0) << "somebody asks the card";
+    EXPECT_EQ(exhibit.kms.darkenings, 0) << "another program asks the card";
     exhibit.kms.busy = 3;
     exhibit.sleep(60);
     EXPECT_EQ(exhibit.kms.darkenings, 1);

@@ -82,7 +82,7 @@ TEST_F(ShaderCache, AFullDiskIsToldAndMesaDoesNotUseIt) {
         return kept ? 1 : kept.error().message != expected ? 2 : draws() ? 0 : 3;
     });
     if (ended == no_namespace) {
-        GTEST_SKIP() << "this system lets nobody but root mount a disk";
+        GTEST_SKIP() << "this system lets only root mount a disk";
     }
     EXPECT_EQ(ended, 0);
 }

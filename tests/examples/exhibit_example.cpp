@@ -20,7 +20,7 @@ TEST(RoomExample, Exhibit) {
     exhibit::Exhibit exhibit({artifact, artifact, artifact}, place, "en", start);
     tracking::TrackedState tracked;
     tracked.prop_known = true;
-    EXPECT_EQ(exhibit.step(start, {}, tracked).state, exhibit::State::Attract); // nobody is there
+    EXPECT_EQ(exhibit.step(start, {}, tracked).state, exhibit::State::Attract); // no visitor is present
     const std::array pressed{settings::Command::NextArtifact, settings::Command::NextLanguage};
     EXPECT_EQ(exhibit.step(start + seconds(1), pressed, tracked).state, exhibit::State::View);
     EXPECT_EQ(exhibit.chosen(), 1U);

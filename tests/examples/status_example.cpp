@@ -16,7 +16,7 @@ TEST(RoomExample, Status) {
     report.devices.tracker = status::DeviceReport({DeviceHealth::Away, "tracker.none"});
     const std::string file = status::status_json(report);
 
-    status::KnownExhibit known; // by whoever asks, two seconds later
+    status::KnownExhibit known; // by another program, two seconds later
     known.status = status::parse_status(file, {MonotonicTime(std::chrono::seconds(102)), "boot"});
     EXPECT_EQ(known.status.age_s, 2.0);
     const status::ExhibitVerdict verdict = status::verdict_of(known);

@@ -10,7 +10,7 @@ TEST(RoomExample, Tracking) {
     // example
     using std::chrono::milliseconds;
     const MonotonicTime start{};
-    tracking::TrackedStateTracker tracker({0.0, -0.55, 0.50}); // the eye where nobody is known
+    tracking::TrackedStateTracker tracker({0.0, -0.55, 0.50}); // the default eye, without a visitor
     tracker::PoseSample sample{start};
     sample.position_m = {0.1, 0.0, 0.0};
     EXPECT_TRUE(tracker.take(sample));

@@ -164,7 +164,7 @@ TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     EXPECT_FALSE(step({settings::Command::NextLanguage, settings::Command::HoldOther}).calibrate);
     const Presentation asked = step({settings::Command::PreviousArtifact, settings::Command::HoldFirst});
     EXPECT_TRUE(asked.calibrate);
-    EXPECT_TRUE(asked.staff) << "and where nobody sees to it, the picture is there";
+    EXPECT_TRUE(asked.staff) << "and if it is not handled, the picture is there";
     EXPECT_FALSE(step({}).calibrate) << "it is asked once";
     EXPECT_FALSE(step({settings::Command::StaffMode}).staff);
     EXPECT_FALSE(step({settings::Command::HoldFirst}).calibrate);

@@ -27,7 +27,7 @@ class Zone:
         self.local = {}
 
     def at(self, second):
-        """Of a whole minute: zones of today change at whole minutes."""
+        """Local time at a whole minute, kept: today's zones change at whole minutes."""
         if second not in self.local:
             self.local[second] = local_of(self.zone, second)
         return self.local[second]

@@ -119,8 +119,8 @@ TEST(ExhibitThatLoads, ShowsAPictureUntilTheArtifactIsThereAndThenFadesItIn) {
 
 TEST(ExhibitThatLoads, NeverShowsWhatIsLeftOut) {
     Exhibit exhibit = sample::exhibit(4, {"en"});
-    exhibit.note(std::vector{ArtifactState::Ready, ArtifactState::LeftOut, ArtifactState::Ready,
-                             ArtifactState::LeftOut});
+    exhibit.note(std::vector{ArtifactState::Ready, ArtifactState::Unusable, ArtifactState::Ready,
+                             ArtifactState::Unusable});
     std::mt19937 random(1);
     MonotonicTime now = start;
     for (int k = 0; k < 4000; ++k, now += frame) {
@@ -146,7 +146,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
     static_cast<void>(exhibit.step(now, next, sample::tracked_state(now)));
     now += seconds(1);
     static_cast<void>(exhibit.step(now, {}, sample::tracked_state(now)));
-    states[1] = ArtifactState::LeftOut;
+    states[1] = ArtifactState::Unusable;
     exhibit.note(states);
     for (int k = 0; k < 240; ++k, now += frame) {
         static_cast<void>(exhibit.step(now, {}, sample::tracked_state(now)));
@@ -156,7 +156,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
     EXPECT_EQ(shown.brightness, 1.0);
     EXPECT_FALSE(shown.placeholder);
     // And with no other artifact left:
-    states[2] = ArtifactState::LeftOut;
+    states[2] = ArtifactState::Unusable;
     exhibit.note(states);
     for (int k = 0; k < 240; ++k, now += frame) {
         static_cast<void>(exhibit.step(now, {}, sample::tracked_state(now)));

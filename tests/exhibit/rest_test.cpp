@@ -282,7 +282,7 @@ TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
 
 TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
     wait(seconds(1), std::array{settings::Command::NextLanguage});
-    exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::LeftOut, ArtifactState::LeftOut});
+    exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Unusable, ArtifactState::Unusable});
     wait(seconds(2));
     EXPECT_EQ(shown.state, State::Fault);
     EXPECT_EQ(text(), "fault.no_artifact");
@@ -291,7 +291,7 @@ TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
     EXPECT_FALSE(shown.caption || shown.placeholder);
     wait(seconds(30));
     EXPECT_EQ(shown.advice->word.language, 1U);
-    exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::Ready, ArtifactState::LeftOut});
+    exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Ready, ArtifactState::Unusable});
     wait(seconds(2));
     EXPECT_EQ(shown.state, State::Attract);
     EXPECT_EQ(shown.artifact, 1U);

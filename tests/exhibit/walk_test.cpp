@@ -219,7 +219,7 @@ private:
         const bool all = random_.happens(0.1);
         const auto which =
             static_cast<std::size_t>(random_.between(0.0, static_cast<double>(artifacts) - 0.001));
-        const ArtifactState state = random_.happens(0.4) ? ArtifactState::LeftOut : ArtifactState::Away;
+        const ArtifactState state = random_.happens(0.4) ? ArtifactState::Unusable : ArtifactState::Away;
         all ? packs_.fill(state) : void(packs_[which] = state);
     }
     /// Wanted packs are loaded after a while, and unwanted ones may be released.
@@ -239,7 +239,7 @@ private:
     }
     [[nodiscard]] std::ptrdiff_t offered() const {
         return std::count_if(packs_.begin(), packs_.end(),
-                             [](ArtifactState state) { return state != ArtifactState::LeftOut; });
+                             [](ArtifactState state) { return state != ArtifactState::Unusable; });
     }
     void nudge_prop() {
         tracked_state_.table_from_prop.translation +=
@@ -317,7 +317,7 @@ private:
 
     /// Left-out artifacts are not shown, and if none is left, words say so.
     void check_packs(bool watched) {
-        note_since(left_out_since_, packs_.at(shown_.artifact) == ArtifactState::LeftOut && offered() > 0,
+        note_since(left_out_since_, packs_.at(shown_.artifact) == ArtifactState::Unusable && offered() > 0,
                    watched);
         EXPECT_TRUE(!left_out_since_ || now_ - *left_out_since_ < milliseconds(1200))
             << "a pack that is left out";

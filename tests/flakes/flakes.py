@@ -28,7 +28,7 @@ def output_of(*command):
 
 
 def state_folder():
-    """What has passed belongs to this commit and this working tree."""
+    """The passed tests of this commit and this working tree."""
     changes = output_of("git", "diff", "HEAD") + output_of("git", "ls-files", "--others", "--exclude-standard")
     name = output_of("git", "rev-parse", "--short", "HEAD").decode().strip()
     if changes:

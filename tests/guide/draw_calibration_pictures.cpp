@@ -40,7 +40,7 @@ calibration::CrossSetup shipped_crosses(int count) {
 
 struct Means {
     typography::Typesetter typesetter;
-    std::optional<pack::LanguageWords> house;
+    std::optional<pack::LanguageWords> own_words;
 };
 
 template <typename Way>
@@ -52,7 +52,7 @@ Result<void> draw(const Way& way, const Means& means, const std::filesystem::pat
                                       .above_m = above_m,
                                       .board_px = board_px,
                                       .typesetter = means.typesetter,
-                                      .house = means.house ? &*means.house : nullptr})));
+                                      .own_words = means.own_words ? &*means.own_words : nullptr})));
 }
 
 /// `words`: a file and a language, or nothing.
@@ -62,8 +62,8 @@ Result<Means> means_with(std::span<char*> words) {
         return Means{std::move(typesetter), std::nullopt};
     }
     TRY(const Bytes file, read_file(words[0]));
-    TRY(pack::LanguageWords house, pack::read_words(file, words[1]));
-    return Means{std::move(typesetter), std::move(house)};
+    TRY(pack::LanguageWords own_words, pack::read_words(file, words[1]));
+    return Means{std::move(typesetter), std::move(own_words)};
 }
 
 /// Lays the prop on every cross, with the poses that a tracker would report.

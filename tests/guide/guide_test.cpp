@@ -55,11 +55,11 @@ constexpr const char* sources[] = {"app/counts/counts_folder.cpp",
                                    "app/library/stick_settings.cpp"};
 
 /// A source with sentences that none of the three pictures shows, and the reason.
-struct LeftOut {
+struct ExemptSource {
     const char* file;
     const char* why;
 };
-constexpr LeftOut left_out[] = {
+constexpr ExemptSource exempt[] = {
     {"app/drift/drift_reference.cpp", "the journal"},
     {"app/exhibit/states.h", "docs/states.md has them, and a test of its own"},
     {"app/exhibit/states_page.cpp", "the page docs/states.md"},
@@ -67,7 +67,7 @@ constexpr LeftOut left_out[] = {
     {"app/programs/watchdog/watchdog_main.cpp", "the command line"},
     {"app/show/artifact_show.cpp", "the journal"},
     {"app/residency/artifact_texts.cpp", "the journal"},
-    {"app/show/house_words.cpp", "the journal"},
+    {"app/show/default_words.cpp", "the journal"},
     {"app/show/import_journal.cpp", "the journal"},
     {"app/show/import_watch.cpp", "the journal"},
     {"app/show/last_good_settings.cpp", "the journal and the status file"},
@@ -230,7 +230,7 @@ std::vector<std::string> sentences_of(const fs::path& file) {
 
 TEST(Guide, NamesEverySentenceOfThePrograms) {
     std::set<std::string> unknown;
-    for (const LeftOut& each : left_out) {
+    for (const ExemptSource& each : exempt) {
         unknown.insert(each.file);
     }
     std::set<std::string> never_met(std::begin(never_shown), std::end(never_shown));
@@ -254,9 +254,9 @@ TEST(Guide, NamesEverySentenceOfThePrograms) {
     EXPECT_TRUE(never_met.empty()) << *never_met.begin() << " is in no program";
 }
 
-/// A file whose sentences all have rows must not be in `left_out`, so that it is tested.
+/// A file whose sentences all have rows must not be in `exempt`, so that it is tested.
 TEST(Guide, LeavesOutNoFileInVain) {
-    for (const LeftOut& each : left_out) {
+    for (const ExemptSource& each : exempt) {
         const std::vector<std::string> sentences = sentences_of(each.file);
         EXPECT_FALSE(std::all_of(sentences.begin(), sentences.end(), is_named)) << each.file;
         EXPECT_TRUE(std::any_of(

@@ -165,14 +165,14 @@ class Bench:
         return found[0]
 
     def journal(self):
-        """What the exhibit has said since the machine started."""
+        """The exhibit's output since the machine started."""
         return self.machine.run(f"journalctl -b -o cat --no-pager -u {UNIT}").output
 
     def main_process(self):
         """The exhibit's process number; 0: it does not run."""
         return int(self.machine.check(f"systemctl show --value -p MainPID {UNIT}"))
 
-    # What is on the screen.
+    # The screen's picture.
 
     def screendump(self):
         self.machine.screendump(self._shot, self.looked_at)
@@ -208,14 +208,14 @@ class Bench:
         return eventually(shown, timeout_s, f"picture {code} was presented, but neither it nor a later one is shown")
 
     def rendered(self, poses, artifact, eye_m=EYE_M):
-        """What `frustumscreen render` draws on this machine for each of the poses: (x, y, z, qw, qx, qy, qz)."""
+        """The pictures that `frustumscreen render` draws on this machine for the poses: (x, y, z, qw, qx, qy, qz)."""
         missing = [pose for pose in poses if (pose, artifact, eye_m) not in self._rendered]
         for pose, picture in zip(missing, self.render(missing, artifact, eye_m) if missing else []):
             self._rendered[pose, artifact, eye_m] = picture
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
     def render(self, poses, artifact, eye_m, config=CONFIG):
-        """The same with other settings, anew each time."""
+        """The same with other settings, drawn each time."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]

@@ -1,4 +1,4 @@
-"""What a camera sees: AprilTags on the table, and somebody who stands at it. Drawn by rays, with arithmetic that the exhibit has no part in.
+"""A camera's view: AprilTags on the table, and a person at it. Drawn by rays, with arithmetic that is independent of the exhibit.
 
 Frame    table T, metres; pixels, the centre of the top left one is (0.5, 0.5).
 Shape    luma[height][width], row 0 at the top, one byte a pixel.
@@ -136,7 +136,7 @@ class _Ball:
         self._form = [[sum(axis[i] * axis[k] / size ** 2 for axis, size in zip(axes, half)) for k in range(3)] for i in range(3)]
 
     def seen_from(self, origin):
-        """Of a ray from there: how far along it the surface is; None: it passes."""
+        """The distance to the surface along a ray from there; None: it misses."""
         o = plus(origin, self._middle, -1.0)
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = self._form
         bx, by, bz = apply(self._form, o)

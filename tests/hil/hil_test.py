@@ -1,4 +1,4 @@
-"""What every test in the emulated machine begins and ends with."""
+"""Set-up and tear-down of every test in the emulated machine."""
 
 import math
 import unittest
@@ -101,7 +101,7 @@ class HilTest(unittest.TestCase):
         self.assert_same_place(picture, self.bench.rendered([pose], artifact)[0])
 
     def assert_same_place(self, picture, truth):
-        """What is lit in both lies within PIXELS: centroid, box and outline."""
+        """The lit areas of both agree within PIXELS: centroid, box and outline."""
         self.assertEqual((picture.width, picture.height), (truth.width, truth.height))
         seen, meant = screen.lit(picture), screen.lit(truth)
         self.assertGreater(screen.count(meant), 300, "the offline picture is dark: this pose proves nothing")

@@ -1,4 +1,4 @@
-"""What the machine starts from: the kiosk's image as ./image_build/build --test makes it, packs and settings on its data partition
+"""The machine's disk: the kiosk's image as ./image_build/build --test makes it, packs and settings on its data partition
 as a museum has them, and beside the test's agent what these tests lay over the root (guest/).
 
 Errors   subprocess.CalledProcessError from the programs that do the work.

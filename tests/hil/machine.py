@@ -158,7 +158,7 @@ class Machine:
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
             "-kernel", self.files / "linux", "-initrd", self.files / "initrd",
             "-append", (self.files / "cmdline").read_text(encoding="utf-8"),
-            # What is written is forgotten when QEMU ends, and stays when the machine starts anew.
+            # Writes are lost when QEMU ends, and kept when the machine reboots.
             "-drive", f"if=none,id=disk,format=raw,snapshot=on,file={self.disk}", "-device", "virtio-blk-pci,drive=disk,serial=disk",
             *self.lines(),
             "-vga", "none",
@@ -190,7 +190,7 @@ class Machine:
             "-chardev", f"socket,id={name},path={path},reconnect=1", "-device", f"usb-redir,id=usb-{name},chardev={name}")]
 
     def may_start_anew(self):
-        """From now on the hardware's watchdog, a panic or a reboot starts the machine anew; else that ends it."""
+        """From now on the hardware's watchdog, a panic or a reboot restarts the machine; before, it ends it."""
         self.monitor("set-action", reboot="reset", watchdog="reset")
         self._monitor.event_came("RESET")
 
@@ -233,7 +233,7 @@ class Machine:
 
     @property
     def heard(self):
-        """What has come out of the sound card, 16-bit stereo at 48 kHz behind a header of 44 bytes; QEMU fills in its sizes at
+        """The sound card's output, 16-bit stereo at 48 kHz behind a header of 44 bytes; QEMU fills in its sizes at
         its end."""
         return self.logs / "heard.wav"
 
@@ -248,7 +248,7 @@ class Machine:
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """What the host has given the guest so far. Call it about every 50 ms: then processors that wait one after
+        """The processor time that the host has given the guest so far. Call it about every 50 ms: then processors that wait one after
         another are told from those that wait at once. More often is worse: a wait counts as rest until it ends.
         """
         now, scheduled = self._scheduled()
@@ -308,7 +308,7 @@ class Machine:
         return base64.b64decode(found["buf-b64"]).decode(errors="replace")
 
     def write(self, path, text):
-        """Writes a small file in the guest; whoever reads it meanwhile reads the old one whole."""
+        """Writes a small file in the guest; a reader meanwhile gets the complete old one."""
         encoded, path = base64.b64encode(text.encode()).decode(), shlex.quote(path)
         self.check(f"echo {encoded} | base64 -d > {path}.new && mv {path}.new {path}")
 

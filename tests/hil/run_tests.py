@@ -103,7 +103,7 @@ def chosen(arguments, unsigned=None):
 
 
 def made(out, unsigned):
-    """What the machine starts from: files, disk, packs. `unsigned`: with a module that a locked kernel refuses."""
+    """The machine's parts: files, disk, packs. `unsigned`: with a module that a locked kernel refuses."""
     packs = image.packs(say)
     image.start_files(out, image.vkms(say) if unsigned else None)
     return out, image.disk(packs, out / "disk.raw"), packs

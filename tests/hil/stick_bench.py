@@ -1,4 +1,4 @@
-"""What tests of sticks share: a key of the museum's, signed packs, sticks that are put in and pulled out, and what is told of them.
+"""The common part of tests of sticks: a museum's key, signed packs, sticks that are put in and pulled out, and their reports.
 
 Threads  one caller.
 """
@@ -22,7 +22,7 @@ LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
 UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*' 'frustumscreen-report@*' 'frustumscreen-report-open@*' 'frustumscreen-report-close@*'"
-# What stays of a stick: first what costs little to ask, which is almost all the time, then systemd itself.
+# Checks what remains of a stick: first the cheap checks, which nearly always suffice, then systemd.
 QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
@@ -113,7 +113,7 @@ class StickTest(HilTest):
         self.bench.machine.pull(f"stick-{name}")
 
     def report(self):
-        """What the importer says now; None: nothing."""
+        """The importer's current report; None: there is none."""
         text = self.bench.machine.read(REPORT_FILE)
         try:
             return json.loads(text) if text else None
@@ -132,7 +132,7 @@ class StickTest(HilTest):
         return seen[0]
 
     def outcome(self, timeout_s=IMPORT_S):
-        """What became of the next stick."""
+        """The outcome of the next stick."""
         report = self.stage("done", "failed", timeout_s=timeout_s)
         self.last = report["import_id"]
         return report

@@ -48,7 +48,7 @@ class Calibration(HilTest):
         self.hears("Next keeps it.")
         self.press(NEXT)
         tracker = self.kept()["tracker"]
-        self.hears("Staff: where are the eyes?")  # the mock has a head's sensor, and nobody knows where the eyes are in it
+        self.hears("Staff: where are the eyes?")  # the mock has a head's sensor, and the eyes' place relative to it is unknown
         self.press(FIRST)
         self.bench.status_says("display", "is lit", START_S)
         self.assertIn("calibration-0001.toml is used", self.bench.journal())
@@ -76,7 +76,7 @@ class Calibration(HilTest):
         self.press(NEXT)  # to the page of the picture's place
         self.bench.machine.let_run(RELEASED_S)
         self.hold((FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
-        self.hears("Staff: measure the table anew", 3 * START_S)  # crosses are chosen first
+        self.hears("Staff: measure the whole table", 3 * START_S)  # crosses are chosen first
 
     def hold(self, buttons, until):
         """As a person does: until the table answers. A slow machine sees the buttons late."""
@@ -124,7 +124,7 @@ class Calibration(HilTest):
 
         eventually(is_lit, 20.0, f"there is no cross at ({u:.0f}, {v:.0f})")
 
-    # What is true.
+    # The truth.
 
     def crosses(self):
         """Those that the kiosk shows, first and if the verdict asks for more: they follow from its settings alone."""
@@ -167,7 +167,7 @@ class Calibration(HilTest):
 
 
 def distance_px(seen, meant):
-    """Of the middles, and of the edges, of what is lit; nothing is lit: far."""
+    """The distance of the middles and edges of lit areas; far if nothing is lit."""
     lit, true = screen.lit(seen), screen.lit(meant)
     if screen.count(true) < 300:
         raise AssertionError("the true picture is dark: this place proves nothing")

@@ -79,7 +79,7 @@ class Camera(HilTest):
         self.bench.camera.tell("good")
 
     def plug(self, settings=CAMERA):
-        """The camera is plugged in anew, with these settings beside the usual ones; the exhibit itself goes on."""
+        """Plugs the camera in again, with these settings in addition; the exhibit goes on."""
         self.bench.camera.tell("unplug")
         eventually(lambda: not self.is_there(), 20.0, "the kernel keeps a camera that is unplugged")
         self.bench.machine.write(SETTINGS, self.usual + settings)
@@ -117,7 +117,7 @@ class Camera(HilTest):
         self.assertEqual(report["set_up"]["mode"], {"format": "YUYV", "width": 160, "height": 120, "rate_hz": RATE_HZ})
         self.assertEqual([(control["name"], control["lock"], control["value"]) for control in report["set_up"]["controls"]],
                          [("exposure", "locked", 8.0), ("gain", "locked", 32.0), ("white balance", "locked", 4600.0)])
-        # What the device itself was told; exposure in tenths of a millisecond, its mode 1 manual
+        # Controls that the device received; exposure in tenths of a millisecond, its mode 1 manual
         self.assertEqual([before[key] for key in ("auto_exposure", "exposure", "auto_white_balance")], [1, 80, 0])
         # The ramp's ends and middle, by which the bytes are right
         self.assertAlmostEqual(report["brightness"]["median"], 120, delta=6)

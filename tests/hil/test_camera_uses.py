@@ -1,4 +1,4 @@
-"""What a camera is for, in the emulated machine: the prop's tags stand in for a lost tracker, the picture turns to whoever stands at the table,
+"""The uses of a camera in the emulated machine: the prop's tags replace a lost tracker, the picture turns to the person at the table,
 and a picture that lies beside its place is told. The camera's mock plays what a camera would see there."""
 
 import math
@@ -64,7 +64,7 @@ class CameraUse(HilTest):
         cls.bench.camera.tell("play", cls.folder / "seen.pgm")
 
     def middle(self):
-        """Of what is lit on the screen now, pixels."""
+        """The centre of the lit area on the screen now, pixels."""
         return screen.centroid(screen.lit(self.bench.screendump()), self.bench.machine.width)
 
 
@@ -164,7 +164,7 @@ class Visitor(CameraUse):
 
     def test_the_picture_turns_to_whoever_comes(self):
         bench, pose = self.bench, (*CENTRE_M, *UPRIGHT)
-        bench.tracker.tell("sensor-missing", 2)  # nobody wears a sensor on the head
+        bench.tracker.tell("sensor-missing", 2)  # no one wears a sensor on the head
         self.show(ARTIFACT)
         self.assert_at(CENTRE_M)
         bench.status_says("eye_by", "settings")
@@ -196,14 +196,14 @@ class Visitor(CameraUse):
 
     @staticmethod
     def apart_px(one, other):
-        """Of the middles and edges of what is lit, the farthest."""
+        """The largest distance of the middles and edges of lit areas."""
         a, b = screen.lit(one), screen.lit(other)
         return max(abs(x - y) for x, y in zip((*screen.centroid(a, one.width), *screen.box(a, one.width)),
                                               (*screen.centroid(b, other.width), *screen.box(b, other.width))))
 
 
 class ScreenCamera:
-    """While it is open the camera sees the guest's own screen, as it is now, on a table of wood; nobody else may ask for a screendump.
+    """While it is open the camera sees the guest's own screen, as it is now, on a table of wood; no other screendump may be requested.
 
     `shift_px`: by how many of the screen's pixels the picture lies to the right of its place."""
 

@@ -15,7 +15,7 @@ import screen
 from bench import UPRIGHT, USUAL, WIDTH, Patience, eventually
 from hil_test import HilTest, long
 
-# All that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
+# Everything that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
 WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pictures = false", "table_pictures = true")
          .replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
          .replace('lines = ["0", "1", "2"]', 'lines = ["0", "1", "2", "3", "4"]') + '\n[sound]\ndevice = "plughw:0,0"\n')
@@ -39,7 +39,7 @@ SOUND_DRIVER = "/sys/bus/pci/drivers/snd_hda_intel"
 
 @dataclass
 class Told:
-    """What one language's visitor sees and hears, as the program has it on this machine."""
+    """The pictures and sounds for a visitor in one language, made by the program on this machine."""
 
     before: list  # lit pixels, before the advice
     after: list  # the same once it is given
@@ -104,7 +104,7 @@ class Guidance(HilTest):
         self.bench.status_says("sound", SOUNDS)
         self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
 
-    # What is on the screen.
+    # The screen.
 
     def sign_is_there(self):
         lit = [row & place for row, place in zip(screen.lit(self.bench.screendump()), self.sign_place)]
@@ -120,7 +120,7 @@ class Guidance(HilTest):
     def sees_words(self, language):
         eventually(lambda: self.words_are_there(language), TALKS_S, f"the advice is not on the screen in '{language}'")
 
-    # What comes out of the sound card.
+    # The sound card's output.
 
     def heard(self):
         """The left channel of all that has come out of the sound card."""
@@ -155,7 +155,7 @@ class Guidance(HilTest):
             if other != language:
                 self.assertLess(self.share_heard(other, since), 0.5, f"the advice is heard in '{other}' too")
 
-    # What the visitor does.
+    # The visitor.
 
     def take_language(self, language):
         """Holds the button until it has done its work, which a slow guest takes long to see."""

@@ -72,7 +72,7 @@ def united(outlines):
 
 
 class Allowed:
-    """What may be on the screen: the artifact along the line, and turning at the centre."""
+    """The allowed pictures: the artifact along the line, and turning at the centre."""
 
     def __init__(self, bench):
         steps = round((REACH_M + OVERSHOOT_M) / STEP_M)

@@ -29,7 +29,7 @@ class Safe(HilTest):
         self.bench.machine.check(f"systemctl start {SAFE}")
 
     def drawn(self, reason, width=WIDTH, height=HEIGHT):
-        """What the program draws on this machine, but for the last line: that says how long the computer runs."""
+        """The program's picture on this machine, without the last line, which has the computer's uptime."""
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "reason").write_text(reason, encoding="utf-8")
             subprocess.run([self.bench.program.parent / "frustumscreen-safe", "--png", f"{folder}/safe.png",

@@ -33,7 +33,7 @@ class SettingsByStick(StickTest):
         super().tearDownClass()
 
     def put(self, name, text):
-        """What is told of these settings on a stick."""
+        """The report on these settings on a stick."""
         self.plug(name, self.make(name, "vfat", {"kiosk.toml": text.encode()}))
         told = pulled_packs(self.outcome())["kiosk.toml"]
         self.pull(name)

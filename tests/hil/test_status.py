@@ -1,4 +1,4 @@
-"""What the staff learns of a kiosk: its picture over the local socket, for the staff's group alone."""
+"""The staff's access to a kiosk: its picture over the local socket, only for the staff's group."""
 
 import base64
 import pathlib
@@ -43,7 +43,7 @@ class Status(HilTest):
         self.assertNotEqual(self.bench.machine.run("test -e /run/hil/pictures/stolen.png").status, 0)
 
     def test_what_it_says(self):
-        """Who may not have the picture may still ask how the kiosk is."""
+        """A user without access to the picture can still read the status."""
         said = self.run_as("hil-visitor", "").output
         self.assertIn(self.bench.status()["artifact"], said)
         self.assertIn("tracker", said)

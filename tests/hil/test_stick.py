@@ -15,7 +15,7 @@ class Stick(ToldStickTest):
     before, after = kept_calibration.KEEP, kept_calibration.FORGET
 
     def told_by_exhibit(self, import_id):
-        """What its status says of this import; None: nothing yet."""
+        """The status of this import; None: none yet."""
         told = (self.bench.status() or {}).get("import") or {}
         return told if told.get("import_id") == import_id and told.get("stage") in ("done", "failed") else None
 

@@ -42,7 +42,7 @@ class StickCopy(StickTest):
         return pack.with_name(pack.name + ".minisig") if pack.suffix != ".fspack" else pack
 
     def put(self, name, files, timeout_s=REPORT_S):
-        """What is told of a stick with these files, and what is on it afterwards."""
+        """The report on a stick with these files, and its contents afterwards."""
         stick = self.make(name, "vfat", files)
         self.plug(name, stick)
         told = pulled_packs(self.outcome(timeout_s))

@@ -79,7 +79,7 @@ class HostileSticks(LongStickTest):
         for line in self.bench.machine.check(f"cat {MEASURED}").splitlines():
             unit, peak, used = line.split()
             taken[unit] = (int(peak) / (1 << 20), int(used) / 1e6)
-        # What systemd does to lock the importer in is its work too; it is the same for each stick.
+        # The cost of systemd's sandbox for the importer is the same for each stick.
         return report, now, max(mib for mib, _ in taken.values()), sum(work_s for _, work_s in taken.values())
 
     def test_refused(self):

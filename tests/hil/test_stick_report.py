@@ -13,7 +13,7 @@ from stick_bench import TOLD_PIXELS, ToldStickTest, pulled_packs
 REQUEST = "frustumscreen-report.toml"
 REPORT_S = 150.0  # as long as an import, and a journal read by a slow processor
 SLOW_BYTES_PER_S = 20_000  # of the journal: some ten seconds
-FILES = {"version.txt", "status.txt", "status.json", "settings.txt", "faults.txt", "journal.txt"}  # counts.csv where somebody was there
+FILES = {"version.txt", "status.txt", "status.json", "settings.txt", "faults.txt", "journal.txt"}  # counts.csv if there were visits
 
 
 def files_on(image):
@@ -55,7 +55,7 @@ class StickReport(ToldStickTest):
         return found
 
     def not_written(self, image, untouched=True, **how):
-        """What is told of a stick: (refusal, sentence). `untouched`: it stays as it is to the last byte."""
+        """The report on a stick: (refusal, sentence). `untouched`: its bytes do not change."""
         held = image.read_bytes()
         self.plug("refused", image, **how)
         report = self.outcome(REPORT_S)
@@ -120,7 +120,7 @@ class StickReport(ToldStickTest):
         eventually(lambda: "frustumscreen-report/" not in self.bench.machine.run("cat /proc/mounts").output, 60.0, "the folder stays mounted")
         for name, content in {REQUEST: b"", **self.own}.items():
             self.assertTrue(file_on(stick, name) == content, f"{name} is not as it was")
-        # What was being written is cut off anywhere, and mtools says so.
+        # The file that was being written is cut off, and mtools says so.
         listed = subprocess.run(["mdir", "-b", "-/", "-i", stick, "::/"], check=False, capture_output=True, text=True).stdout
         self.assertIn("/photos/cup.jpg", listed)
         self.assertNotIn("/journal.txt", listed, "all was written before: this proves nothing")

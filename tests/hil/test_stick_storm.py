@@ -159,7 +159,7 @@ class StickStorm(LongStickTest):
                 told.setdefault(kind, []).append(f"{report['stage']} {report['refusal']}")
                 self.pull("damaged")
                 found = set(self.installed(QUIET))
-                # What was read whole in spite of the damage is rightly taken.
+                # A pack that was read whole in spite of the damage is rightly taken.
                 self.assertTrue({("amphora", 1)} <= found <= whole, f"{kind}: {found}")
                 self.assertTrue(report["stage"] == "done" or report["reason"])
                 self.goes_on()
@@ -197,7 +197,7 @@ class StickStorm(LongStickTest):
         self.assertEqual(self.installed(QUIET), [("amphora", 5)])
 
     def test_changing_contents(self):
-        """What is read a second time is something else: what was checked is what is used."""
+        """A second read returns other data: only the checked data is used."""
         self.take(1)
         pack = self.large(2, CHANGING_MIB)
         image = self.make("changing", "vfat", {"vase.fspack": pack})

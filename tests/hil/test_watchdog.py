@@ -174,7 +174,7 @@ class Watchdog(HilTest):
 
     @long
     def test_full_disk(self):
-        """Nothing can be kept; the exhibit goes on, and the watchdog takes steps, but no reboot that it could not write down."""
+        """No data can be stored; the exhibit goes on, and the watchdog takes steps, but no reboot that it could not write down."""
         machine = self.bench.machine
         folders = ("/var/lib/frustumscreen-watchdog", "/var/cache/frustumscreen")
         self.addCleanup(machine.run, f"{END}; systemctl stop {UNIT}; umount {' '.join(folders)}; systemctl start --no-block {UNIT}")

@@ -22,7 +22,7 @@ from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
 KEPT_S = 0.2  # pause between two that are kept to be measured
-SURE_S = 0.1  # of a longer step between two looks nobody knows what happened meanwhile
+SURE_S = 0.1  # a longer step between two polls hides what happened meanwhile
 RESTING_S = 1.0  # where nothing moves, a picture with another code comes after this time
 FROZEN_S = 0.25
 FROZEN_PACES = 4.0

@@ -3,7 +3,7 @@
 # three techniques, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two
 # builds that draw the same pictures leave folders that are equal byte for byte:
 #
-#   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: made anew; BAKER: where those are
+#   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: replaced; BAKER: where those are
 #                                                    that bake the packs, if others
 #   diff -r FOLDER OTHER_FOLDER
 set -euo pipefail

@@ -1,4 +1,4 @@
-// What holds for every file of the house.
+// Rules for every file of the project.
 #include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 
@@ -277,7 +277,7 @@ TEST(House, EveryHeaderSaysWhatItIs) {
     }
 }
 
-/// Past json.h, a file compiles all of the library anew.
+/// A file that bypasses json.h compiles the whole library again.
 TEST(House, JsonIsIncludedByItsHeader) {
     for (const fs::path& file : files_ending({".h", ".cpp"})) {
         for (const std::string& line : lines_of(file)) {
@@ -301,13 +301,13 @@ TEST(House, EveryFileIsFormatted) {
 
 class SkippedTests : public frustumscreen::WithTemporaryFolder {};
 
-/// What GoogleTest 1.12 prints, copied by hand.
+/// The output of GoogleTest 1.12, copied by hand.
 TEST_F(SkippedTests, AreListedWithTheirReasons) {
     const std::string log = folder / "tests.log";
     const std::string listed = folder / "listed.txt";
     std::ofstream(log)
         << "[ RUN      ] A.Passes\n[       OK ] A.Passes (0 ms)\n[ RUN      ] A.Traces\n"
-           "/x/a_test.cpp:170: Skipped\nthis machine lets nobody trace\n\n[  SKIPPED ] A.Traces (3 ms)\n"
+           "/x/a_test.cpp:170: Skipped\nthis machine allows no tracing\n\n[  SKIPPED ] A.Traces (3 ms)\n"
            "[ RUN      ] B.Silent\n/x/b_test.cpp:3: Skipped\n\n\n[  SKIPPED ] B.Silent (0 ms)\n"
            "[  PASSED  ] 1 test.\n[  SKIPPED ] 2 tests, listed below:\n[  SKIPPED ] A.Traces\n"
            "[  SKIPPED ] B.Silent\n";
@@ -315,7 +315,7 @@ TEST_F(SkippedTests, AreListedWithTheirReasons) {
     ASSERT_EQ(std::system((script + log + "' >'" + listed + "'").c_str()), 0);
     std::ifstream file(listed);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
-              "== 2 tests were skipped\n   A.Traces: this machine lets nobody trace\n"
+              "== 2 tests were skipped\n   A.Traces: this machine allows no tracing\n"
               "   B.Silent: it does not say why\n");
 }
 

@@ -107,12 +107,12 @@ class Appliance(Machine):
     # While it runs.
 
     def let_disk_hang(self, hangs):
-        """What is asked of it waits: a byte in each second is none."""
+        """Makes the disk hang: at one byte per second, requests wait. `hangs` False: ends that."""
         limits = {name: 0 for name in ("bps", "bps_rd", "bps_wr", "iops", "iops_rd", "iops_wr")}
         self.monitor("block_set_io_throttle", device="disk", **{**limits, "bps": int(hangs)})
 
     def lit_picture(self):
-        """What the screen shows, if the exhibit drew it (screen.probe) and it lights something; else None."""
+        """The screen's picture, if the exhibit drew it (screen.probe) and it lights something; else None."""
         path = self.sockets / "screen.ppm"
         self.screendump(path)
         picture = screen.read_ppm(path)
@@ -130,7 +130,7 @@ class Appliance(Machine):
         return (self.logs / "serial.log").read_bytes().count(b"BdsDxe: starting Boot")
 
     def notes(self):
-        """What the start has to say of the disk; empty: nothing was wrong."""
+        """The start's notes on the disk; empty: no faults."""
         return self.run("cat /run/frustumscreen-boot/notes 2>/dev/null").output
 
 

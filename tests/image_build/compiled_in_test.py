@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What compiled_in.list says of headers, held against the headers that the compiler read and the archives that were linked.
+"""The headers of compiled_in.list, compared with the headers that the compiler read and the archives that were linked.
 
     compiled_in_test.py SOURCE    SOURCE: the repository, with its release build
 """
@@ -52,7 +52,7 @@ def sources_of(packages):
 
 
 def shared_libraries():
-    """What the programs load at their start, which the image therefore has; patterns, since a library may lie in /lib or /usr/lib."""
+    """Libraries that the programs load at their start, which the image therefore has; patterns, since a library may lie in /lib or /usr/lib."""
     listed = lines_of("ldd", *(f"bin/{program}" for program in PROGRAMS))
     return {f"*/{line.split()[0]}" for line in listed if "=> /" in line}
 

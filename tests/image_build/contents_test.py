@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What is said of the image's contents, held against a made-up image, the schema of CycloneDX, unsquashfs and sha256sum.
+"""The list of the image's contents, compared with a made-up image, the schema of CycloneDX, unsquashfs and sha256sum.
 
     contents_test.py SOURCE    SOURCE: the repository
 """

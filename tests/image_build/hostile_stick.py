@@ -28,7 +28,7 @@ RAID, LUKS = "a19d880f-05fc-4d3b-a006-743f0f84911e", "ca7d7ccb-63ed-4c53-861c-17
 
 
 def _signed_as(image, place, signature, size_mib=1):
-    """Nothing but what it is known by."""
+    """A disk with nothing but the signature of a format."""
     with open(image, "wb") as file:
         file.truncate(size_mib << 20)
         file.seek(place)

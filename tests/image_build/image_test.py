@@ -1,4 +1,4 @@
-"""What every test of the image begins and ends with."""
+"""Set-up and tear-down of every test of the image."""
 
 import os
 import pathlib
@@ -20,7 +20,7 @@ def long(test):
 
 
 class ImageTest(unittest.TestCase):
-    """A PC of its own for each test, whose disk nobody has started before."""
+    """A PC for each test, with a disk that was never started."""
 
     def setUp(self):
         name = self.id().rsplit(".", 1)[-1]

@@ -1,4 +1,4 @@
-"""Whether somebody has broken in: facts that the kernel tells of the running machine, and a sentence for each that is wrong.
+"""Detects break-ins: facts from the kernel of the running machine, and a sentence for each that is wrong.
 
 Frame    `facts` asks the test's agent; `wrong` compares what is now with what was before, and both with what may be at all.
          What the agent itself runs does not count.
@@ -8,7 +8,7 @@ Errors   MachineError.
 
 import re
 
-# What runs all the time, and what comes and goes: the services' scripts, sticks, udev's rules.
+# Processes that run all the time, and short ones: the services' scripts, sticks, udev's rules.
 STAYS = {"systemd", "systemd-journald", "udevadm", "frustumscreen", "frustumscreen-watchdog", "qemu-ga"}
 COMES = {"frustumscreen-import", "systemd-mount", "systemd-executor", "systemctl", "journalctl", "mount", "ntfs-3g", "kmod", "lsblk",
          "dash", "sleep", "cat", "grep", "cut", "sed", "readlink", "basename", "dirname", "stat", "systemd-repart", "systemd-growfs",
@@ -60,7 +60,7 @@ def _without_agent(processes):
 
 
 def wrong(before, now, mounted=r"(?!)"):
-    """Sentences; none: nobody broke in. `mounted`: which places may have been mounted since, as a pattern."""
+    """Sentences; none: no break-in. `mounted`: which places may have been mounted since, as a pattern."""
     said = []
     for exe in now["process"]:
         folder, _, name = exe.rpartition("/")

@@ -1,4 +1,4 @@
-"""What test_breakout judges by, on made-up facts: it is silent where nobody is in, and has a sentence for each break-in."""
+"""The checks of test_breakout on made-up facts: silent without a break-in, and a sentence for each."""
 
 import copy
 import unittest

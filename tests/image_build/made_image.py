@@ -15,7 +15,7 @@ DEP5 = "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.
 
 
 def noise(size, seed):
-    """What no program packs any smaller."""
+    """Data that no program compresses."""
     return random.Random(seed).randbytes(size)
 
 

@@ -2,7 +2,7 @@
 # Makes the kiosk's image for tests, out/image/test, and before it what it is made of; kept until that changes.
 #
 # build/image/packages     our Debian packages
-# build/image/test_keys    update.key and update.crt: whoever has the key may sign an update for it
+# build/image/test_keys    update.key and update.crt: the key signs updates for it
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 ./setup.sh hil kiosk window packages image

@@ -11,7 +11,7 @@ ROLLUP = "for p in /proc/[0-9]*; do echo $(cat $p/comm) $(sed -n 's/^Pss: *\\([0
 
 
 def test_overlay_mb(pc):
-    """What the test's image takes besides: its agent, and its files in memory."""
+    """Memory that only the test's image takes: its agent, and its files in memory."""
     processes = [line.split() for line in pc.run(ROLLUP).output.splitlines()]
     agent = sum(int(words[1]) for words in processes if len(words) == 2 and words[0] == "qemu-ga")
     files = int(pc.check("df -k /run/extra | sed -n '2s/  */ /gp'").split()[2])

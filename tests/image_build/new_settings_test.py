@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a kiosk does with settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
+"""A kiosk's handling of settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
 what it is asked for.
 
 new_settings_test.py [unittest's arguments]
@@ -44,7 +44,7 @@ class NewSettings(unittest.TestCase):
         return (self.top / name).read_text(encoding="ascii")
 
     def start(self):
-        """What the service manager was asked for."""
+        """The requests to the service manager."""
         subprocess.run([SCRIPTS / "new-settings"], check=True, timeout=30, env=self.environment())
         self.assertFalse((self.top / "run/frustumscreen-import/settings-taken").exists())
         return self.read("asked").splitlines()

@@ -66,7 +66,7 @@ class Packages(unittest.TestCase):
             self.assertIn(f"frustumscreen-base (= {version})", self.field(name, "Depends"))
 
     def test_what_is_opened_by_name_is_depended_on(self):
-        # Of these, dpkg-shlibdeps knows nothing: the programs' files do not name them.
+        # dpkg-shlibdeps does not know these, because the programs' files do not name them.
         self.assertLessEqual({"libegl-mesa0", "libgl1-mesa-dri", "fonts-dejavu-core", "tzdata"}, self.depends("frustumscreen-base"))
         self.assertLessEqual({"systemd", "udev", "mount", "ntfs-3g"}, self.depends("frustumscreen"))
         self.assertIn("fonts-noto-core", self.depends("frustumscreen-bake"))
@@ -153,7 +153,7 @@ class Packages(unittest.TestCase):
         self.assertFalse([file for file in self.files["frustumscreen"] if ".wants/" in file])
 
     def script(self, name, *arguments):
-        """What a script of dpkg's asks of systemd, where that runs. Each program is a stub that says what it was asked."""
+        """The requests of a dpkg script to a running systemd. Each program is a stub that records its arguments."""
         stubs = pathlib.Path(self.folder.name) / "stubs"
         stubs.mkdir(exist_ok=True)
         for stub in ("systemctl", "deb-systemd-helper", "deb-systemd-invoke", "udevadm", "systemd-sysusers", "systemd-tmpfiles"):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What is kept of packages beside the image: made of a package that dpkg-deb packs, and held against what it lists.
+"""The package data that is kept beside the image: made of a package that dpkg-deb packs, and compared with its list.
 
     provenance_test.py SOURCE    SOURCE: the repository
 """

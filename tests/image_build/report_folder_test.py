@@ -178,7 +178,7 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
                     self.assertIn("pulled out of a computer too early", self.told()[1])
 
     def test_full(self):
-        # Of a tmpfs with few inodes nothing is left.
+        # A tmpfs with few inodes has none left.
         status, mounted, _ = self.run_in(f"touch {REQUEST}; mount -o remount,nr_inodes=2 .")
         self.assert_left_alone(status, mounted)
         self.assertEqual(self.told()[0], "no_room")

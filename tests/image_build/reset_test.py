@@ -34,7 +34,7 @@ class Reset(unittest.TestCase):
         (self.top / "bin/systemctl").chmod(0o755)
 
     def reset(self):
-        """What the service manager was asked for."""
+        """The requests to the service manager."""
         asked = self.top / "asked"
         subprocess.run([SCRIPT], check=True, timeout=30, stdout=subprocess.DEVNULL,
                        env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "ASKED": str(asked), "RESET_RUN": str(self.top / "run"),

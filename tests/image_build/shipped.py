@@ -17,7 +17,7 @@ LIVES_S = 240.0  # from power on; 60 s on two idle cores
 
 @dataclass
 class Seen:
-    """What the screen showed since power on."""
+    """The screen's pictures since power on."""
 
     codes: set  # of pictures that the exhibit drew
     lit: set  # of those that light something: a picture's contents, hashed

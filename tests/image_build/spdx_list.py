@@ -1,4 +1,4 @@
-"""What the official schema of CycloneDX allows, and whether a licence expression is one of SPDX.
+"""Checks against the official schema of CycloneDX and SPDX's licence expressions.
 
 Source   cyclonedx/SOURCE; python3-jsonschema and python3-license-expression read what we write.
 """

@@ -1,4 +1,4 @@
-"""Break-out: what somebody with a keyboard, a stick, a device that types or a network cable can try, from power on. Long:
+"""Break-out: attacks with a keyboard, a stick, a device that types or a network cable, from power on. Long:
 ./test image --all. What `intruders` finds strange is held against real break-ins at the end of each test: it must see them."""
 
 import base64
@@ -58,7 +58,7 @@ class Attacked(Appliance):
             time.sleep(0.05)
 
     def said(self):
-        """What firmware and boot loader have written on the serial line, where their console is too."""
+        """Output of firmware and boot loader on the serial line, where their console is too."""
         log = self.logs / "serial.log"
         return log.read_text(errors="replace") if log.exists() else ""
 
@@ -247,7 +247,7 @@ class BreakOut(ImageTest):
     # USB.
 
     def test_hostile_stick(self):
-        """Nothing of it is run, and only what the importer looks through is mounted, while it does."""
+        """None of its programs is run, and only the partition that the importer reads is mounted, and only meanwhile."""
         boot_loader = subprocess.run(["mtype", "-i", f"{self.pc.disk}@@{self.pc.partition(ESP)[0]}", "::EFI/BOOT/BOOTX64.EFI"], check=True,
                                      capture_output=True).stdout
         folder = self.pc.logs / "stick"

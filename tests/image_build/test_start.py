@@ -11,7 +11,7 @@ HANGS_S = 300.0  # that a disk answers nothing
 
 class Start(ImageTest):
     def test_first_start(self):
-        """Unattended to a lit exhibit, though a byte of the root has flipped; the data partition grows; it is somebody."""
+        """Unattended to a lit exhibit, though a byte of the root has flipped; the data partition grows; the kiosk gets its identity."""
         pc = self.pc
         small = pc.partition(DATA)[1]
         pc.flip(pc.partition(SLOT_A)[0] + 96)  # of the root's first block: its file system's own first bytes
@@ -31,7 +31,7 @@ class Start(ImageTest):
 
     @long
     def test_second_start(self):
-        """What was kept is there; a start that was good is counted no longer."""
+        """Kept data is there; a good start no longer counts."""
         pc = self.pc
         self.start()
         machine_id = self.machine_id()
@@ -73,7 +73,7 @@ class Start(ImageTest):
 
     @long
     def test_two_kiosks_are_not_the_same(self):
-        """What a kiosk has of its own it makes at its first start; the image brings no key that two of them would share."""
+        """A kiosk makes its own keys at its first start; the image contains no key that two kiosks would share."""
         own = ("cat /etc/machine-id", "cat /proc/sys/kernel/hostname", "sha256sum /var/lib/systemd/random-seed")
 
         def made():

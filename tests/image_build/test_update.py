@@ -63,7 +63,7 @@ class Update(ImageTest):
         return name
 
     def told(self, timeout_s=UPDATE_S):
-        """What the table is told of the stick's bundles at the end: their parts of the report."""
+        """The final report on the stick's bundles."""
         seen = [None]
 
         def over():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a kiosk says of the updates on a stick, without a machine: its own script and RAUC in a made-up root, where nothing can be mounted
+"""A kiosk's reports on updates on a stick, without a machine: its own script and RAUC in a made-up root, where nothing can be mounted
 or installed.
 
 update_test.py [unittest's arguments]

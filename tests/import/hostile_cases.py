@@ -229,7 +229,7 @@ def signatures(folder, signer):
 
 
 def no_files(folder, signer):
-    """What is no file, or is one elsewhere."""
+    """Entries that are not files, or lie elsewhere."""
     elsewhere = folder.parent / "elsewhere.fspack"
     elsewhere.write_bytes(pack(signer, 50))
     (folder / "link.fspack").symlink_to(elsewhere)

@@ -71,7 +71,7 @@ protected:
         }
         return names;
     }
-    /// What a person does at a computer.
+    /// A person's commands at a computer.
     void sign_the_copy() const {
         std::filesystem::remove(folder / "stick/frustumscreen-request.toml");
         std::filesystem::rename(folder / place / "kiosk.fsk", folder / "stick/kiosk.fsk");

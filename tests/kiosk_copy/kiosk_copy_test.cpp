@@ -83,7 +83,7 @@ TEST(KioskCopy, RefusesWhatIsNone) {
     EXPECT_EQ(
         id_of(archive({{"format.txt", format_line}, {"kiosk.toml", std::string((64U << 10U) + 1, '#')}})),
         "kiosk_copy.size");
-    // Of zeros, a thousand bytes are one in the archive.
+    // A thousand zero bytes become one byte in the archive.
     Files bomb{{"format.txt", format_line}};
     for (int k = 0; k < 20; ++k) {
         bomb.emplace_back(fmt::format("counts/{}.json", text_of_day(first_day + std::chrono::days(k))),

@@ -88,7 +88,7 @@ TEST_F(ImportCosts, ManyDamagedPacksDoNotKeepTheProcessor) {
     stick.put("good.fspack", museum.pack("good", 1));
     const ImportReport some = import_stick(stick, kiosk, request, outside);
     EXPECT_EQ(some.stage, ImportStage::Done)
-        << "large packs that are damaged concern nobody else: " << some.reason;
+        << "large packs that are damaged concern no other pack: " << some.reason;
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"good 1"});
     for (int k = 3; k < 20; ++k) {
         stick.put(fmt::format("{:02}.fspack", k),

@@ -111,7 +111,7 @@ TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
     EXPECT_EQ(alone[0]["name"], "2031");
     EXPECT_EQ(alone[0]["id"], pack::text_of_key_id(next.public_key().id));
     EXPECT_EQ(alone[0]["from"], pack::text_of_key_id(museum.key.public_key().id));
-    EXPECT_TRUE(alone[0]["counts"].is_null()) << "without the settings nobody knows";
+    EXPECT_TRUE(alone[0]["counts"].is_null()) << "unknown without the settings";
     ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys --json"), 0);
     const json both = json::parse(text("out.txt"))["keys"];
     ASSERT_EQ(both.size(), 2U);
@@ -146,7 +146,7 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     EXPECT_TRUE(listed_line("vase").ends_with("signed by museum")) << text("out.txt");
     const json without = listed()["packs"];
     EXPECT_EQ(without[0]["signed_by"]["id"], pack::text_of_key_id(second.public_key().id));
-    EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "without the settings nobody knows";
+    EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "unknown without the settings";
 
     bring_key("until = \"2020-01-01\"\n", 2);
     std::filesystem::remove(folder / "stick/cup.fspack"); // it would be refused, and with it the whole stick

@@ -1,4 +1,4 @@
-"""What our programs accept, read from their --help."""
+"""The options and arguments that our programs accept, read from their --help."""
 
 import dataclasses
 import functools
@@ -6,7 +6,7 @@ import re
 import subprocess
 
 OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
-# Of the programs that say more of a mode behind these words than with --help alone.
+# Words after which a program's --help describes another mode.
 MODES = {
     "frustumscreen-bake": ("--watch", "--batch", "--check", "--words", "--prop-file"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
@@ -61,7 +61,7 @@ def subcommands(text):
 
 
 def of_command(program, arguments):
-    """What stands for these arguments; a ValueError says which subcommand there is not."""
+    """The syntax of these arguments; a ValueError names an unknown subcommand."""
     base = read(program)
     line = " ".join(arguments)
     for mode in MODES.get(program.name, ()):

@@ -15,7 +15,7 @@ BUILTINS = ("cd", "export")
 
 
 class Checks:
-    """Of the programs of others: `harmless` are run, `elsewhere` are not, and this machine may lack them."""
+    """Other programs: `harmless` ones are run, `elsewhere` ones are not, and this machine may lack them."""
 
     def __init__(self, source, build, harmless, elsewhere):
         self.source, self.build, self.harmless, self.elsewhere = source, build, harmless, elsewhere

@@ -67,7 +67,7 @@ def printed_commands(source, helps, subcommands):
 
 
 def processor_s():
-    """Of all programs that have ended so far."""
+    """Processor seconds of all programs that have ended so far."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
@@ -81,7 +81,7 @@ class Runner:
                           "SHELF": str(whole / "shelf")}
 
     def run_page(self, name, commands):
-        """What went wrong, a text for each command."""
+        """The failures, a text for each command."""
         page = self.words["page"].get(name, {})
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.whole))
         failure = self.run(self.words["everywhere"] + page.get("prepare", ""), folder)

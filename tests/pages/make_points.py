@@ -21,7 +21,7 @@ EYES = {"left": (-0.02, 0.05, -0.07), "right": (0.04, 0.046, -0.066)}  # in the 
 
 
 def report(rotation, place):
-    """What the tracker says of a sensor that stands so on the table."""
+    """The tracker's report of a sensor at this pose on the table."""
     return (*TABLE.in_tracker(place), *quaternion(times(turn((0, 0, 1), TABLE.yaw), rotation)))
 
 

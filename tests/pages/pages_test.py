@@ -1,4 +1,4 @@
-"""What documented_commands_test.py takes for a command, and that a wrong one is told with page and line.
+"""documented_commands_test.py finds the commands, and reports a wrong one with page and line.
 
     pages_test.py SOURCE BUILD
 """

@@ -128,7 +128,7 @@ TEST_F(BakeBatch, WhatIsWrongWithTheWholeIsSaidInOneLine) {
     said("--batch objects -o packs --shard 3/2", 2, "--shard '3/2': allowed are 1/N to N/N");
     said("--batch objects -o voice.sh", 1, "voice.sh: ");
     put("none/notes.txt", "nothing to bake here");
-    said("--batch none -o packs", 1, "none: there is no folder with an artifact.toml and no scan in it");
+    said("--batch none -o packs", 1, "none: it contains no scan and no folder with an artifact.toml");
     EXPECT_EQ(run("frustumscreen-bake --batch objects"), 2) << "no place for the packs";
     EXPECT_EQ(run("frustumscreen-bake --batch -o packs"), 2);
     EXPECT_EQ(run("frustumscreen-bake --batch --help"), 0);

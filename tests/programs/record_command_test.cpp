@@ -169,7 +169,7 @@ TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost)
     settings("kind = \"usb\"\n");
     const std::optional<int> status = stopped_while_the_device_hangs({"--raw", "-o", "raw"});
     if (!status) {
-        GTEST_SKIP() << "this machine lets nobody trace";
+        GTEST_SKIP() << "this machine allows no tracing";
     }
     EXPECT_EQ(*status, 0);
     EXPECT_NE(text("err.txt").find("a device did not stop in time"), std::string::npos) << text("err.txt");

@@ -156,7 +156,7 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     const std::optional<pid_t> tracker = programs::thread_named(process, "tracker");
     ASSERT_TRUE(tracker);
     if (!programs::hang(*tracker)) {
-        GTEST_SKIP() << "this machine lets nobody trace";
+        GTEST_SKIP() << "this machine allows no tracing";
     }
     std::this_thread::sleep_for(seconds(11)); // by then the thread's promise is broken
     EXPECT_FALSE(fed_within(seconds(2)));
@@ -217,7 +217,7 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
     ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text_of("status.json");
     if (!programs::hang(process)) {
-        GTEST_SKIP() << "this machine lets nobody trace";
+        GTEST_SKIP() << "this machine allows no tracing";
     }
     EXPECT_TRUE(
         comes("err.txt", "watchdog: the picture hangs: nothing was heard of the exhibit for 4 s, while it "))

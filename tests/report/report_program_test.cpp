@@ -57,7 +57,7 @@ protected:
         }
         return files;
     }
-    /// What the importer tells of the stick.
+    /// The importer's report on the stick.
     [[nodiscard]] std::vector<library::ImportedPack> told() const {
         static_cast<void>(run("frustumscreen-import --from stick --into library --unsigned allow --report "
                               "report/report.json --stick-report report/outcome.json"));

@@ -105,7 +105,7 @@ TEST_F(StaffSocketTest, ItsFileIsForItsOwnerAndItsFoldersGroup) {
 
 TEST_F(StaffSocketTest, SomebodyElseIsRefusedWhateverTheFilesModeIs) {
     if (::geteuid() != 0) {
-        GTEST_SKIP() << "only root can be somebody else";
+        GTEST_SKIP() << "only root can change the user";
     }
     open();
     fs::permissions(folder, fs::perms::all);

@@ -69,8 +69,8 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
     std::filesystem::remove(files.files()[3]);
     await(1);
     await(3);
-    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::LeftOut);
-    EXPECT_EQ(show->artifacts()[3], exhibit::ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::Unusable);
+    EXPECT_EQ(show->artifacts()[3], exhibit::ArtifactState::Unusable);
     ASSERT_EQ(show->state({}).left_out->size(), 2U);
     EXPECT_EQ(show->state({}).left_out->front().pack, files.files()[1].string());
     EXPECT_NE(show->state({}).left_out->front().reason.find("damaged"), std::string::npos)
@@ -89,7 +89,7 @@ TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPl
     static_cast<void>(write_file(files.files()[1], pack::write_pack(other).value()));
     await(2);
     await(1);
-    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::Unusable);
 }
 
 TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {

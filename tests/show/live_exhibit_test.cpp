@@ -26,9 +26,9 @@ struct Record {
 };
 
 /// Draws nothing, and records its calls.
-class RecordingStage final : public ExhibitStage {
+class RecordingShow final : public PresentationShow {
 public:
-    explicit RecordingStage(Record& record) : record_(record) {}
+    explicit RecordingShow(Record& record) : record_(record) {}
     [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
                                           const render::RenderTarget& target, render::Redraw) override {
         record_.ages.push_back(target.buffer_age);
@@ -55,7 +55,7 @@ protected:
         auto made = display::SurfacelessDisplay::create(320, 200);
         ASSERT_TRUE(made) << made.error().message;
         display = std::move(*made);
-        show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingStage>(record),
+        show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingShow>(record),
                                              sample::exhibit(3, {"en", "de"}), "a driver");
         status.tracker = Sentence("the tracker is running");
         frame();
@@ -218,8 +218,8 @@ TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
     EXPECT_NE(render::read_colour(display->framebuffer(), 320, 200).texels, before.texels);
 }
 
-/// A stage whose artifacts are fully white everywhere.
-class WhiteStage final : public ExhibitStage {
+/// A show whose artifacts are fully white everywhere.
+class WhiteShow final : public PresentationShow {
 public:
     [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation& presentation,
                                           const glm::dvec3&, const render::RenderTarget& target,
@@ -252,7 +252,7 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
     int patterns = 0;
     for (unsigned seed = 0; seed < 8; ++seed) {
         std::mt19937 random(seed);
-        show = std::make_unique<LiveExhibit>(settings, std::make_unique<WhiteStage>(),
+        show = std::make_unique<LiveExhibit>(settings, std::make_unique<WhiteShow>(),
                                              sample::exhibit(3, {"en", "de"}), "a driver");
         now = start;
         panel::ButtonTimes times;

@@ -145,7 +145,7 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     EXPECT_NEAR(show.while_quiet, 4 * 30, 8) << "four marks, half a second each, at 60 pictures a second";
     EXPECT_EQ(show.while_used, 0) << "the next set had hardly begun";
     EXPECT_EQ(run->status.camera_for, "the picture's place");
-    EXPECT_NE(run->status.drift.view().find("the camera learns where the picture lies"),
+    EXPECT_NE(run->status.drift.view().find("the camera records where the calibrated picture lies"),
               std::string_view::npos);
     EXPECT_FALSE(run->status.drifted);
 }

@@ -54,8 +54,8 @@ TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
 TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
-    const auto left_out = std::make_shared<const std::vector<library::PackLeftOut>>(
-        std::vector<library::PackLeftOut>{{"cat.fspack", "there is no such file"}});
+    const auto left_out = std::make_shared<const std::vector<library::UnshownPack>>(
+        std::vector<library::UnshownPack>{{"cat.fspack", "there is no such file"}});
     const auto set = std::make_shared<status::SetStatus>();
     set->shown = 7;
     set->packs.emplace_back().title = "A cat";

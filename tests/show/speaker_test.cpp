@@ -26,8 +26,8 @@ residency::SharedRecording recording_of(const std::string& name) {
         residency::PromptRecording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
 }
 
-/// A stage with one word of advice and one description; the second artifact has none.
-class SpeakingStage final : public ExhibitStage {
+/// A show with one word of advice and one description; the second artifact has none.
+class SpeakingShow final : public PresentationShow {
 public:
     render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
                             const render::RenderTarget&, render::Redraw) override {
@@ -52,7 +52,7 @@ class Speaking : public ::testing::Test {
 protected:
     void SetUp() override { speaker.begin(residency::PromptReader::Answer::Always); }
     void frame() {
-        speaker.step(presentation, stage);
+        speaker.step(presentation, show);
         presentation.says.reset();
         presentation.falls_silent = false;
         std::vector<std::int16_t> block(sound::sample_rate_hz / 50);
@@ -76,7 +76,7 @@ protected:
                            [](std::int16_t s) { return s != 0; });
     }
 
-    SpeakingStage stage;
+    SpeakingShow show;
     Speaker speaker;
     sound::Mixer mixer;
     exhibit::Presentation presentation;
@@ -176,7 +176,7 @@ TEST_F(Speaking, what_has_no_sound_is_silent) {
     presentation.tells = presentation.prepares = exhibit::DescriptionIndex{1, 0};
     frames(2);
     EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Silent);
-    stage.description = std::make_shared<const residency::PromptRecording>(
+    show.description = std::make_shared<const residency::PromptRecording>(
         residency::PromptRecording{"bad", Bytes(9), {}, "", "", {}});
     ::testing::internal::CaptureStderr();
     tell();
@@ -199,7 +199,7 @@ TEST_F(Speaking, a_step_allocates_nothing) {
     for (int k = 0; k < 300; ++k) {
         k % 100 < 50 ? tell() : leave(k % 3 == 0);
         presentation.says = k % 40 == 0 ? std::optional(exhibit::WordIndex{}) : std::nullopt;
-        speaker.step(presentation, stage);
+        speaker.step(presentation, show);
         mixer.follow(speaker.request());
         speaker.hear(mixer.report(Nanoseconds(0)));
     }
@@ -214,13 +214,13 @@ TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_o
     tell();
     frames(10);
     while (speaker.narration().state == exhibit::SpeechProgress::State::Heard) {
-        EXPECT_FALSE(speaker.step(presentation, stage, loud));
+        EXPECT_FALSE(speaker.step(presentation, show, loud));
         frame();
     }
     const auto loudest_of = [&](const residency::SharedRecording& recording) {
         const std::size_t from = heard.size();
         int steps = 0;
-        while (!speaker.step(presentation, stage, recording) && steps < 100) {
+        while (!speaker.step(presentation, show, recording) && steps < 100) {
             frame();
             ++steps;
         }
@@ -238,11 +238,11 @@ TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) 
     Speaker waiting;
     waiting.begin(residency::PromptReader::Answer::WhenReady);
     presentation.prepares_word = presentation.says = exhibit::WordIndex{0, 1};
-    waiting.step(presentation, stage);
+    waiting.step(presentation, show);
     presentation = {};
-    stage.words = 1;
+    show.words = 1;
     waiting.forget();
-    waiting.step(presentation, stage); // the stage fails the test for an unknown recording
+    waiting.step(presentation, show); // the show fails the test for an unknown recording
 }
 
 TEST_F(Speaking, a_description_ends_with_its_set) {
@@ -251,7 +251,7 @@ TEST_F(Speaking, a_description_ends_with_its_set) {
     ASSERT_TRUE(sounds());
     speaker.forget();
     tell(); // the new set's description, with the same index
-    stage.description = recording_of("tone.opus");
+    show.description = recording_of("tone.opus");
     const sound::Prompt truth = *sound::read_opus(fixture("tone.opus"));
     frames(20);
     EXPECT_NE(

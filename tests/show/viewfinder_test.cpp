@@ -381,7 +381,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
 TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     settings.panel.kind = settings::PanelKind::Gpio;
     settings.panel.lines = {"4", "5", "6"};
-    class Nothing final : public ExhibitStage {
+    class Nothing final : public PresentationShow {
     public:
         [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
                                               const render::RenderTarget&, render::Redraw) override {

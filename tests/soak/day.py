@@ -1,4 +1,4 @@
-"""What happens in a soak, and when: seeded, so that a soak can be had again.
+"""The events of a soak and their times: seeded, so a soak can be repeated.
 
 Time     hours and seconds of the exhibit's time; a soak runs `pace` times faster than a museum (docs/soak.md).
 """

@@ -170,9 +170,9 @@ class Faults:
 KINDS = [name[1:] for name in vars(Faults) if name.startswith("_") and name.strip("_") in (
     "tracker_unplugged", "tracker_hangs", "tracker_hangs_until_reset", "tracker_noise", "panel_unplugged", "button_bounces",
     "projector_unplugged", "killed", "disk_full", "clock_leaps", "stick_good", "stick_unsigned", "stick_pulled")]
-# What passes before the ladder begins anew with a fault: its ten good minutes (app/watch/ladder.h), and as many again for faults between.
+# The time before the ladder restarts for a fault: its ten good minutes (app/watch/ladder.h), and as many again for faults between.
 RESTS_S = {"tracker_hangs_until_reset": 1200.0}
-# What of the watchdog's steps is no false alarm: (cause, step's beginning) by fault.
+# The watchdog's steps that are not false alarms: (cause, beginning of the step), by fault.
 MAY_CAUSE = {"tracker_hangs_until_reset": {"device_silent"}, "killed": {"keeps_ending"}}
 ENDS_EXHIBIT = {"killed"}
 
@@ -192,7 +192,7 @@ class Packs:
         subprocess.run([self._program, *(str(word) for word in words)], check=True, capture_output=True)
 
     def settings(self):
-        """What a kiosk's settings must say to take them."""
+        """The settings that a kiosk needs to accept them."""
         public = self._key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
         return f'\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
 

@@ -1,4 +1,4 @@
-"""What a soak has shown: availability, slopes of memory, writes, ends, steps; and whether the limits hold.
+"""The findings of a soak: availability, slopes of memory, writes, ends, steps; and whether the limits hold.
 
 Units    MiB, seconds and hours as named; `pace`: the exhibit's hours for each hour that passed.
 Threads  any.
@@ -84,7 +84,7 @@ def due_to(uptime_s, faults):
 
 
 def totals(samples, value, pid):
-    """A count that begins anew with each process, over all of them, from the first sample on."""
+    """A count that restarts with each process, summed over all of them, from the first sample on."""
     total, last, process = 0, None, None
     for sample in samples:
         if sample[pid] != process or last is None or sample[value] < last:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a soak's judge makes of made-up soaks of which the truth is known."""
+"""The soak's judge on made-up soaks with known truth."""
 
 import random
 import unittest

@@ -47,12 +47,12 @@ class Sample:
     frames: int = 0  # of this process
     drawn: int = 0
     packets: int = 0
-    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read anew
+    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read again
 
 
 @dataclass
 class Log:
-    """What was seen."""
+    """The samples and events of a soak."""
 
     samples: list = field(default_factory=list)
     looks: list = field(default_factory=list)  # (at_s, lit)

@@ -23,7 +23,7 @@ import write_report
 from family import Ended, Family  # from tests/hil, by kiosk
 
 CHECKOUT = HERE.parent.parent
-VISIT_S = 120.0  # of the pose file, which begins anew at its end
+VISIT_S = 120.0  # of the pose file, which repeats
 LIT_S, SETTLE_S = 400.0, 10.0
 
 

@@ -157,10 +157,10 @@ TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
 TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {
     Result<std::unique_ptr<PcmDevice>> device = open_alsa("nowhere");
     ASSERT_TRUE(device) << device.error().message;
-    const Result<std::size_t> room = (*device)->room();
-    ASSERT_TRUE(room);
-    EXPECT_LE(*room, samples_in(longest_queue));
-    EXPECT_GE(*room, samples_in(longest_queue) / 2);
+    const Result<std::size_t> free = (*device)->free_samples();
+    ASSERT_TRUE(free);
+    EXPECT_LE(*free, samples_in(longest_queue));
+    EXPECT_GE(*free, samples_in(longest_queue) / 2);
 }
 
 TEST_F(AlsaDevice, ALargeBufferIsNotFilled) {
@@ -173,9 +173,9 @@ TEST_F(AlsaDevice, ALargeBufferIsNotFilled) {
     ASSERT_TRUE(device) << device.error().message;
     std::size_t most = 0;
     for (int round = 0; round < 40; ++round) {
-        const Result<std::size_t> room = (*device)->room();
-        ASSERT_TRUE(room);
-        const std::vector<std::int16_t> silence(*room);
+        const Result<std::size_t> free = (*device)->free_samples();
+        ASSERT_TRUE(free);
+        const std::vector<std::int16_t> silence(*free);
         ASSERT_TRUE((*device)->write(silence));
         most = std::max(most, (*device)->queued());
         (*device)->wait(milliseconds(10));
@@ -192,7 +192,7 @@ TEST_F(AlsaDevice, ADeviceOfLongPeriodsSaysThatItSpeaksLate) {
     card.period = 0;
     card.buffer = 0;
     ASSERT_TRUE(device) << device.error().message;
-    EXPECT_EQ(*(*device)->room(), 2 * 2048U);
+    EXPECT_EQ(*(*device)->free_samples(), 2 * 2048U);
     EXPECT_NE((*device)->state().sentence.view().find("holds 85 ms back: it speaks late"),
               std::string_view::npos)
         << (*device)->state().sentence.view();

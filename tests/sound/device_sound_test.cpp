@@ -41,7 +41,7 @@ class FakePcm final : public PcmDevice {
 public:
     explicit FakePcm(FakeCard& card) : card_(card) {}
 
-    [[nodiscard]] Result<std::size_t> room() override {
+    [[nodiscard]] Result<std::size_t> free_samples() override {
         if (fails()) {
             return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
@@ -233,7 +233,7 @@ TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
 /// Accepts all samples and queues none.
 class DeafPcm final : public PcmDevice {
 public:
-    [[nodiscard]] Result<std::size_t> room() override { return capacity; }
+    [[nodiscard]] Result<std::size_t> free_samples() override { return capacity; }
     [[nodiscard]] Result<void> write(std::span<const std::int16_t>) override { return {}; }
     [[nodiscard]] std::size_t queued() const override { return 0; }
     void wait(Nanoseconds longest) override { std::this_thread::sleep_for(longest); }

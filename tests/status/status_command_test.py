@@ -189,14 +189,14 @@ class Text(Status):
                          "version 1.4.0, slot b; data: it was mended; version 1.5.0 did not start?")
 
     def test_nothing_is_known(self):
-        self.assertRegex(self.text(1), r"^Nothing is known of the exhibit: .*status.json: there is no such file; systemctl status frustumscreen says more\.\n")
+        self.assertRegex(self.text(1), r"^The exhibit's status is unknown: .*status.json: there is no such file; systemctl status frustumscreen says more\.\n")
 
     def test_a_status_that_is_old(self):
         self.write("status.json", exhibit(monotonic_ns=time.monotonic_ns() - 300 * 10**9))
         text = self.text(1)
         self.assertTrue(text.startswith(
             "The exhibit does not run, or cannot say how it is: its status is 5 min old; systemctl status "
-            "frustumscreen says more.\nWhat it said last:\n"), text)
+            "frustumscreen says more.\nIts last messages:\n"), text)
         self.assertTrue(self.line(text, "on the screen").endswith("(en), for 2 h 0 min"), text)
         self.assertIn("it ran for 10 h 0 min", self.line(text, "starts"))
 
@@ -308,7 +308,7 @@ class Hostile(Status):
             self.write("status.json", document)
             self.write("dog.json", document)
             text = self.text(1)
-            self.assertRegex(text.split("\n")[0], r"^Nothing is known of the exhibit: .*\.$")
+            self.assertRegex(text.split("\n")[0], r"^The exhibit's status is unknown: .*\.$")
             self.assertLess(text.count("\n"), 6)
 
     def test_no_type_and_no_value_ends_the_program(self):
@@ -337,7 +337,7 @@ class Hostile(Status):
         (self.folder / "boot").mkdir()
         os.mkfifo(self.folder / "boot/version")
         (self.folder / "boot/notes").symlink_to("/dev/zero")
-        self.assertIn("Nothing is known", self.text(1))
+        self.assertIn("status is unknown", self.text(1))
 
     def test_ends_that_are_none(self):
         self.write("status.json", exhibit())

@@ -31,7 +31,7 @@ StatusReport full_report() {
     report.mode = "plain";
     report.settings = Sentence("others are used");
     report.left_out =
-        std::make_shared<const std::vector<library::PackLeftOut>>(std::vector<library::PackLeftOut>{
+        std::make_shared<const std::vector<library::UnshownPack>>(std::vector<library::UnshownPack>{
             {"cat.fspack", "there is no such file"}, {"dog.fspack", "it is damaged"}});
     const auto set = std::make_shared<SetStatus>();
     set->shown = 7;

@@ -28,7 +28,7 @@ install_kiosk # again: it changes nothing
 units=$root/usr/lib/systemd/system
 unit=$units/frustumscreen.service
 
-# What the unit starts and reads is there.
+# The files that the unit starts and reads exist.
 program=$(sed -n 's/^ExecStart=\([^ ]*\).*/\1/p' "$unit")
 [[ -x $root$program ]] || die "$program is not installed"
 settings=$(sed -n 's/^ExecStart=.*--config \([^ ]*\).*/\1/p' "$unit")
@@ -84,7 +84,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     locked_in frustumscreen-import-refused@stick1p1.service 1
     locked_in frustumscreen-stick@stick1p1.service 24
     locked_in frustumscreen-ntfs@stick1p1.service 34
-    # What the image adds for its updates.
+    # The image's additions for its updates.
     cp -r "$own/systemd/system/." "$units" && cp -r "$own/frustumscreen" "$root/usr/lib/"
     for name in update@stick1p1 update-told@stick1p1 report-open@stick1p1 report@stick1p1 report-close@stick1p1 next-try reset; do
         instance=$units/frustumscreen-$name.service

@@ -31,7 +31,7 @@ def output_of(*command):
 
 
 def units(build):
-    """What is compiled, as file -> its command; and source -> such a file, which is itself or includes it. Nothing generated."""
+    """Compiled files, as file -> its command; and source -> a compiled file that is or includes it. No generated files."""
     commands, unit_of = {}, {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         file = pathlib.Path(entry["file"])
@@ -83,7 +83,7 @@ class Analysis:
         return hashlib.sha256(salt + text.replace(os.fsencode(ROOT), b"")).hexdigest()
 
     def run(self, file):
-        """What clang-tidy says of a file; empty: nothing. None: it was clean before."""
+        """clang-tidy's findings in a file; empty: none. None: it was clean before."""
         clean = CACHE / self._key(file)
         if clean.exists():
             return None

@@ -1,4 +1,4 @@
-// What a meter says of a sensor, against noise that was put in.
+// A meter's figures of a sensor, against noise that was put in.
 
 #include "app/tracking/signal_meter.h"
 

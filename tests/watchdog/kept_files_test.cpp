@@ -1,4 +1,4 @@
-// What survives a reboot: the ladder's memory, and the ring of faults.
+// Data that survives a reboot: the ladder's memory and the fault records.
 #include "app/programs/watchdog/fault_book.h"
 #include "app/programs/watchdog/memory_file.h"
 #include "app/programs/watchdog/orders.h"

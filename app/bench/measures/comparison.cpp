@@ -9,7 +9,7 @@ Result<Comparison> open_comparison(const SetUp& set_up, const pack::Pack& pack,
                                    const std::shared_ptr<const bake::SourceMesh>& mesh,
                                    const ComparisonOptions& options) {
     TRY(std::unique_ptr<TechniqueSet> set, TechniqueSet::open(set_up));
-    const geometry::PropShape& prop = set->stage().prop;
+    const geometry::PropShape& prop = set->kiosk().prop;
     TRY(std::vector<BenchPose> poses, draw_poses(set_up.settings, prop, options.poses, options.seed));
     const glm::dmat4 prop_from_artifact = pack::place(pack, prop).prop_from_artifact;
     TRY(Truth truth, Truth::build(mesh, prop_from_artifact));

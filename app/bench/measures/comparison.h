@@ -1,4 +1,4 @@
-/// The starting point of a measurement of one pack: its levels on a stage, poses and the truth.
+/// The starting point of a measurement of one pack: its levels as a kiosk draws them, poses and the truth.
 ///
 /// Threads  as TechniqueSet.
 /// Errors   no display; no poses; any error from making a technique.

@@ -114,7 +114,7 @@ public:
     void add(const BenchPose& pose) {
         advance(sharp_, set_.picture(sharp_technique_, pose));
         advance(feathered_, set_.picture(feathered_technique_, pose));
-        advance(zones_, edge_zones(set_.stage().settings, set_.stage().prop, pose));
+        advance(zones_, edge_zones(set_.kiosk().settings, set_.kiosk().prop, pose));
         if (++poses_ >= 2) {
             add_step(sharp_, feathered_, zones_, sparkle_);
         }

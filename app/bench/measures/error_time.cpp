@@ -32,7 +32,7 @@ Result<image::Image8> worst_picture(TechniqueSet& set, const Truth& truth,
     });
     const BenchPose& pose = poses[static_cast<std::size_t>(worst - errors.begin())];
     TRY(const Drawn drawn, set.drawn(k, pose));
-    return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), drawn);
+    return error_picture(truth.cast(set.kiosk().prop, view_of(set.kiosk().settings, pose), true), drawn);
 }
 
 Result<void> add_peers(TechniqueSet& set, const bake::SourceMesh& mesh, const Truth& truth,

@@ -18,11 +18,11 @@ constexpr int rays_per_side = 4;
 constexpr const char* ray_cast_technique = "ray-cast picture";
 constexpr glm::u8vec4 black(0, 0, 0, 255);
 
-simulation::VisitorScene scene_of(const Stage& stage, const BenchPose& pose) {
-    const settings::Settings& settings = stage.settings;
+simulation::VisitorScene scene_of(const Kiosk& kiosk, const BenchPose& pose) {
+    const settings::Settings& settings = kiosk.settings;
     return {.projector = settings.projector.pinhole,
             .table_from_projector = settings.projector.table_from_projector,
-            .prop = stage.prop,
+            .prop = kiosk.prop,
             .table_from_prop = pose.table_from_prop,
             .eye_m = pose.eye_m,
             .table_size_m = {settings.table.width_m, settings.table.depth_m}};
@@ -136,8 +136,8 @@ Result<ProjectionResult> compare(const SetUp& set_up, const pack::Pack& pack,
     double worst_percent = std::numeric_limits<double>::infinity();
     for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
         const BenchPose& at = result.poses[pose];
-        Judge judge(truth, scene_of(set.stage(), at));
-        const TruthPicture cast = truth.cast(set.stage().prop, view_of(set.stage().settings, at), true);
+        Judge judge(truth, scene_of(set.kiosk(), at));
+        const TruthPicture cast = truth.cast(set.kiosk().prop, view_of(set.kiosk().settings, at), true);
         const auto add = [&](ProjectionRow row, const std::string& technique, int level) {
             row.technique = technique;
             row.level = level;

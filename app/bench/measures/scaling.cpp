@@ -21,7 +21,7 @@ constexpr std::array drawn = {&ScalingRow::default_level, &ScalingRow::finest_le
 Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std::vector<BenchPose>& poses,
                       const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
-    const glm::dmat4 prop_from_artifact = pack::place(source.pack, set.stage().prop).prop_from_artifact;
+    const glm::dmat4 prop_from_artifact = pack::place(source.pack, set.kiosk().prop).prop_from_artifact;
     TRY(Truth truth, Truth::build(source.mesh, prop_from_artifact));
     const auto finest = static_cast<std::uint32_t>(source.pack.levels.size() - 1);
     for (const std::uint32_t level : {source.pack.default_level, finest}) {
@@ -85,7 +85,7 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
     TRY(std::unique_ptr<TechniqueSet> opened, TechniqueSet::open(set_up));
     TechniqueSet& set = *opened;
     TRY(const std::vector<BenchPose> poses,
-        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed));
+        draw_poses(set_up.settings, set.kiosk().prop, options.poses, options.seed));
     const std::size_t first = set.results().size(); // after the floors
     std::vector<ScalingRow> rows;
     for (const ScalingSource& source : sources) {

@@ -13,7 +13,7 @@ void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& option
     const int sequences = 2 * static_cast<int>(result.poses.size());
     for (int k = 0; k < sequences; ++k) {
         const PushDirection direction = k % 2 == 0 ? PushDirection::Row : PushDirection::Column;
-        ShimmerSequence sequence(set.stage().settings, set.stage().prop,
+        ShimmerSequence sequence(set.kiosk().settings, set.kiosk().prop,
                                  result.poses[static_cast<std::size_t>(k / 2)], direction, options.steps);
         sequence.cast(truth, options.sixteen_rays);
         for (std::size_t technique = 0; technique < set.results().size(); ++technique) {

@@ -27,7 +27,7 @@ Result<std::string> TechniqueSet::keep_surface(const pack::Pack& pack, bake::Sou
     if (drawn_.contains(name)) {
         return name;
     }
-    const double metres_per_box = pack::place(pack, stage_.prop).metres_per_box;
+    const double metres_per_box = pack::place(pack, kiosk_.prop).metres_per_box;
     TRY(Truth truth,
         Truth::build(std::make_shared<const bake::SourceMesh>(std::move(surface)),
                      glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), bake::Sides::Front));
@@ -46,7 +46,7 @@ std::optional<LightAim> TechniqueSet::shown_light(const BenchPose& pose) const {
 
 ShownImages TechniqueSet::shown_images(ShownPicture& shown, const BenchPose& pose) const {
     const auto read = [this] {
-        return render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+        return render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
     };
     shown.draw_shown(pose);
     image::Image8 colour = read();
@@ -57,13 +57,13 @@ ShownImages TechniqueSet::shown_images(ShownPicture& shown, const BenchPose& pos
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                           std::size_t first, const Progress& progress) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-        const TruthView view = view_of(stage_.settings, poses[pose]);
+        const TruthView view = view_of(kiosk_.settings, poses[pose]);
         const std::optional<LightAim> light = shown_light(poses[pose]);
-        const TruthPicture cast = truth.cast(stage_.prop, view, true, light ? &*light : nullptr);
+        const TruthPicture cast = truth.cast(kiosk_.prop, view, true, light ? &*light : nullptr);
         std::map<int, image::Image<float>> covers; // key: samples per pixel
         std::map<std::string, image::Image8> surfaces;
         for (const auto& [name, as_drawn] : drawn_) {
-            surfaces[name] = as_drawn.cast(stage_.prop, view, true).colour16;
+            surfaces[name] = as_drawn.cast(kiosk_.prop, view, true).colour16;
         }
         for (std::size_t k = first; k < techniques_.size(); ++k) {
             if (results_[k].kind == TechniqueKind::Floor) {
@@ -80,7 +80,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                 const auto cover = covers.try_emplace(images.samples).first;
                 if (cover->second.width == 0) {
                     cover->second =
-                        truth.cover(stage_.prop, view, cast, render::SampleGrid::of(images.samples));
+                        truth.cover(kiosk_.prop, view, cast, render::SampleGrid::of(images.samples));
                 }
                 error.shown = measure_shown(cast, images, cover->second, seen.point_m);
             }
@@ -95,7 +95,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
 }
 
 Result<std::vector<PictureError>> TechniqueSet::shape_errors(const Truth& truth, const BenchPose& pose) {
-    const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, pose), false);
+    const TruthPicture cast = truth.cast(kiosk_.prop, view_of(kiosk_.settings, pose), false);
     std::vector<PictureError> errors(techniques_.size());
     for (std::size_t k = 0; k < techniques_.size(); ++k) {
         if (results_[k].kind != TechniqueKind::Floor) {
@@ -109,12 +109,12 @@ Result<std::vector<PictureError>> TechniqueSet::shape_errors(const Truth& truth,
 Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<BenchPose>& poses, int rays,
                                          const Progress& progress) {
     const glm::ivec2 grid = render::SampleGrid::of(rays);
-    const geometry::Pinhole centres = stage_.settings.projector.pinhole;
+    const geometry::Pinhole centres = kiosk_.settings.projector.pinhole;
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         std::vector<std::vector<PictureError>> errors(techniques_.size());
         for (int ray = 0; ray < rays; ++ray) {
             // Move the principal point, to draw and cast at other places inside the pixels.
-            geometry::Pinhole& pinhole = stage_.settings.projector.pinhole;
+            geometry::Pinhole& pinhole = kiosk_.settings.projector.pinhole;
             const glm::ivec2 cell(ray % grid.x, ray / grid.x);
             pinhole.cx = centres.cx + 0.5 - (cell.x + 0.5) / grid.x;
             pinhole.cy = centres.cy + 0.5 - (cell.y + 0.5) / grid.y;

@@ -80,9 +80,9 @@ Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
         display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
     const unsigned framebuffer = display->framebuffer();
     std::unique_ptr<TechniqueSet> set(new TechniqueSet(
-        std::move(display), Stage{set_up.settings, settings::make_prop(set_up.settings.prop), framebuffer}));
+        std::move(display), Kiosk{set_up.settings, settings::make_prop(set_up.settings.prop), framebuffer}));
     for (const FloorFilter filter : {FloorFilter::Trilinear, FloorFilter::OneLevel}) {
-        TRY_VOID(set->add(make_floor(set->stage_, filter), described(TechniqueKind::Floor, -1, 0)));
+        TRY_VOID(set->add(make_floor(set->kiosk_, filter), described(TechniqueKind::Floor, -1, 0)));
     }
     return set;
 }
@@ -100,7 +100,7 @@ Result<void> TechniqueSet::add_sampled(const MakePeer& make, const TechniqueResu
     for (const int each : samples) {
         std::shared_ptr<const PeerSamples>& shared = peer_samples_[each];
         if (each > 1 && !shared) {
-            TRY(shared, PeerSamples::create(stage_, each));
+            TRY(shared, PeerSamples::create(kiosk_, each));
         }
         TechniqueResult sampled = result;
         sampled.samples = each;
@@ -124,14 +124,14 @@ Result<void> TechniqueSet::add_level(const pack::Pack& pack, std::uint32_t level
         TRY(result.drawn_as, keep_drawn(pack, level));
     }
     result.samples = options.samples;
-    return add(make_pack_level(stage_, pack, level, options, level_name(pack, level)), std::move(result));
+    return add(make_pack_level(kiosk_, pack, level, options, level_name(pack, level)), std::move(result));
 }
 
 Result<void> TechniqueSet::add_auto(const pack::Pack& pack, const PictureOptions& options) {
     scene::SceneRequest request;
     request.light = options.lit;
     request.samples = options.samples;
-    TRY(const scene::ScenePlan plan, scene::plan_scene(stage_.settings, pack::outline_of(pack), request));
+    TRY(const scene::ScenePlan plan, scene::plan_scene(kiosk_.settings, pack::outline_of(pack), request));
     const Result<void> added =
         add_auto_mesh(pack, quality_level_that(plan.quality_levels, false).value(), options);
     const std::optional<scene::QualityLevel> relief = quality_level_that(plan.quality_levels, true);
@@ -153,7 +153,7 @@ Result<void> TechniqueSet::add_auto_mesh(const pack::Pack& pack, const scene::Qu
     result.samples = quality_level.samples;
     result.drawn_as = std::move(kept);
     result.bytes = bytes_of(pack.levels[quality_level.level], pack);
-    return add(make_pack_level(stage_, pack, quality_level.level, options,
+    return add(make_pack_level(kiosk_, pack, quality_level.level, options,
                                fmt::format("auto ({})", level_name(pack, quality_level.level))),
                std::move(result));
 }
@@ -165,12 +165,12 @@ Result<void> TechniqueSet::add_peers(const bake::SourceMesh& mesh, const glm::dm
     const std::uint64_t triangles = mesh.triangles.size();
     Result<void> added;
     if (full_mesh) {
-        added = add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, peer, sampled); },
+        added = add_sampled([&](const auto& sampled) { return make_full_mesh(kiosk_, peer, sampled); },
                             described(TechniqueKind::FullMesh, -1, triangles), samples);
     }
     for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
         added = add_sampled(
-            [&](const auto& sampled) { return make_two_pass(stage_, peer, two_pass_pixels[k], sampled); },
+            [&](const auto& sampled) { return make_two_pass(kiosk_, peer, two_pass_pixels[k], sampled); },
             described(TechniqueKind::TwoPass, -1, triangles), samples);
     }
     return added;
@@ -182,7 +182,7 @@ Result<void> TechniqueSet::add_ray_cast(const Truth& truth, const std::vector<in
         TechniqueResult result =
             described(TechniqueKind::RayCast, -1, truth.traced()->mesh().triangles.size());
         result.samples = samples[k];
-        added = add(make_ray_cast(stage_, truth.traced(), samples[k]), std::move(result));
+        added = add(make_ray_cast(kiosk_, truth.traced(), samples[k]), std::move(result));
     }
     return added;
 }
@@ -197,13 +197,13 @@ Result<void> TechniqueSet::add_levels_of_detail(const bake::SourceMesh& mesh,
         TRY(const auto peer, PeerMesh::upload(level.mesh, prop_from_artifact));
         if (choice.lod) {
             added =
-                add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, peer, sampled, name); },
+                add_sampled([&](const auto& sampled) { return make_full_mesh(kiosk_, peer, sampled, name); },
                             described(TechniqueKind::Lod, -1, triangles), choice.samples);
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
             added = add_sampled(
                 [&](const auto& sampled) {
-                    return make_two_pass(stage_, peer, choice.eye_pixels[k], sampled, name);
+                    return make_two_pass(kiosk_, peer, choice.eye_pixels[k], sampled, name);
                 },
                 described(TechniqueKind::TwoPassLod, -1, triangles), choice.samples);
         }
@@ -214,7 +214,7 @@ Result<void> TechniqueSet::add_levels_of_detail(const bake::SourceMesh& mesh,
 
 Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const bake::SourceMesh& mesh,
                                             const glm::dmat4& prop_from_artifact, int texels) {
-    TRY(std::vector<ReliefPeer> peers, make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels));
+    TRY(std::vector<ReliefPeer> peers, make_relief_peers(kiosk_, truth, mesh, prop_from_artifact, texels));
     for (ReliefPeer& peer : peers) {
         (void)add(std::move(peer.technique), described(TechniqueKind::Relief, -1, peer.triangles));
     }
@@ -231,7 +231,7 @@ Result<void> TechniqueSet::add_relief(const pack::Pack& pack, TechniqueKind kind
         TRY(result.drawn_as,
             keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box)));
     }
-    return add(make_pack_relief(stage_, pack, std::make_shared<const relief::BlockRelief>(std::move(relief)),
+    return add(make_pack_relief(kiosk_, pack, std::make_shared<const relief::BlockRelief>(std::move(relief)),
                                 seen, options, name, kind == TechniqueKind::ReliefGpu),
                std::move(result));
 }
@@ -293,7 +293,7 @@ Result<void> TechniqueSet::add_relief_rasters(const pack::Pack& pack, const std:
 
 image::Image8 TechniqueSet::picture(std::size_t k, const BenchPose& pose) {
     techniques_[k]->draw(pose);
-    return render::read_colour(stage_.framebuffer, stage_.width(), stage_.height());
+    return render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
 }
 
 Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
@@ -307,7 +307,7 @@ Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
 
 Result<Drawn> TechniqueSet::places(std::size_t k, const BenchPose& pose) {
     TRY(image::ImageFloat points, techniques_[k]->hit_points(pose));
-    return Drawn{image::Image8(stage_.width(), stage_.height()), std::move(points)};
+    return Drawn{image::Image8(kiosk_.width(), kiosk_.height()), std::move(points)};
 }
 
 void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {

@@ -1,4 +1,4 @@
-/// The techniques that one run compares: all on one stage, on one display of their own.
+/// The techniques that one run compares: all for one kiosk, on one display of their own.
 ///
 /// Threads  the one that opened the set: the display's context is current there.
 /// Errors   no display; any error from making a technique.
@@ -114,13 +114,13 @@ public:
                                              int rays, const Progress& progress);
     void measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress);
 
-    [[nodiscard]] const Stage& stage() const { return stage_; }
+    [[nodiscard]] const Kiosk& kiosk() const { return kiosk_; }
     [[nodiscard]] std::string driver() const { return display_->name(); }
     [[nodiscard]] const std::vector<TechniqueResult>& results() const { return results_; }
 
 private:
-    TechniqueSet(std::unique_ptr<display::Display> display, Stage stage)
-        : display_(std::move(display)), stage_(std::move(stage)) {}
+    TechniqueSet(std::unique_ptr<display::Display> display, Kiosk kiosk)
+        : display_(std::move(display)), kiosk_(std::move(kiosk)) {}
     [[nodiscard]] Result<void> add_auto_mesh(const pack::Pack& pack, const scene::QualityLevel& quality_level,
                                              PictureOptions options);
     /// Adds the pack's reliefs whose texel count is `wanted`.
@@ -152,7 +152,7 @@ private:
                                            const std::vector<int>& samples);
 
     std::unique_ptr<display::Display> display_; ///< first: its context outlives everything below
-    Stage stage_;
+    Kiosk kiosk_;
     std::map<std::string, Truth> drawn_;                             ///< by name of the surface
     std::map<int, std::shared_ptr<const PeerSamples>> peer_samples_; ///< by number of samples; no entry for
                                                                      ///< one sample

@@ -121,9 +121,9 @@ Result<FilledPage> fill_page(std::string_view page, std::string_view page_file, 
 std::string line_of(const FilledTable& table, bool check) {
     switch (table.state) {
     case TableState::Absent:
-        return fmt::format("{}: left as it is, there is no {}", table.name, table.source);
+        return fmt::format("{}: unchanged, because {} is missing", table.name, table.source);
     case TableState::NoRows:
-        return fmt::format("{}: left as it is, {} has no row for it", table.name, table.source);
+        return fmt::format("{}: unchanged, because {} has no row for it", table.name, table.source);
     case TableState::Same:
         return fmt::format("{}: is as measured", table.name);
     case TableState::Changed:

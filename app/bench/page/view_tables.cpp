@@ -117,20 +117,36 @@ Result<std::array<std::string, 2>> right_cells(const CsvTable& table, const std:
                       decimals(*std::min_element(right.begin(), right.end()), 2)};
 }
 
-Result<TableCells> projection_rows(std::span<const MeasuredRun> runs) {
+/// The part of one model's table that belongs to the shipped set-up.
+struct ShippedRows {
+    const CsvTable& table;
+    std::vector<std::size_t> rows;
+    MeshNames names;
+};
+
+/// A row for each model with a default level in the shipped set-up: its name, and the cells of `cells_of`.
+template <typename CellsOf>
+Result<TableCells> shipped_rows(std::span<const MeasuredRun> runs, CellsOf cells_of) {
     TableCells rows;
     for (const MeasuredRun& run : runs) {
         const CsvTable& table = run.files[0];
-        TRY(const std::vector<std::size_t> shipped, rows_with(table, "set_up", shipped_set_up));
-        TRY(const MeshNames names, mesh_names(table, shipped));
+        TRY(std::vector<std::size_t> own, rows_with(table, "set_up", shipped_set_up));
+        TRY(MeshNames names, mesh_names(table, own));
         if (names.standard.empty()) {
             continue;
         }
-        TRY(const auto drawn, right_cells(table, shipped, names.standard));
-        TRY(const auto cast, right_cells(table, shipped, "ray-cast picture"));
-        rows.push_back({run.name, drawn[0], drawn[1], cast[0], cast[1]});
+        TRY(std::vector<std::string> cells,
+            cells_of(ShippedRows{.table = table, .rows = std::move(own), .names = std::move(names)}));
+        cells.insert(cells.begin(), run.name);
+        rows.push_back(std::move(cells));
     }
     return rows;
+}
+
+Result<std::vector<std::string>> projection_cells(const ShippedRows& shipped) {
+    TRY(const auto drawn, right_cells(shipped.table, shipped.rows, shipped.names.standard));
+    TRY(const auto cast, right_cells(shipped.table, shipped.rows, "ray-cast picture"));
+    return std::vector<std::string>{drawn[0], drawn[1], cast[0], cast[1]};
 }
 
 /// The mean of a column over a technique's sequences; empty if it has none.
@@ -141,24 +157,24 @@ Result<std::string> sequence_mean(const CsvTable& table, const std::vector<std::
     return numbers.empty() ? std::string() : decimals(mean_of(numbers), 2);
 }
 
-Result<TableCells> shimmer_rows(std::span<const MeasuredRun> runs) {
-    TableCells rows;
-    for (const MeasuredRun& run : runs) {
-        const CsvTable& table = run.files[0];
-        TRY(const std::vector<std::size_t> shipped, rows_with(table, "set_up", shipped_set_up));
-        TRY(const MeshNames names, mesh_names(table, shipped));
-        if (names.standard.empty()) {
-            continue;
-        }
-        rows.push_back({run.name});
-        for (const auto& [technique, column] :
-             {std::pair{&names.standard, "rms"}, std::pair{&names.finest, "rms"},
-              std::pair{&names.finest, "rms_1_ray"}, std::pair{&names.finest, "rms_16_rays"}}) {
-            TRY(std::string cell, sequence_mean(table, shipped, *technique, column));
-            rows.back().push_back(std::move(cell));
-        }
+Result<std::vector<std::string>> shimmer_cells(const ShippedRows& shipped) {
+    const auto& [standard, finest] = shipped.names;
+    std::vector<std::string> cells;
+    for (const auto& [technique, column] :
+         {std::pair{&standard, "rms"}, std::pair{&finest, "rms"}, std::pair{&finest, "rms_1_ray"},
+          std::pair{&finest, "rms_16_rays"}}) {
+        TRY(std::string cell, sequence_mean(shipped.table, shipped.rows, *technique, column));
+        cells.push_back(std::move(cell));
     }
-    return rows;
+    return cells;
+}
+
+Result<TableCells> projection_rows(std::span<const MeasuredRun> runs) {
+    return shipped_rows(runs, projection_cells);
+}
+
+Result<TableCells> shimmer_rows(std::span<const MeasuredRun> runs) {
+    return shipped_rows(runs, shimmer_cells);
 }
 
 /// RMS of all changes in `rows`, each of which has the RMS of its own.

@@ -264,7 +264,7 @@ def draw_setup(path):
     kinds = different((row["choice"], row["lens_side_m"]) for row in choices)
     for column, title, label in looks:
         if not now[column]:
-            continue  # nobody asked for it
+            continue  # not requested
         panel = Panel(f"{title}: the best prop for each place of the lens", "lens over the table, m", label, log=False,
                       limits=[(float(now[column]), "as it is")])
         for k, (mount, side) in enumerate(kinds):

@@ -25,10 +25,10 @@ std::vector<BenchPose> turned_in_the_middle(const glm::dvec3& eye_m) {
     return poses;
 }
 
-/// One set-up's picture and its renderer. Its address must not change, because the technique refers to the stage.
+/// One set-up's picture and its renderer. Its address must not change, because the technique refers to the kiosk.
 struct Candidate {
     display::PictureFramebuffer picture;
-    Stage stage;
+    Kiosk kiosk;
     std::unique_ptr<Technique> level;
 };
 
@@ -42,7 +42,7 @@ Result<std::unique_ptr<Candidate>> make_candidate(const settings::Settings& sett
         Candidate{std::move(picture), {settings, settings::make_prop(settings.prop), framebuffer}, nullptr});
     PictureOptions options;
     options.lit = true;
-    TRY(made->level, make_pack_level(made->stage, pack, pack.default_level, options, "default level"));
+    TRY(made->level, make_pack_level(made->kiosk, pack, pack.default_level, options, "default level"));
     return made;
 }
 

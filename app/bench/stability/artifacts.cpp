@@ -156,9 +156,9 @@ StabilityResult baked(const StabilityOptions&) {
 
 /// An artifact of any size makes an identical plan, which does not depend on the number of triangles.
 StabilityResult many_triangles(const StabilityOptions& options) {
-    const exact::Stage stage = usual_stage();
-    const SeenArtifact artifact = seen_artifact(stage, options.triangles);
-    return {rows_of(figures_of(stage, artifact, plan_of(stage, artifact)),
+    const exact::SetUp set_up = usual_set_up();
+    const SeenArtifact artifact = seen_artifact(set_up, options.triangles);
+    return {rows_of(figures_of(set_up, artifact, plan_of(set_up, artifact)),
                     fmt::format("{} triangles: ", options.triangles), bound_px / 0.2, gpu_bound_px / 0.2)};
 }
 

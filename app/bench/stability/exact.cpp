@@ -48,11 +48,11 @@ Vector Rigid::inverse_point(const Vector& p) const {
     return d.x * rows_[0] + d.y * rows_[1] + d.z * rows_[2];
 }
 
-Vector Stage::eye_in_prop() const {
+Vector SetUp::eye_in_prop() const {
     return Rigid(table_from_prop).inverse_point(of(eye_m));
 }
 
-Vector Stage::lens_in_prop() const {
+Vector SetUp::lens_in_prop() const {
     return Rigid(table_from_prop).inverse_point(of(table_from_projector.translation));
 }
 
@@ -66,11 +66,11 @@ Vector normal_of(const geometry::PropFace& face) {
 
 } // namespace
 
-Real Stage::height(const geometry::PropFace& face, const Vector& point) const {
+Real SetUp::height(const geometry::PropFace& face, const Vector& point) const {
     return dot(normal_of(face), point - of(face.corners[0]));
 }
 
-std::optional<Seen> Stage::see(const geometry::PropFace& face, const Vector& x) const {
+std::optional<Seen> SetUp::see(const geometry::PropFace& face, const Vector& x) const {
     const Vector eye = eye_in_prop();
     const Real eye_height = height(face, eye);
     const Real fall = eye_height - height(face, x);

@@ -49,7 +49,7 @@ struct Seen {
 };
 
 /// A prop, an eye and a projector.
-struct Stage {
+struct SetUp {
     geometry::PropShape prop;
     geometry::Pinhole projector;
     geometry::RigidTransform table_from_projector;

@@ -3,7 +3,7 @@
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
-#include "app/exhibit/attract.h"
+#include "app/exhibit/idle_pose.h"
 #include "app/exhibit/selection.h"
 #include "app/geometry/time_curves.h"
 #include "app/typography/captions.h"
@@ -107,9 +107,9 @@ struct CaptionJumps {
 
 /// A prop that wanders over the table with a square shadow; a caption avoids it.
 CaptionJumps caption_jumps(double step_s) {
-    const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
-                          glm::dvec2(-0.4, 0.25)};
-    typography::CaptionPlacer placer(room);
+    const std::array corners{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
+                             glm::dvec2(-0.4, 0.25)};
+    typography::CaptionPlacer placer(corners);
     placer.set_shapes(std::array{glm::dvec2(0.16, 0.05), glm::dvec2(0.10, 0.08)});
     CaptionJumps result;
     typography::CaptionPlace before;
@@ -175,18 +175,18 @@ double attract_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
     const geometry::RigidTransform pose{{1.0, 0.0, 0.0, 0.0}, {0.2, 0.1, 0.0}};
-    exhibit::Attract attract(glm::dvec2(0.0), true, now);
+    exhibit::IdlePose idle_pose(glm::dvec2(0.0), true, now);
     LostAndFound prop;
-    exhibit::Stand before{pose};
+    exhibit::DrawnPose before{pose};
     double jump = 0.0;
     for (int k = 0; k < 20'000; ++k) {
         now += step;
         const Nanoseconds age = prop.age(now);
-        const exhibit::Stand stand = attract.at(now, age <= std::chrono::seconds(1), age, pose);
+        const exhibit::DrawnPose drawn = idle_pose.at(now, age <= std::chrono::seconds(1), age, pose);
         jump =
-            std::fmax(jump, stand.attracts == before.attracts ? std::abs(stand.brightness - before.brightness)
-                                                              : stand.brightness + before.brightness);
-        before = stand;
+            std::fmax(jump, drawn.attracts == before.attracts ? std::abs(drawn.brightness - before.brightness)
+                                                              : drawn.brightness + before.brightness);
+        before = drawn;
     }
     return jump;
 }
@@ -194,20 +194,20 @@ double attract_jump(double step_s) {
 StabilityResult lost_props(const StabilityOptions&) {
     double over = 0.0;
     for (const double step : fade_steps) {
-        const double allowed = std::fmin(2.0, steepest * step / to_seconds(exhibit::Attract::each_way));
+        const double allowed = std::fmin(2.0, steepest * step / to_seconds(exhibit::IdlePose::each_way));
         over = std::fmax(over, attract_jump(step) / allowed);
     }
     // Fades out and in again; one object is queried once, another often.
     double other = 0.0;
     double rising = 0.0;
     const MonotonicTime start = from_microseconds(1'000'000);
-    exhibit::Stand before;
-    exhibit::Attract often(glm::dvec2(0.0), true, start);
+    exhibit::DrawnPose before;
+    exhibit::IdlePose often(glm::dvec2(0.0), true, start);
     for (int ms = 0; ms < 6000; ++ms) {
         const Nanoseconds age = std::chrono::milliseconds(ms);
-        const exhibit::Stand seen = often.at(start + age, ms <= 1000, age, {});
-        exhibit::Attract once(glm::dvec2(0.0), true, start);
-        const exhibit::Stand late = once.at(start + age, ms <= 1000, age, {});
+        const exhibit::DrawnPose seen = often.at(start + age, ms <= 1000, age, {});
+        exhibit::IdlePose once(glm::dvec2(0.0), true, start);
+        const exhibit::DrawnPose late = once.at(start + age, ms <= 1000, age, {});
         other += seen.brightness == late.brightness && seen.attracts == late.attracts ? 0.0 : 1.0;
         const bool same = seen.attracts == before.attracts;
         const double towards = seen.attracts ? 1.0 : -1.0; // out, then in

@@ -16,8 +16,8 @@ constexpr std::uint32_t triangles_in_cluster = 64;
 /// Turns random numbers into triangles of a level, one cluster at a time.
 class Scatter {
 public:
-    Scatter(const exact::Stage& stage, SeenArtifact& artifact)
-        : artifact_(artifact), eye_(stage.table_from_prop.inverse().point(stage.eye_m)),
+    Scatter(const exact::SetUp& set_up, SeenArtifact& artifact)
+        : artifact_(artifact), eye_(set_up.table_from_prop.inverse().point(set_up.eye_m)),
           extent_(seen_box_size * artifact.placed.metres_per_box),
           low_(-0.5 * extent_.x, -0.5 * extent_.y, 0.0) {}
 
@@ -128,9 +128,10 @@ double not_finite(const scene::FramePlan& plan) {
 /// Checks one face of the prop, whether the plan contains it or not.
 class FaceCheck {
 public:
-    FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const scene::FramePlan& plan,
+    FaceCheck(const exact::SetUp& set_up, const SeenArtifact& artifact, const scene::FramePlan& plan,
               std::size_t face, PictureFigures& figures)
-        : stage_(stage), artifact_(artifact), plan_(plan), face_(stage.prop.faces[face]), figures_(figures) {
+        : set_up_(set_up), artifact_(artifact), plan_(plan), face_(set_up.prop.faces[face]),
+          figures_(figures) {
         const auto found = std::find_if(plan.draws.begin(), plan.draws.end(), [&](const scene::Draw& draw) {
             return plan.faces[static_cast<std::size_t>(draw.face)].face == static_cast<int>(face);
         });
@@ -139,23 +140,23 @@ public:
         }
         const glm::dvec3 extent = artifact.placed.box_size * artifact.placed.metres_per_box;
         const geometry::RigidTransform projector_from_prop =
-            stage.table_from_projector.inverse() * stage.table_from_prop;
+            set_up.table_from_projector.inverse() * set_up.table_from_prop;
         collineation_ = geometry::collineation(
-            face_.plane, stage.table_from_prop.inverse().point(stage.eye_m),
-            stage.projector.clip_from_point() * projector_from_prop.matrix(),
+            face_.plane, set_up.table_from_prop.inverse().point(set_up.eye_m),
+            set_up.projector.clip_from_point() * projector_from_prop.matrix(),
             {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}});
     }
 
     /// Uses the elevation of the eye, seen from the box's centre, and of the lens, seen from the face's
     /// middle.
     void check() {
-        const exact::Vector eye = stage_.eye_in_prop();
-        const exact::Vector lens = stage_.lens_in_prop();
+        const exact::Vector eye = set_up_.eye_in_prop();
+        const exact::Vector lens = set_up_.lens_in_prop();
         const exact::Vector centre{0, 0,
                                    0.5L * artifact_.placed.box_size.z * artifact_.placed.metres_per_box};
         const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
-        const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
-        const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
+        const exact::Real eye_sine = set_up_.height(face_, eye) / exact::length(eye - centre);
+        const exact::Real lens_sine = set_up_.height(face_, lens) / exact::length(lens - middle);
         constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both correct
         if (eye_sine < geometry::min_sine - hair || lens_sine < geometry::min_sine - hair) {
             figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
@@ -192,8 +193,8 @@ private:
         const exact::Vector b = artifact_.corner(corners[1]);
         const exact::Vector c = artifact_.corner(corners[2]);
         const exact::Vector middle = (1.0L / 3.0L) * (a + b + c);
-        const std::optional<exact::Seen> seen = stage_.see(face_, middle);
-        const bool faces_eye = exact::dot(exact::cross(b - a, c - a), stage_.eye_in_prop() - middle) > 0;
+        const std::optional<exact::Seen> seen = set_up_.see(face_, middle);
+        const bool faces_eye = exact::dot(exact::cross(b - a, c - a), set_up_.eye_in_prop() - middle) > 0;
         if (!seen || !seen->on_face || !seen->in_picture || !faces_eye) {
             return;
         }
@@ -209,23 +210,23 @@ private:
 
     void compare(std::uint32_t corner) {
         const exact::Vector x = artifact_.corner(corner);
-        const std::optional<exact::Seen> seen = stage_.see(face_, x);
+        const std::optional<exact::Seen> seen = set_up_.see(face_, x);
         if (!seen || !seen->on_face || !seen->in_picture) {
             return;
         }
         const glm::dvec4 clip =
             *collineation_ *
             glm::dvec4(static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z), 1.0);
-        figures_.error_px = std::fmax(figures_.error_px, pixel_distance(clip, *seen, stage_.projector));
+        figures_.error_px = std::fmax(figures_.error_px, pixel_distance(clip, *seen, set_up_.projector));
         const pack::PackVertex& vertex = artifact_.level.vertices[corner];
         const glm::vec3 unit =
             glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / 65535.0F;
         const glm::vec4 drawn = planned_->clip_from_unit * glm::vec4(unit, 1.0F);
         figures_.gpu_error_px =
-            std::fmax(figures_.gpu_error_px, pixel_distance(glm::dvec4(drawn), *seen, stage_.projector));
+            std::fmax(figures_.gpu_error_px, pixel_distance(glm::dvec4(drawn), *seen, set_up_.projector));
     }
 
-    const exact::Stage& stage_;
+    const exact::SetUp& set_up_;
     const SeenArtifact& artifact_;
     const scene::FramePlan& plan_;
     const geometry::PropFace& face_;
@@ -237,7 +238,7 @@ private:
 
 } // namespace
 
-exact::Stage usual_stage() {
+exact::SetUp usual_set_up() {
     return {.prop = geometry::make_frustum({}),
             .projector = {1280, 800, 1920.0, 1920.0, 640.0, 400.0},
             .table_from_projector = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 1.2}},
@@ -253,13 +254,13 @@ exact::Vector SeenArtifact::corner(std::uint32_t index) const {
             scale * size.z * (p[2] / 65535.0L)};
 }
 
-SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metres_per_box) {
+SeenArtifact seen_artifact(const exact::SetUp& set_up, int triangles, double metres_per_box) {
     SeenArtifact artifact;
     artifact.placed.metres_per_box = metres_per_box;
-    Scatter scatter(stage, artifact);
+    Scatter scatter(set_up, artifact);
     std::vector<const geometry::PropFace*> seen;
-    for (const geometry::PropFace& face : stage.prop.faces) {
-        if (stage.height(face, stage.eye_in_prop()) > 0) {
+    for (const geometry::PropFace& face : set_up.prop.faces) {
+        if (set_up.height(face, set_up.eye_in_prop()) > 0) {
             seen.push_back(&face);
         }
     }
@@ -280,19 +281,19 @@ SeenArtifact seen_artifact(const exact::Stage& stage, int triangles, double metr
     return artifact;
 }
 
-SeenArtifact seen_level(const exact::Stage& stage, const pack::Pack& pack, std::uint32_t level) {
+SeenArtifact seen_level(const exact::SetUp& set_up, const pack::Pack& pack, std::uint32_t level) {
     return {pack.levels[level],
-            frustumscreen::scene::placed(pack, level, pack::place(pack, stage.prop).metres_per_box)};
+            frustumscreen::scene::placed(pack, level, pack::place(pack, set_up.prop).metres_per_box)};
 }
 
-scene::FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact) {
+scene::FramePlan plan_of(const exact::SetUp& set_up, const SeenArtifact& artifact) {
     scene::PlanView view;
-    view.projector = stage.projector;
-    view.table_from_projector = stage.table_from_projector;
-    view.table_from_prop = stage.table_from_prop;
-    view.eyes_m = {&stage.eye_m, 1};
-    scene::FramePlan plan = scene::make_plan(stage.prop, artifact.placed);
-    scene::plan_frame(stage.prop, artifact.placed, view, plan);
+    view.projector = set_up.projector;
+    view.table_from_projector = set_up.table_from_projector;
+    view.table_from_prop = set_up.table_from_prop;
+    view.eyes_m = {&set_up.eye_m, 1};
+    scene::FramePlan plan = scene::make_plan(set_up.prop, artifact.placed);
+    scene::plan_frame(set_up.prop, artifact.placed, view, plan);
     return plan;
 }
 
@@ -306,21 +307,21 @@ void PictureFigures::include(const PictureFigures& other) {
     not_finite += other.not_finite;
 }
 
-PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
+PictureFigures figures_of(const exact::SetUp& set_up, const SeenArtifact& artifact,
                           const scene::FramePlan& plan, std::optional<std::size_t> only_face) {
     PictureFigures figures;
     figures.not_finite = not_finite(plan);
-    for (std::size_t face = 0; face < stage.prop.faces.size(); ++face) {
+    for (std::size_t face = 0; face < set_up.prop.faces.size(); ++face) {
         if (face == only_face.value_or(face)) {
-            FaceCheck(stage, artifact, plan, face, figures).check();
+            FaceCheck(set_up, artifact, plan, face, figures).check();
         }
     }
     return figures;
 }
 
-PictureFigures figures_of(const exact::Stage& stage, std::optional<std::size_t> only_face) {
-    const SeenArtifact artifact = seen_artifact(stage);
-    return figures_of(stage, artifact, plan_of(stage, artifact), only_face);
+PictureFigures figures_of(const exact::SetUp& set_up, std::optional<std::size_t> only_face) {
+    const SeenArtifact artifact = seen_artifact(set_up);
+    return figures_of(set_up, artifact, plan_of(set_up, artifact), only_face);
 }
 
 std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where, double bound_px,

@@ -17,21 +17,22 @@
 namespace frustumscreen::bench {
 
 /// A kiosk as shipped: the projector 1.2 m above the table, the default prop at its centre.
-[[nodiscard]] exact::Stage usual_stage();
+[[nodiscard]] exact::SetUp usual_set_up();
 
-/// Triangles that the stage's eye sees through each face turned to it, and as many anywhere in the box.
+/// Triangles that the set-up's eye sees through each face turned to it, and as many anywhere in the box.
 struct SeenArtifact {
     pack::PackLevel level;
     scene::PlacedLevel placed;
     [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
 };
 inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the default prop's
-[[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
+[[nodiscard]] SeenArtifact seen_artifact(const exact::SetUp& set_up, int triangles = 2000,
                                          double metres_per_box = 0.16);
-/// A level of a pack, placed in the stage's prop.
-[[nodiscard]] SeenArtifact seen_level(const exact::Stage& stage, const pack::Pack& pack, std::uint32_t level);
+/// A level of a pack, placed in the set-up's prop.
+[[nodiscard]] SeenArtifact seen_level(const exact::SetUp& set_up, const pack::Pack& pack,
+                                      std::uint32_t level);
 
-[[nodiscard]] scene::FramePlan plan_of(const exact::Stage& stage, const SeenArtifact& artifact);
+[[nodiscard]] scene::FramePlan plan_of(const exact::SetUp& set_up, const SeenArtifact& artifact);
 
 struct PictureFigures {
     double error_px = 0.0;     ///< largest, of the 64-bit collineation
@@ -44,14 +45,14 @@ struct PictureFigures {
 
     void include(const PictureFigures& other); ///< takes the larger errors, adds the counts
 };
-[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
+[[nodiscard]] PictureFigures figures_of(const exact::SetUp& set_up, const SeenArtifact& artifact,
                                         const scene::FramePlan& plan,
                                         std::optional<std::size_t> only_face = std::nullopt);
-/// Like the overload above, for `seen_artifact` of the stage.
-[[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
+/// Like the overload above, for `seen_artifact` of the set-up.
+[[nodiscard]] PictureFigures figures_of(const exact::SetUp& set_up,
                                         std::optional<std::size_t> only_face = std::nullopt);
 
-/// Errors of the usual stage's picture without grazing views: the picture's width times four roundings of the
+/// Errors of the usual set-up's picture without grazing views: the picture's width times four roundings of the
 /// matrix, of 2^-53 or 2^-24. At grazing views they grow by 1 / sine.
 inline constexpr double bound_px = 4.0 * 1280.0 * 0x1p-53;
 inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;

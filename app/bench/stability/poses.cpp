@@ -120,16 +120,16 @@ StabilityResult of_either_sign(const StabilityOptions&) {
         return geometry::RigidTransform{-t.rotation, t.translation};
     };
     for (int k = 0; k < 50; ++k) {
-        exact::Stage stage = usual_stage();
-        stage.table_from_prop = {
+        exact::SetUp set_up = usual_set_up();
+        set_up.table_from_prop = {
             glm::normalize(glm::dquat(std::cos(0.1 * k), 0.05 * std::sin(0.3 * k), -0.04, std::sin(0.1 * k))),
             {0.05, -0.02, 0.0}};
-        const SeenArtifact artifact = seen_artifact(stage, 200);
-        const std::uint64_t hash = plan_of(stage, artifact).hash;
-        exact::Stage flipped = stage;
-        flipped.table_from_prop = negated(stage.table_from_prop);
+        const SeenArtifact artifact = seen_artifact(set_up, 200);
+        const std::uint64_t hash = plan_of(set_up, artifact).hash;
+        exact::SetUp flipped = set_up;
+        flipped.table_from_prop = negated(set_up.table_from_prop);
         other += plan_of(flipped, artifact).hash == hash ? 0.0 : 1.0;
-        flipped.table_from_projector = negated(stage.table_from_projector);
+        flipped.table_from_projector = negated(set_up.table_from_projector);
         other += plan_of(flipped, artifact).hash == hash ? 0.0 : 1.0;
     }
     return {{{"of 100 plans with the sign flipped, other than without", 0.0, other}}};
@@ -138,9 +138,9 @@ StabilityResult of_either_sign(const StabilityOptions&) {
 /// If such a pose still reaches the plan, the plan's numbers stay finite and nothing crashes.
 StabilityResult into_the_plan(const StabilityOptions&) {
     double wrong = 0.0;
-    const SeenArtifact artifact = seen_artifact(usual_stage(), 2000);
-    const auto check = [&](const exact::Stage& stage) {
-        const scene::FramePlan plan = plan_of(stage, artifact);
+    const SeenArtifact artifact = seen_artifact(usual_set_up(), 2000);
+    const auto check = [&](const exact::SetUp& set_up) {
+        const scene::FramePlan plan = plan_of(set_up, artifact);
         for (const scene::Draw& draw : plan.draws) {
             for (int column = 0; column < 4; ++column) {
                 const glm::vec4 c = draw.clip_from_unit[column];
@@ -153,21 +153,21 @@ StabilityResult into_the_plan(const StabilityOptions&) {
         }
     };
     for (const glm::dquat& q : no_rotations) {
-        exact::Stage stage = usual_stage();
-        stage.table_from_prop.rotation = q;
-        check(stage);
-        stage = usual_stage();
-        stage.table_from_projector.rotation = q;
-        check(stage);
+        exact::SetUp set_up = usual_set_up();
+        set_up.table_from_prop.rotation = q;
+        check(set_up);
+        set_up = usual_set_up();
+        set_up.table_from_projector.rotation = q;
+        check(set_up);
     }
     for (const double number : {nan, infinity, -infinity, 1e300}) {
         for (int axis = 0; axis < 3; ++axis) {
-            exact::Stage stage = usual_stage();
-            stage.table_from_prop.translation[axis] = number;
-            check(stage);
-            stage = usual_stage();
-            stage.eye_m[axis] = number;
-            check(stage);
+            exact::SetUp set_up = usual_set_up();
+            set_up.table_from_prop.translation[axis] = number;
+            check(set_up);
+            set_up = usual_set_up();
+            set_up.eye_m[axis] = number;
+            check(set_up);
         }
     }
     return {{{"numbers not finite, rectangles outside the picture", 0.0, wrong}}};

@@ -23,18 +23,18 @@ double radians(double degrees) {
 
 /// A projector `degrees` above the plane of a face, along its lower edge, looking at its middle; the eye
 /// looks straight at the face.
-exact::Stage grazing_stage(std::size_t face, double degrees) {
-    exact::Stage stage = usual_stage();
-    const geometry::PropFace& f = stage.prop.faces[face];
+exact::SetUp grazing_set_up(std::size_t face, double degrees) {
+    exact::SetUp set_up = usual_set_up();
+    const geometry::PropFace& f = set_up.prop.faces[face];
     const glm::dvec3 middle = f.middle();
     const glm::dvec3 along = glm::normalize(f.corners[1] - f.corners[0]);
     const glm::dvec3 n = f.plane.normal;
     const glm::dvec3 back = std::cos(radians(degrees)) * along + std::sin(radians(degrees)) * n;
     const glm::dvec3 down = std::sin(radians(degrees)) * along - std::cos(radians(degrees)) * n;
     const glm::dmat3 axes(glm::cross(down, -back), down, -back);
-    stage.table_from_projector = {glm::normalize(glm::quat_cast(axes)), middle + 1.2 * back};
-    stage.eye_m = middle + 0.6 * n;
-    return stage;
+    set_up.table_from_projector = {glm::normalize(glm::quat_cast(axes)), middle + 1.2 * back};
+    set_up.eye_m = middle + 0.6 * n;
+    return set_up;
 }
 
 StabilityResult grazing(const StabilityOptions&) {
@@ -42,7 +42,7 @@ StabilityResult grazing(const StabilityOptions&) {
     for (const double degrees : {90.0, 45.0, 10.0, 1.0, 0.1, 0.06}) {
         PictureFigures figures;
         for (std::size_t face = 0; face < 5; ++face) {
-            figures.include(figures_of(grazing_stage(face, degrees), face));
+            figures.include(figures_of(grazing_set_up(face, degrees), face));
         }
         for (StabilityRow& row :
              rows_of(figures, fmt::format("{:g} deg: ", degrees), 4.0 * bound_px, 0.5 * gpu_bound_px)) {
@@ -57,8 +57,8 @@ StabilityResult below_the_limit(const StabilityOptions&) {
     double lit = 0.0;
     for (std::size_t face = 0; face < 5; ++face) {
         for (const double degrees : {0.05, 1e-3, 1e-9, 0.0, -1e-9, -1.0, -45.0}) {
-            const exact::Stage stage = grazing_stage(face, degrees);
-            for (const scene::FacePlan& planned : plan_of(stage, seen_artifact(stage)).faces) {
+            const exact::SetUp set_up = grazing_set_up(face, degrees);
+            for (const scene::FacePlan& planned : plan_of(set_up, seen_artifact(set_up)).faces) {
                 lit += planned.face == static_cast<int>(face) ? 1.0 : 0.0;
             }
         }
@@ -67,11 +67,11 @@ StabilityResult below_the_limit(const StabilityOptions&) {
 }
 
 /// The gain at a point of the face, computed in the ordinary way: faded out where the light grazes the face.
-exact::Real exact_gain(const exact::Stage& stage, const geometry::PropFace& face, const exact::Vector& point,
+exact::Real exact_gain(const exact::SetUp& set_up, const geometry::PropFace& face, const exact::Vector& point,
                        exact::Real reference) {
-    const exact::Vector lens = stage.lens_in_prop();
+    const exact::Vector lens = set_up.lens_in_prop();
     const exact::Real d = exact::length(lens - point);
-    const exact::Real height = stage.height(face, lens);
+    const exact::Real height = set_up.height(face, lens);
     const exact::Real sine = height / exact::length(lens - exact::of(face.middle()));
     const exact::Real lit =
         std::clamp((sine - exact::Real(settings::min_sine_of_light)) /
@@ -87,12 +87,12 @@ StabilityResult light(const StabilityOptions&) {
         double off = 0.0;
         double largest = 0.0;
         for (std::size_t k = 0; k < 5; ++k) {
-            const exact::Stage stage = grazing_stage(k, degrees);
-            const geometry::PropFace& face = stage.prop.faces[k];
+            const exact::SetUp set_up = grazing_set_up(k, degrees);
+            const geometry::PropFace& face = set_up.prop.faces[k];
             const geometry::RigidTransform projector_from_prop =
-                stage.table_from_projector.inverse() * stage.table_from_prop;
+                set_up.table_from_projector.inverse() * set_up.table_from_prop;
             const glm::dvec3 lens = projector_from_prop.inverse().translation;
-            const std::array seen{scene::SeenFace{&face, stage.eye_m}};
+            const std::array seen{scene::SeenFace{&face, set_up.eye_m}};
             const double reference = scene::reference_light(seen, lens, {});
             const scene::FaceLight planned = scene::face_light(face, projector_from_prop.matrix(), reference);
             for (int j = 0; j < 100; ++j) {
@@ -101,12 +101,12 @@ StabilityResult light(const StabilityOptions&) {
                 const double b = (row + 0.5) / 10.0;
                 const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
                                               glm::mix(face.corners[3], face.corners[2], a), b);
-                const exact::Vector q = exact::Rigid(stage.table_from_projector).inverse_point(exact::of(s));
+                const exact::Vector q = exact::Rigid(set_up.table_from_projector).inverse_point(exact::of(s));
                 const glm::dvec2 pixel(static_cast<double>(1920 * q.x / q.z + 640),
                                        static_cast<double>(1920 * q.y / q.z + 400));
-                const auto exact = static_cast<double>(exact_gain(stage, face, exact::of(s), reference));
+                const auto exact = static_cast<double>(exact_gain(set_up, face, exact::of(s), reference));
                 largest = std::fmax(largest, exact);
-                off = std::fmax(off, std::abs(scene::gain(planned, stage.projector, pixel) - exact));
+                off = std::fmax(off, std::abs(scene::gain(planned, set_up.projector, pixel) - exact));
             }
         }
         // Two factors of the gain are rounded to 32 bits. Below the smallest sine the face is exactly dark.
@@ -134,16 +134,16 @@ StabilityResult intrinsics(const StabilityOptions&) {
         {"fx 1e-3: ", {1280, 800, 1e-3, 1920, 640, 400}, 1.2},
         {"fx and fy 1e9: ", {1280, 800, 1e9, 1e9, 640, 400}, 1.2}};
     for (const Lens& lens : lenses) {
-        exact::Stage stage = usual_stage();
-        stage.projector = lens.pinhole;
-        stage.table_from_projector.translation.z = lens.height_m;
-        stage.table_from_prop.translation = lens.prop_m;
-        stage.eye_m += lens.prop_m;
+        exact::SetUp set_up = usual_set_up();
+        set_up.projector = lens.pinhole;
+        set_up.table_from_projector.translation.z = lens.height_m;
+        set_up.table_from_prop.translation = lens.prop_m;
+        set_up.eye_m += lens.prop_m;
         // With a focal length of f pixels, rounding to 32 bits is f x 2^-24 pixels.
         const double size =
             std::fmax(lens.pinhole.width, 0.5 * std::fmax(lens.pinhole.fx, lens.pinhole.fy)) / 1280.0;
         for (StabilityRow& row :
-             rows_of(figures_of(stage), lens.name, 2.0 * size * bound_px, 2.0 * size * gpu_bound_px, 0.0)) {
+             rows_of(figures_of(set_up), lens.name, 2.0 * size * bound_px, 2.0 * size * gpu_bound_px, 0.0)) {
             result.rows.push_back(std::move(row));
         }
     }

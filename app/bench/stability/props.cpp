@@ -37,9 +37,9 @@ StabilityResult edges(const StabilityOptions&) {
         PictureFigures figures;
         for (const glm::dvec2& place : places) {
             for (const double turn : {0.0, 0.6}) {
-                exact::Stage stage = usual_stage();
-                stage.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0, 0, 1)), glm::dvec3(place, 0.0)};
-                figures.include(figures_of(stage));
+                exact::SetUp set_up = usual_set_up();
+                set_up.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0, 0, 1)), glm::dvec3(place, 0.0)};
+                figures.include(figures_of(set_up));
             }
         }
         append(result, rows_at(min_sine_upright, figures, where));
@@ -55,12 +55,12 @@ StabilityResult outside(const StabilityOptions&) {
     for (const glm::dvec3& place :
          {glm::dvec3(0.7, 0, 0), glm::dvec3(-3, 2, 0), glm::dvec3(0, 1e3, 0), glm::dvec3(0, 0, 5.0),
           glm::dvec3(1e6, -1e6, 0), glm::dvec3(1e15, 0, 0)}) {
-        exact::Stage stage = usual_stage();
-        stage.table_from_prop.translation = place;
-        const SeenArtifact artifact = seen_artifact(stage);
-        const scene::FramePlan plan = plan_of(stage, artifact);
+        exact::SetUp set_up = usual_set_up();
+        set_up.table_from_prop.translation = place;
+        const SeenArtifact artifact = seen_artifact(set_up);
+        const scene::FramePlan plan = plan_of(set_up, artifact);
         pixels += static_cast<double>(plan.lit.pixels());
-        not_finite += figures_of(stage, artifact, plan).not_finite;
+        not_finite += figures_of(set_up, artifact, plan).not_finite;
     }
     return {{{"pixels lit", 0.0, pixels}, {"numbers in the plan that are not finite", 0.0, not_finite}}};
 }
@@ -69,21 +69,21 @@ StabilityResult outside(const StabilityOptions&) {
 StabilityResult lifted(const StabilityOptions&) {
     StabilityResult result;
     for (const double height_m : {0.1, 0.5, 1.0, 1.05}) {
-        exact::Stage stage = usual_stage();
-        stage.eye_m = {0.0, -0.55, height_m + 0.5};
-        stage.table_from_prop.translation = {0.0, 0.0, height_m};
-        const SeenArtifact artifact = seen_artifact(stage, 40000);
-        append(result, rows_at(min_sine_upright, figures_of(stage, artifact, plan_of(stage, artifact)),
+        exact::SetUp set_up = usual_set_up();
+        set_up.eye_m = {0.0, -0.55, height_m + 0.5};
+        set_up.table_from_prop.translation = {0.0, 0.0, height_m};
+        const SeenArtifact artifact = seen_artifact(set_up, 40000);
+        append(result, rows_at(min_sine_upright, figures_of(set_up, artifact, plan_of(set_up, artifact)),
                                fmt::format("{:g} m: ", height_m)));
     }
     PictureFigures figures;
     for (const double height_m : {1.08, 1.1, 1.19, 1.2, 1.3, 10.0}) { // the lens is inside the prop, or below
                                                                       // it
-        exact::Stage stage = usual_stage();
-        stage.eye_m = {0.0, -0.55, height_m + 0.5};
-        stage.table_from_prop.translation = {0.0, 0.0, height_m};
-        const SeenArtifact artifact = seen_artifact(stage);
-        figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
+        exact::SetUp set_up = usual_set_up();
+        set_up.eye_m = {0.0, -0.55, height_m + 0.5};
+        set_up.table_from_prop.translation = {0.0, 0.0, height_m};
+        const SeenArtifact artifact = seen_artifact(set_up);
+        figures.include(figures_of(set_up, artifact, plan_of(set_up, artifact)));
     }
     append(result, rows_at(min_sine_upright, figures, "about the lens: ", 0.0));
     return result;
@@ -94,10 +94,10 @@ StabilityResult tilted(const StabilityOptions&) {
     for (int degrees = 0; degrees <= 180; degrees += 5) {
         for (const glm::dvec3& axis :
              {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0.64, 0.48)}) {
-            exact::Stage stage = usual_stage();
-            stage.table_from_prop = {glm::angleAxis(degrees * std::numbers::pi / 180.0, axis),
-                                     {0.0, 0.0, 0.2}};
-            figures.include(figures_of(stage));
+            exact::SetUp set_up = usual_set_up();
+            set_up.table_from_prop = {glm::angleAxis(degrees * std::numbers::pi / 180.0, axis),
+                                      {0.0, 0.0, 0.2}};
+            figures.include(figures_of(set_up));
         }
     }
     return {rows_at(min_sine_tilted, figures, "", 10000.0)};

@@ -42,10 +42,10 @@ void add_soundness(const Result<pack::Pack>& pack, StabilityResult& result) {
             not_finite += std::isfinite(figure) ? 0.0 : 1.0;
         }
         for (const glm::dvec3& eye : {glm::dvec3(0.1, -0.55, 0.5), glm::dvec3(-0.5, 0.3, 0.2)}) {
-            exact::Stage stage = usual_stage();
-            stage.eye_m = eye;
-            const SeenArtifact artifact = seen_level(stage, *pack, level);
-            picture.include(figures_of(stage, artifact, plan_of(stage, artifact)));
+            exact::SetUp set_up = usual_set_up();
+            set_up.eye_m = eye;
+            const SeenArtifact artifact = seen_level(set_up, *pack, level);
+            picture.include(figures_of(set_up, artifact, plan_of(set_up, artifact)));
         }
     }
     result.rows.push_back({"error figures that are not finite", 0.0, not_finite});

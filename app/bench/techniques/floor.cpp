@@ -95,8 +95,8 @@ std::size_t level_of(double pixels) {
 
 class Floor final : public Technique {
 public:
-    Floor(const Stage& stage, gl::GlProgram program, FloorFilter filter)
-        : stage_(stage), program_(std::move(program)), filter_(filter) {
+    Floor(const Kiosk& kiosk, gl::GlProgram program, FloorFilter filter)
+        : kiosk_(kiosk), program_(std::move(program)), filter_(filter) {
         glUseProgram(program_.get());
         glUniform1i(glGetUniformLocation(program_.get(), "colour"), 0);
     }
@@ -105,8 +105,8 @@ public:
         return filter_ == FloorFilter::Trilinear ? "floor (trilinear)" : "floor (one mip level)";
     }
     void draw(const BenchPose& pose) override {
-        const PeerView view = peer_view(stage_, pose);
-        begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
+        const PeerView view = peer_view(kiosk_, pose);
+        begin_codes(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
         glUseProgram(program_.get());
         glActiveTexture(GL_TEXTURE0);
         glBindVertexArray(no_attributes_.get());
@@ -119,7 +119,7 @@ public:
             }
             const std::size_t level = filter_ == FloorFilter::Trilinear
                                           ? 0
-                                          : level_of(area_px(exact, stage_.width(), stage_.height()));
+                                          : level_of(area_px(exact, kiosk_.width(), kiosk_.height()));
             glBindTexture(GL_TEXTURE_2D, textures_[level].get());
             glUniform4fv(corners_, 4, glm::value_ptr(corners[0]));
             glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
@@ -128,12 +128,12 @@ public:
         end_codes();
     }
     [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose&) override {
-        return image::ImageFloat(stage_.width(), stage_.height(),
+        return image::ImageFloat(kiosk_.width(), kiosk_.height(),
                                  glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     }
 
 private:
-    const Stage& stage_;
+    const Kiosk& kiosk_;
     gl::GlProgram program_;
     FloorFilter filter_;
     GLint corners_ = glGetUniformLocation(program_.get(), "corners");
@@ -143,9 +143,9 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter) {
+Result<std::unique_ptr<Technique>> make_floor(const Kiosk& kiosk, FloorFilter filter) {
     TRY(gl::GlProgram program, gl::make_program("", vertex, fragment));
-    return std::make_unique<Floor>(stage, std::move(program), filter);
+    return std::make_unique<Floor>(kiosk, std::move(program), filter);
 }
 
 } // namespace frustumscreen::bench

@@ -6,7 +6,7 @@
 /// the exhibit. Which filter is faster depends on the machine: both are timed, and the faster is the unit.
 /// Always a full redraw; the caller calls glFinish.
 ///
-/// Threads  the one whose context is current; the stage must outlive the technique.
+/// Threads  the one whose context is current; the kiosk must outlive the technique.
 /// Errors   at creation only: the driver refuses a shader or has no memory.
 #pragma once
 
@@ -22,6 +22,6 @@ enum class FloorFilter {
 };
 
 /// Its hit points are all NaN because it shows no artifact.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter);
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Kiosk& kiosk, FloorFilter filter);
 
 } // namespace frustumscreen::bench

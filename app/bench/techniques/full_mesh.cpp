@@ -17,20 +17,20 @@ void main() { result = vec4(0.0); })";
 
 class FullMesh final : public SampledPeer {
 public:
-    FullMesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
+    FullMesh(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
              std::shared_ptr<const PeerSamples> samples, gl::GlProgram mark, OffscreenTarget points)
-        : SampledPeer(stage, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
+        : SampledPeer(kiosk, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
           mark_(std::move(mark)) {}
 
 private:
     Shown prepare(const BenchPose& pose, Output /*output*/) override {
-        view_ = peer_view(stage_, pose);
+        view_ = peer_view(kiosk_, pose);
         visible_.find(mesh_->triangles(), mesh_->box(), view_);
         return {visible_.lit(), pixel_density(visible_.faces(), mesh_->box(), view_)};
     }
 
     void paint(const render::Raster& raster, Output output) override {
-        const glm::ivec2 picture(stage_.width(), stage_.height());
+        const glm::ivec2 picture(kiosk_.width(), kiosk_.height());
         render::set_viewport(picture, raster);
         glEnable(GL_STENCIL_TEST);
         glEnable(GL_SCISSOR_TEST);
@@ -81,12 +81,12 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
+Result<std::unique_ptr<Technique>> make_full_mesh(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh,
                                                   std::shared_ptr<const PeerSamples> samples,
                                                   const std::string& name) {
     TRY(gl::GlProgram mark, gl::make_program("", mark_vertex, mark_fragment));
-    TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
-    return std::make_unique<FullMesh>(stage, std::move(mesh), name, std::move(samples), std::move(mark),
+    TRY(OffscreenTarget points, make_target(kiosk.width(), kiosk.height(), GL_RGBA32F));
+    return std::make_unique<FullMesh>(kiosk, std::move(mesh), name, std::move(samples), std::move(mark),
                                       std::move(points));
 }
 

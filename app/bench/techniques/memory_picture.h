@@ -1,4 +1,4 @@
-/// A picture computed on the processor, and its transfer into the stage's framebuffer.
+/// A picture computed on the processor, and its transfer into the kiosk's framebuffer.
 ///
 /// Units    sRGB codes; pixels.
 /// Threads  the one whose context is current; several threads may write `codes` between two calls of `show`.
@@ -14,12 +14,12 @@ namespace frustumscreen::bench {
 class MemoryPicture {
 public:
     /// Errors: the driver has no memory.
-    [[nodiscard]] static Result<MemoryPicture> create(const Stage& stage);
+    [[nodiscard]] static Result<MemoryPicture> create(const Kiosk& kiosk);
 
     image::Image8 codes; ///< black between pictures
 
-    /// Clears the stage's framebuffer, copies the lit part into it, and clears that part to black here.
-    void show(const Stage& stage, const PixelRectangle& lit);
+    /// Clears the kiosk's framebuffer, copies the lit part into it, and clears that part to black here.
+    void show(const Kiosk& kiosk, const PixelRectangle& lit);
 
 private:
     MemoryPicture(OffscreenTarget target, int width, int height)

@@ -32,11 +32,11 @@ struct Lights {
 
 /// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
 /// quality level of its scene plan.)
-Lights lights_of(const Stage& stage, const PictureOptions& options, const pack::Pack& pack) {
+Lights lights_of(const Kiosk& kiosk, const PictureOptions& options, const pack::Pack& pack) {
     const pack::PackLevel& level = pack.levels[pack.default_level];
-    const Light shown{scene::light_compensation(stage.settings),
+    const Light shown{scene::light_compensation(kiosk.settings),
                       scene::exposure_of(level, pack.box_size, pack.textures[level.texture],
-                                         stage.settings.render.highlight_code),
+                                         kiosk.settings.render.highlight_code),
                       options.feathered};
     return {options.lit ? shown : Light{}, options.lit || options.timed_lit ? shown : Light{}, shown};
 }
@@ -46,14 +46,14 @@ int samples_of(const PictureOptions& options, const pack::Pack& pack) {
 }
 
 /// Needs with light and without: shown pictures are lit regardless of the options.
-scene::RenderNeeds needs_of(const Stage& stage, int samples, scene::ShaderKey shader) {
+scene::RenderNeeds needs_of(const Kiosk& kiosk, int samples, scene::ShaderKey shader) {
     scene::RenderNeeds needs{std::max(samples, render::default_samples),
                              {{scene::ShaderKey::Pass::EdgeFeather}}};
     for (const bool lit : {false, true}) {
         shader.even_light = lit;
         needs.draws.insert(shader);
     }
-    needs.bent_by = scene::if_it_bends(stage.settings.projector.pinhole);
+    needs.bent_by = scene::if_it_bends(kiosk.settings.projector.pinhole);
     return needs;
 }
 
@@ -77,10 +77,10 @@ struct Placed {
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Stage& stage, const Placed& placed, std::optional<scene::SeenLevel> seen,
+    PackLevelTechnique(const Kiosk& kiosk, const Placed& placed, std::optional<scene::SeenLevel> seen,
                        const Lights& lights, std::string name, Parts parts)
-        : stage_(stage), placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
-          parts_(std::move(parts)), plan_(scene::make_plan(stage.prop, placed.coloured)) {}
+        : kiosk_(kiosk), placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
+          parts_(std::move(parts)), plan_(scene::make_plan(kiosk.prop, placed.coloured)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.measured); }
@@ -95,7 +95,7 @@ public:
             return std::nullopt;
         }
         plan(placed_.coloured, pose, lights_.measured);
-        return scene::estimate_error(*seen_, stage_.prop, placed_.coloured, view_of(pose, lights_.measured),
+        return scene::estimate_error(*seen_, kiosk_.prop, placed_.coloured, view_of(pose, lights_.measured),
                                      plan_);
     }
 
@@ -106,9 +106,9 @@ public:
         return plan_.relief_draw_count > 0 ? plan_.relief_draws.front().samples : plan_.samples;
     }
     [[nodiscard]] LightAim light(const BenchPose& pose) const override {
-        const TruthView view = frustumscreen::bench::view_of(stage_.settings, pose);
+        const TruthView view = frustumscreen::bench::view_of(kiosk_.settings, pose);
         std::vector<scene::SeenFace> faces;
-        for (const geometry::PropFace& face : stage_.prop.faces) {
+        for (const geometry::PropFace& face : kiosk_.prop.faces) {
             faces.push_back({&face, view.eye_m});
         }
         const glm::dvec3& projector = view.prop_from_projector.translation;
@@ -118,7 +118,7 @@ public:
                        .exposure = lights_.shown.exposure,
                        .most = {},
                        .soft_edges = lights_.shown.feathered};
-        for (const geometry::PropFace& face : stage_.prop.faces) {
+        for (const geometry::PropFace& face : kiosk_.prop.faces) {
             const bool lit = face.plane.distance(projector) > 0.0;
             light.most.push_back(
                 lit ? static_cast<double>(scene::face_light(face, projector_from_prop, light.reference).most)
@@ -129,7 +129,7 @@ public:
 
 private:
     [[nodiscard]] scene::PlanView view_of(const BenchPose& pose, const Light& light) const {
-        const settings::ProjectorSettings& projector = stage_.settings.projector;
+        const settings::ProjectorSettings& projector = kiosk_.settings.projector;
         return {.projector = projector.pinhole,
                 .table_from_projector = projector.table_from_projector,
                 .table_from_prop = pose.table_from_prop,
@@ -138,17 +138,17 @@ private:
                 .brightness = light.exposure};
     }
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
-        scene::plan_frame(stage_.prop, placed, view_of(pose, light), plan_);
+        scene::plan_frame(kiosk_.prop, placed, view_of(pose, light), plan_);
         if (!light.feathered) {
             plan_.feathers.clear();
         }
     }
     void draw(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         plan(placed, pose, light);
-        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, render::Redraw::Everything);
+        parts_.renderer.draw(plan_, {kiosk_.framebuffer, 0}, render::Redraw::Everything);
     }
 
-    const Stage& stage_;
+    const Kiosk& kiosk_;
     Placed placed_;
     std::optional<scene::SeenLevel> seen_;
     Lights lights_;
@@ -159,7 +159,7 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pack::Pack& pack,
+Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,
                                                    std::uint32_t level, const PictureOptions& options,
                                                    std::string name) {
     TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(pack::outline_of(pack)));
@@ -167,8 +167,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pac
     scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
     TRY(render::Renderer renderer,
-        render::Renderer::create(stage.width(), stage.height(),
-                                 needs_of(stage, samples_of(options, pack), shader)));
+        render::Renderer::create(kiosk.width(), kiosk.height(),
+                                 needs_of(kiosk, samples_of(options, pack), shader)));
     const image::Image8& texture = pack.textures[whole.mesh.texture];
     std::array<Result<scene::Drawable>, 2> drawables{
         renderer.store().upload(whole, texture),
@@ -178,16 +178,16 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pac
     }
     TRY(render::HitPointRenderer hit_points, render::HitPointRenderer::create(renderer));
     Placed both;
-    both.coloured = scene::placed(pack, level, pack::place(pack, stage.prop).metres_per_box, *drawables[0]);
+    both.coloured = scene::placed(pack, level, pack::place(pack, kiosk.prop).metres_per_box, *drawables[0]);
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(stage, both, seen.levels[level],
-                                                lights_of(stage, options, pack), std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, both, seen.levels[level],
+                                                lights_of(kiosk, options, pack), std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
-Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const pack::Pack& pack,
+Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pack::Pack& pack,
                                                     std::shared_ptr<const relief::BlockRelief> relief,
                                                     std::optional<scene::SeenLevel> seen,
                                                     const PictureOptions& options, std::string name,
@@ -196,12 +196,12 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const pa
     if (on_gpu) {
         scene::ShaderKey shader;
         shader.blocks = true;
-        needs = needs_of(stage, samples_of(options, pack), shader);
+        needs = needs_of(kiosk, samples_of(options, pack), shader);
     } else {
         needs.draws = {scene::raster_shader(false)};
         needs.relief_draws = 1;
     }
-    TRY(render::Renderer renderer, render::Renderer::create(stage.width(), stage.height(), needs));
+    TRY(render::Renderer renderer, render::Renderer::create(kiosk.width(), kiosk.height(), needs));
     TRY(render::HitPointRenderer hit_points, render::HitPointRenderer::create(renderer));
     auto white = std::make_shared<relief::BlockRelief>(*relief);
     std::fill(white->colours.begin(), white->colours.end(), glm::u8vec4(255));
@@ -211,11 +211,11 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const pa
           std::pair(&both.white, std::shared_ptr<const relief::BlockRelief>(std::move(white)))}) {
         TRY(const scene::Drawable drawable,
             on_gpu ? renderer.store().upload(shows) : renderer.store().keep(shows));
-        *placed_as = scene::placed(pack, shows, pack::place(pack, stage.prop).metres_per_box, drawable);
+        *placed_as = scene::placed(pack, shows, pack::place(pack, kiosk.prop).metres_per_box, drawable);
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(stage, both, std::move(seen), lights_of(stage, options, pack),
+    return std::make_unique<PackLevelTechnique>(kiosk, both, std::move(seen), lights_of(kiosk, options, pack),
                                                 std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }

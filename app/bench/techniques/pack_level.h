@@ -1,7 +1,7 @@
 /// A level or a relief of a pack, drawn by the exhibit's own plan and renderer, as a technique of the bench.
 ///
 /// Cost     the plan is made again for every picture: it is part of the frame.
-/// Threads  the one whose context is current; the pack and stage must outlive the technique.
+/// Threads  the one whose context is current; the pack and kiosk must outlive the technique.
 #pragma once
 
 #include "app/bench/techniques/technique.h"
@@ -21,7 +21,7 @@ struct PictureOptions {
     bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, for comparison
 };
 
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const pack::Pack& pack,
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,
                                                                  std::uint32_t level,
                                                                  const PictureOptions& options,
                                                                  std::string name);
@@ -29,7 +29,7 @@ struct PictureOptions {
 /// A relief in the pack's box, rasterized as in the exhibit, or drawn by the GPU if `on_gpu`. `seen`: the
 /// pack's own errors of it, if it has any.
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_pack_relief(const Stage& stage, const pack::Pack& pack,
+make_pack_relief(const Kiosk& kiosk, const pack::Pack& pack,
                  std::shared_ptr<const relief::BlockRelief> relief, std::optional<scene::SeenLevel> seen,
                  const PictureOptions& options, std::string name, bool on_gpu = false);
 

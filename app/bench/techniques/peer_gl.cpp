@@ -113,15 +113,15 @@ Result<image::ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
     return points;
 }
 
-PeerView peer_view(const Stage& stage, const BenchPose& pose) {
-    const TruthView view = view_of(stage.settings, pose);
+PeerView peer_view(const Kiosk& kiosk, const BenchPose& pose) {
+    const TruthView view = view_of(kiosk.settings, pose);
     PeerView result{.projector = view.projector,
                     .clip_from_prop =
                         view.projector.clip_from_point() * view.prop_from_projector.inverse().matrix(),
                     .eye_m = view.eye_m,
                     .projector_m = view.prop_from_projector.translation,
                     .faces = {}};
-    for (const geometry::PropFace& face : stage.prop.faces) {
+    for (const geometry::PropFace& face : kiosk.prop.faces) {
         if (face.plane.distance(view.eye_m) > 0.0 &&
             face.plane.distance(view.prop_from_projector.translation) > 0.0) {
             result.faces.push_back(&face);

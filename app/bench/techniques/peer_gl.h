@@ -48,16 +48,16 @@ using OutputPrograms = std::array<gl::GlProgram, 2>;
 class PeerTechnique : public Technique {
 public:
     [[nodiscard]] std::string name() const override { return name_; }
-    void draw(const BenchPose& pose) override { draw_into(stage_.framebuffer, pose, Output::Colour); }
+    void draw(const BenchPose& pose) override { draw_into(kiosk_.framebuffer, pose, Output::Colour); }
     [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override;
 
 protected:
-    /// `points`: a float target of the stage's size.
-    PeerTechnique(const Stage& stage, std::string name, OffscreenTarget points)
-        : stage_(stage), name_(std::move(name)), points_(std::move(points)) {}
+    /// `points`: a float target of the kiosk's size.
+    PeerTechnique(const Kiosk& kiosk, std::string name, OffscreenTarget points)
+        : kiosk_(kiosk), name_(std::move(name)), points_(std::move(points)) {}
     virtual void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) = 0;
 
-    const Stage& stage_;
+    const Kiosk& kiosk_;
 
 private:
     std::string name_;
@@ -72,7 +72,7 @@ struct PeerView {
     glm::dvec3 projector_m{0.0};                  ///< prop frame
     std::vector<const geometry::PropFace*> faces; ///< turned to the eye and lit
 };
-[[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
+[[nodiscard]] PeerView peer_view(const Kiosk& kiosk, const BenchPose& pose);
 
 /// A face through which the eye sees part of a mesh.
 struct PeerFace {

@@ -6,7 +6,7 @@
 ///             faces.
 ///
 /// Samples  of the projector's picture; null: one per pixel.
-/// Threads  the one whose context is current; the stage must outlive the technique.
+/// Threads  the one whose context is current; the kiosk must outlive the technique.
 #pragma once
 
 #include "app/bench/techniques/peer_mesh.h"
@@ -18,11 +18,11 @@
 namespace frustumscreen::bench {
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
+make_full_mesh(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh,
                std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& name = "full mesh");
 /// `eye_pixels`: side of the eye's picture. `of_mesh` follows this number in the name.
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, int eye_pixels,
+make_two_pass(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh, int eye_pixels,
               std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& of_mesh = "");
 
 } // namespace frustumscreen::bench

@@ -72,8 +72,8 @@ Span span_of(const geometry::FaceRays& rays, const PixelRectangle& bounds, std::
 
 class RayCast final : public Technique {
 public:
-    RayCast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, int samples, MemoryPicture picture)
-        : stage_(stage), mesh_(std::move(mesh)), samples_(samples), picture_(std::move(picture)) {}
+    RayCast(const Kiosk& kiosk, std::shared_ptr<const TracedMesh> mesh, int samples, MemoryPicture picture)
+        : kiosk_(kiosk), mesh_(std::move(mesh)), samples_(samples), picture_(std::move(picture)) {}
 
     [[nodiscard]] std::string name() const override {
         return samples_ > 1 ? fmt::format("ray cast ({} samples)", samples_) : "ray cast";
@@ -88,11 +88,11 @@ public:
                 write_codes(spans_[k], light);
             }
         });
-        picture_.show(stage_, lit_);
+        picture_.show(kiosk_, lit_);
     }
     [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override {
         set_up(pose);
-        image::ImageFloat points(stage_.width(), stage_.height(),
+        image::ImageFloat points(kiosk_.width(), kiosk_.height(),
                                  glm::vec3(std::numeric_limits<float>::quiet_NaN()));
         parallel_for(spans_.size(), 8, [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
@@ -108,8 +108,8 @@ public:
 
 private:
     void set_up(const BenchPose& pose) {
-        view_ = view_of(stage_.settings, pose);
-        const PeerView view = peer_view(stage_, pose);
+        view_ = view_of(kiosk_.settings, pose);
+        const PeerView view = peer_view(kiosk_, pose);
         rays_.clear();
         spans_.clear();
         lit_ = {};
@@ -196,7 +196,7 @@ private:
         }
     }
 
-    const Stage& stage_;
+    const Kiosk& kiosk_;
     std::shared_ptr<const TracedMesh> mesh_;
     int samples_;
     glm::ivec2 grid_{1, 1}; ///< samples along the sides of this picture's pixels
@@ -210,10 +210,10 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh,
+Result<std::unique_ptr<Technique>> make_ray_cast(const Kiosk& kiosk, std::shared_ptr<const TracedMesh> mesh,
                                                  int samples) {
-    TRY(MemoryPicture picture, MemoryPicture::create(stage));
-    return std::make_unique<RayCast>(stage, std::move(mesh), samples, std::move(picture));
+    TRY(MemoryPicture picture, MemoryPicture::create(kiosk));
+    return std::make_unique<RayCast>(kiosk, std::move(mesh), samples, std::move(picture));
 }
 
 } // namespace frustumscreen::bench

@@ -15,8 +15,8 @@
 
 namespace frustumscreen::bench {
 
-/// The stage must outlive the technique.
+/// The kiosk must outlive the technique.
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh, int samples = 1);
+make_ray_cast(const Kiosk& kiosk, std::shared_ptr<const TracedMesh> mesh, int samples = 1);
 
 } // namespace frustumscreen::bench

@@ -7,8 +7,8 @@
 
 namespace frustumscreen::bench {
 
-Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stage, int samples) {
-    const PixelSize picture{stage.width(), stage.height()};
+Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Kiosk& kiosk, int samples) {
+    const PixelSize picture{kiosk.width(), kiosk.height()};
     TRY(render::SampleGrid grid, render::SampleGrid::create(picture, picture, samples));
     render::ShaderCache shaders;
     TRY_VOID(shaders.prepare({{scene::ShaderKey::Pass::TileClear},
@@ -32,27 +32,27 @@ void PeerSamples::average(const scene::LitTiles& tiles, const render::Raster& ra
     grid_.average(tiles, raster, shaders_);
 }
 
-SampledPeer::SampledPeer(const Stage& stage, const std::string& name,
+SampledPeer::SampledPeer(const Kiosk& kiosk, const std::string& name,
                          std::shared_ptr<const PeerSamples> samples, OffscreenTarget points)
-    : PeerTechnique(stage, samples ? fmt::format("{} ({} samples)", name, samples->count()) : name,
+    : PeerTechnique(kiosk, samples ? fmt::format("{} ({} samples)", name, samples->count()) : name,
                     std::move(points)),
       samples_(std::move(samples)) {}
 
 void SampledPeer::draw(const BenchPose& pose) {
     if (!samples_) {
-        draw_into(stage_.framebuffer, pose, Output::Colour);
+        draw_into(kiosk_.framebuffer, pose, Output::Colour);
         return;
     }
     const auto [lit, density] = prepare(pose, Output::Colour);
     const render::Raster raster = samples_->begin(lit, density);
     paint(raster, Output::Colour);
-    begin_codes(stage_.framebuffer, stage_.width(), stage_.height());
+    begin_codes(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
     samples_->average(lit, raster);
 }
 
 void SampledPeer::draw_into(GLuint framebuffer, const BenchPose& pose, Output output) {
     const scene::LitTiles& lit = prepare(pose, output).lit;
-    begin_codes(framebuffer, stage_.width(), stage_.height(), output == Output::Point ? 0.0F : 1.0F);
+    begin_codes(framebuffer, kiosk_.width(), kiosk_.height(), output == Output::Point ? 0.0F : 1.0F);
     clear_depth_stencil(lit.bounds());
     paint({}, output);
     end_codes();

@@ -3,7 +3,7 @@
 /// light by the exhibit's own sample grid. The number rises where the exhibit's does: in grazing views.
 ///
 /// Places   one sample at the pixel's centre, as for every technique.
-/// Threads  the one whose context is current; the stage must outlive the technique.
+/// Threads  the one whose context is current; the kiosk must outlive the technique.
 /// Errors   a number of samples without a grid; a picture that the driver cannot hold.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace frustumscreen::bench {
 class PeerSamples {
 public:
     /// `samples`: 2, 4, 8 or 16 per pixel.
-    [[nodiscard]] static Result<std::shared_ptr<const PeerSamples>> create(const Stage& stage, int samples);
+    [[nodiscard]] static Result<std::shared_ptr<const PeerSamples>> create(const Kiosk& kiosk, int samples);
 
     [[nodiscard]] int count() const { return count_; }
     /// Binds the larger picture for codes, with cleared tiles. As in the exhibit, a picture of low `density`
@@ -43,8 +43,8 @@ public:
     void draw(const BenchPose& pose) final;
 
 protected:
-    /// `samples`: null for one per pixel. `points`: a float target of the stage's size.
-    SampledPeer(const Stage& stage, const std::string& name, std::shared_ptr<const PeerSamples> samples,
+    /// `samples`: null for one per pixel. `points`: a float target of the kiosk's size.
+    SampledPeer(const Kiosk& kiosk, const std::string& name, std::shared_ptr<const PeerSamples> samples,
                 OffscreenTarget points);
     struct Shown {
         const scene::LitTiles& lit; ///< every pixel that may be lit

@@ -15,7 +15,7 @@
 namespace frustumscreen::bench {
 
 /// The target of every technique: one kiosk's settings, its prop and a framebuffer of the projector's size.
-struct Stage {
+struct Kiosk {
     settings::Settings settings;
     geometry::PropShape prop;
     unsigned framebuffer = 0;

@@ -132,10 +132,10 @@ glm::dmat4 eye_clip(const PeerView& view, const geometry::Box& box) {
 
 class TwoPass final : public SampledPeer {
 public:
-    TwoPass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
+    TwoPass(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh, const std::string& name,
             std::shared_ptr<const PeerSamples> samples, OutputPrograms project,
             std::array<OffscreenTarget, 2> eye, OffscreenTarget points)
-        : SampledPeer(stage, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
+        : SampledPeer(kiosk, name, std::move(samples), std::move(points)), mesh_(std::move(mesh)),
           project_(std::move(project)), eye_(std::move(eye)) {
         for (std::size_t k = 0; k < places_.size(); ++k) {
             const GLuint program = project_[k].get();
@@ -151,14 +151,14 @@ public:
 
 private:
     Shown prepare(const BenchPose& pose, Output output) override {
-        view_ = peer_view(stage_, pose);
+        view_ = peer_view(kiosk_, pose);
         eye_clip_ = eye_clip(view_, mesh_->box());
         from_eye(eye_[0], Output::Colour);
         if (output == Output::Point) {
             from_eye(eye_[1], Output::Point);
         }
         faces_ = faces_before(mesh_->box(), view_);
-        lit_.begin(stage_.width(), stage_.height());
+        lit_.begin(kiosk_.width(), kiosk_.height());
         for (const PeerFace& face : faces_) {
             lit_.light(face.bounds);
         }
@@ -191,7 +191,7 @@ private:
         }
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, eye_[0].colour.get());
-        render::set_viewport({stage_.width(), stage_.height()}, raster);
+        render::set_viewport({kiosk_.width(), kiosk_.height()}, raster);
         glEnable(GL_SCISSOR_TEST);
         quads_.set(faces_);
         for (std::size_t face = 0; face < faces_.size(); ++face) {
@@ -219,13 +219,13 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
+Result<std::unique_ptr<Technique>> make_two_pass(const Kiosk& kiosk, std::shared_ptr<const PeerMesh> mesh,
                                                  int eye_pixels, std::shared_ptr<const PeerSamples> samples,
                                                  const std::string& of_mesh) {
     TRY(OutputPrograms project, make_programs("", project_vertex, project_fragment));
     Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_RGBA8);
     Result<OffscreenTarget> eye_points = make_target(eye_pixels, eye_pixels, GL_RGBA32F);
-    Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
+    Result<OffscreenTarget> points = make_target(kiosk.width(), kiosk.height(), GL_RGBA32F);
     for (const Result<OffscreenTarget>* target : {&colours, &eye_points, &points}) {
         if (!*target) {
             return tl::unexpected<Error>(target->error());
@@ -235,7 +235,7 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return std::make_unique<TwoPass>(
-        stage, std::move(mesh),
+        kiosk, std::move(mesh),
         fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh), std::move(samples),
         std::move(project), std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
 }

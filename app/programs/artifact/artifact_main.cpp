@@ -80,19 +80,17 @@ int run(int argc, char** argv) {
     CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
                     "frustumscreen-artifact"};
     app.set_version_flag("--version", name_and_version("frustumscreen-artifact"));
-    const CommandOption name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
-    app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %").capture_default_str();
+    const CommandOption name_option = app.add_option("name", name, "name of the artifact; --list prints all");
+    app.add_option("--triangles", triangles, "number of triangles, within 5 %").capture_default_str();
     const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");
     const CommandOption folder_option =
-        app.add_option(
-               "--folder", folder,
-               "Folder to write, in place of a single file: the mesh, and an artifact.toml with texts and "
-               "hotspots for frustumscreen-bake")
+        app.add_option("--folder", folder,
+                       "folder to write instead: the mesh and an artifact.toml with texts and hotspots for "
+                       "frustumscreen-bake")
             .excludes(output_option);
     const CommandOption list_option =
-        app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
-    app.add_option("--language", language, "Language of --list: en, de, fr, es, el; English for others")
-        .capture_default_str();
+        app.add_flag("--list", list, "print name, title and text of each artifact, separated by tabs");
+    app.add_option("--language", language, "language of --list: en, de, fr, es or el").capture_default_str();
     list_option.excludes(name_option).excludes(output_option).excludes(folder_option);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (!list && (name.empty() || (output.empty() && folder.empty()))) {

@@ -84,21 +84,20 @@ int bake_and_report(const BakeArguments& arguments) {
 void add_options(CommandLine& app, BakeArguments& arguments) {
     app.add_option("INPUT", arguments.input, "artifact file, or a folder with an artifact.toml");
     const CommandOption output = app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)");
-    app.add_option(
-           "--new", arguments.new_folder,
-           "starts a folder from the artifact file INPUT: copies it there and writes an artifact.toml to "
-           "edit; bakes nothing")
+    app.add_option("--new", arguments.new_folder,
+                   "start a folder: copy the artifact file INPUT into it and write an artifact.toml to edit; "
+                   "nothing is baked")
         .type_name("FOLDER")
         .excludes(output);
     app.add_option("--preview", arguments.preview,
-                   "page to write beside the pack (*.html): how it looks, says, errs");
-    app.add_flag("--json", arguments.json, "the report for programs");
+                   "preview page to write (*.html): pictures, texts and errors of the pack");
+    app.add_flag("--json", arguments.json, "print the report as JSON");
     app.add_flag("--while-watched", arguments.watched).hidden(); // given by --watch
     app.add_option("--texture", arguments.texture,
-                   "picture of the colours, where the file names one that is missing, or none");
+                   "picture of the colours, if the file names none or a missing one");
     app.add_option("--title", arguments.title,
                    "title in every language (default: the folder's, else the file's name)");
-    app.add_option("--caption", arguments.captions, "LANGUAGE=TEXT; once for each language");
+    app.add_option("--caption", arguments.captions, "short text, as LANGUAGE=TEXT; repeat for each language");
     add_bake_options(app, arguments);
 }
 
@@ -120,16 +119,13 @@ int run(int argc, char** argv) {
     }
     BakeArguments arguments;
     CommandLine app(
-        "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
-        "what a folder's artifact.toml says.",
+        "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack. Options override the folder's artifact.toml.",
         "frustumscreen-bake");
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
-    app.footer(
-        "frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
-        "changes; --batch DIR bakes a collection; --check FILE... says in seconds what scans have and what "
-        "would be lost; --words bakes the exhibit's own words; --prop-file FILE makes the file of a prop's "
-        "shape. "
-        "Add --help to each of them to read more.");
+    app.footer("Other modes: --watch FOLDER renews a folder's preview page at each change; --batch DIR bakes "
+               "a collection; --check FILE... lists in seconds what scans contain and what a bake would "
+               "lose; --words bakes the exhibit's own words; --prop-file FILE makes the file of a "
+               "prop's shape. Add --help to each for its options.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {

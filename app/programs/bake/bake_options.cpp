@@ -7,45 +7,41 @@
 namespace frustumscreen::programs {
 
 void add_bake_options(CommandLine& app, BakeArguments& arguments) {
-    app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");
-    app.add_option("--size", arguments.size,
-                   "texels along the longest edge of a face, 16 to 4096 (default: 512)")
+    app.add_flag("--force", arguments.force, "replace an output file that is not a pack");
+    app.add_option("--size", arguments.size, "texels along the longest edge of a face (default: 512)")
         .within(16, 4096);
     app.add_flag("--unlit", arguments.unlit,
-                 "base colour alone, no museum light: for colours that already contain light");
+                 "use the base colour without museum light, for colours that already contain light");
     app.add_flag("--no-relief", arguments.no_relief,
-                 "no layered relief: a smaller pack, of which the exhibit draws meshes alone");
-    app.add_option("--prop", arguments.prop,
-                   "prop whose directions the relief is made for (default: frustum)")
+                 "leave out the layered relief: the pack is smaller and has meshes only");
+    app.add_option("--prop", arguments.prop, "prop that the relief is baked for (default: frustum)")
         .one_of({"frustum", "cube"});
-    app.add_option("--up", arguments.up, "the file's up axis (default: glTF, OBJ, PLY y; STL z)")
+    app.add_option("--up", arguments.up, "the file's up axis (default: y; STL: z)")
         .one_of({"x", "y", "z", "-x", "-y", "-z"});
-    app.add_option(
-           "--turn", arguments.turn_deg,
-           "degrees about the vertical axis, counter-clockwise seen from above; 0 = as the file has it "
-           "(default: the largest size and the best side)")
+    app.add_option("--turn", arguments.turn_deg,
+                   "turn about the vertical axis, degrees, counter-clockwise seen from above; 0 = as in the "
+                   "file (default: largest size, best side in front)")
         .within(-360.0, 360.0);
-    app.add_option(
-           "--scale", arguments.scale,
-           "factor on the largest size that fits into the prop; above 1 the prop cuts it off (default: 1)")
+    app.add_option("--scale", arguments.scale,
+                   "factor on the largest size that fits into the prop; above 1 the prop cuts the artifact "
+                   "off (default: 1)")
         .within(0.05, 20.0);
     app.add_option(
            "--lift", arguments.lift,
-           "raises the artifact above the prop's bottom, in heights of the artifact, 0 to 1 (default: 0)")
+           "height of the artifact above the prop's bottom, as a multiple of its own height (default: 0)")
         .within(0.0, 1.0);
     app.add_flag("--clean", arguments.clean,
-                 "leave out few triangles that lie far from the rest and make the artifact small");
-    app.add_flag("--strict", arguments.strict,
-                 "refuse a file of which something would be lost; nothing is written");
-    app.add_option(
-        "--speech", arguments.speech,
-        "program that speaks descriptions without a recording: it takes text on standard input and "
-        "writes WAV; {language} in it is replaced; none: no voice (default: espeak-ng)");
-    app.add_option("--language", arguments.languages, "language of a caption, BCP 47; once for each");
+                 "remove the few triangles that lie far from the rest and make the artifact small");
+    app.add_flag("--strict", arguments.strict, "write nothing if any part of the file would be lost");
+    app.add_option("--speech", arguments.speech,
+                   "program that speaks descriptions without a recording: reads text from standard input, "
+                   "writes WAV; {language} stands for the language; none: no voice (default: espeak-ng)");
+    app.add_option("--language", arguments.languages,
+                   "language to bake, BCP 47; repeat for each (default: the folder's, else en)");
     app.add_option("--licence", arguments.licence,
-                   "licence of the scan; visitors read it (default: what the file says of itself)");
+                   "licence of the scan, shown to visitors (default: the file's own)");
     app.add_option("--author", arguments.author,
-                   "who made the scan, as its licence asks for; visitors read it (default: as above)");
+                   "author of the scan, shown to visitors (default: the file's own)");
 }
 
 std::vector<std::string> bake_options_of(const BakeArguments& arguments) {

@@ -15,7 +15,7 @@ namespace frustumscreen::programs {
 
 namespace {
 
-constexpr std::uintmax_t room_for_page = 32'000'000;
+constexpr std::uintmax_t space_for_page = 32'000'000;
 constexpr std::string_view page_begin = "<!doctype html>";
 
 bool begins_as_page(const std::filesystem::path& file) {
@@ -42,7 +42,7 @@ Result<void> check_preview(const BakeRequest& request) {
         return bad_input("preview.same_name", "{}: the pack and its preview have the same name; choose two",
                          request.output.string());
     }
-    TRY_VOID(check_output_place(request.preview, room_for_page));
+    TRY_VOID(check_output_place(request.preview, space_for_page));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.preview, ignored) &&
         !begins_as_page(request.preview)) {

@@ -127,7 +127,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
 /// Checks, before the work, that the output replaces no scan and no unknown file, and that it can be written.
 Result<void> check_output(const BakeRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, request.inputs));
-    TRY_VOID(check_output_place(request.output, bake::room_for_pack(request.options.size)));
+    TRY_VOID(check_output_place(request.output, bake::space_for_pack(request.options.size)));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.output, ignored) &&
         !pack::begins_as_pack(request.output)) {

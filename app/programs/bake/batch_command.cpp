@@ -32,7 +32,7 @@ constexpr const char* program = "frustumscreen-bake";
 constexpr double bytes_per_mb = 1e6;
 /// With less memory, the libraries of a bake fail before they can report it.
 constexpr double min_memory_mb = 500.0;
-constexpr std::uintmax_t room_for_reports = 1'000'000;
+constexpr std::uintmax_t space_for_reports = 1'000'000;
 constexpr std::size_t max_sentences = 20; ///< about failures on standard error; the report has all
 
 struct Arguments {
@@ -57,7 +57,7 @@ Result<void> check_output_folder(const std::filesystem::path& folder) {
                          "{}: cannot be made: {}; choose another folder for the packs", folder.string(),
                          error.message());
     }
-    return check_output_place(folder / "report.csv", room_for_reports);
+    return check_output_place(folder / "report.csv", space_for_reports);
 }
 
 /// Identifies the build of the program, because another build may bake other packs.
@@ -140,8 +140,8 @@ Result<bool> work(const Arguments& arguments) {
     TRY(const Collection collection, list_collection(arguments.folder, arguments.output));
     if (collection.objects.empty()) {
         return bad_input("batch.nothing_to_bake",
-                         "{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
-                         "--new FOLDER SCAN makes such a folder",
+                         "{}: it contains no scan and no folder with an artifact.toml; frustumscreen-bake "
+                         "--new FOLDER SCAN makes one",
                          arguments.folder.string());
     }
     TRY_VOID(check_output_folder(arguments.output));
@@ -168,26 +168,26 @@ ArgumentCheck is_memory_limit() {
 }
 
 void add_options(CommandLine& app, Arguments& arguments) {
-    app.add_option("--batch", arguments.folder,
-                   "DIR whose subfolders have an artifact.toml each; scans may lie there too")
+    app.add_option("--batch", arguments.folder, "DIR with scans, and subfolders with an artifact.toml each")
         .expected(0, 1);
-    app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report");
-    app.add_option("-j,--jobs", arguments.jobs, "bakes at a time, 1 to 256; each uses all cores")
+    app.add_option("-o,--output", arguments.output, "folder to write packs, stamps and the report to");
+    app.add_option("-j,--jobs", arguments.jobs, "number of bakes at a time; each uses all cores")
         .within(1, 256)
         .capture_default_str();
     app.add_option("--shard", arguments.shard,
-                   "i/n: every n-th object, from the i-th on, for one of n machines");
-    app.add_option("--time-limit", arguments.time_limit_s, "seconds for one bake")
+                   "i/n: bake every n-th object from the i-th on, for one of n machines");
+    app.add_option("--time-limit", arguments.time_limit_s, "longest time for one bake, seconds")
         .within(1.0, 1e6)
         .capture_default_str();
-    app.add_option("--memory-limit", arguments.memory_limit_mb,
-                   fmt::format("megabytes for one bake, {} or more; 0: no limit", min_memory_mb))
+    app.add_option(
+           "--memory-limit", arguments.memory_limit_mb,
+           fmt::format("largest memory of one bake, megabytes, {} or more; 0: no limit", min_memory_mb))
         .check(is_memory_limit())
         .capture_default_str();
-    app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");
+    app.add_flag("--previews", arguments.pages, "write a preview page beside each pack, as --preview does");
     app.add_flag("--report-only", arguments.report_only,
-                 "bakes nothing: reports of what is there, such as of all shards together");
-    app.add_flag("--json", arguments.json, "the counts for programs");
+                 "bake nothing; report on the packs in the output folder, for example after all shards");
+    app.add_flag("--json", arguments.json, "print the counts as JSON");
     add_bake_options(app, arguments.bake);
 }
 
@@ -195,9 +195,8 @@ void add_options(CommandLine& app, Arguments& arguments) {
 
 int batch_command(int argc, char** argv) {
     Arguments arguments;
-    CommandLine app("Bakes every object of a folder into a pack. What is done already and has not changed is "
-                    "left; what fails stops "
-                    "nothing else. A run that was ended goes on where it was.",
+    CommandLine app("Bakes every object of a folder into a pack. Unchanged objects are skipped, a failure "
+                    "does not stop the others, and an interrupted run continues where it ended.",
                     program);
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     add_options(app, arguments);

@@ -130,18 +130,15 @@ int status_of(const std::vector<CheckedScan>& scans) {
 
 int check_command(int argc, char** argv) {
     Arguments arguments;
-    CommandLine app(
-        "Says of scans, in seconds, what they have, what a bake would lose of them, and about how "
-        "large and heavy the pack would be. Several scans, or a folder of them, make a table. The exit "
-        "status is 0 if all can be baked, 1 if one cannot.",
-        program);
+    CommandLine app("Lists in seconds what scans contain, what a bake would lose, and how large the pack "
+                    "would be; several scans make a table. Exit status: 0 all can be baked, 1 one cannot.",
+                    program);
     app.set_version_flag("--version", name_and_version(program));
     app.add_flag("--check", arguments.check, "bakes and writes nothing");
-    app.add_option("FILE", arguments.inputs,
-                   "scans, folders with an artifact.toml, or folders in which such lie");
-    app.add_flag("--json", arguments.json, "for programs");
+    app.add_option("FILE", arguments.inputs, "scans, folders with an artifact.toml, or folders of these");
+    app.add_flag("--json", arguments.json, "print JSON");
     app.add_option("--texture", arguments.bake.texture,
-                   "picture of the colours, where a file names one that is missing, or none");
+                   "picture of the colours, if a file names none or a missing one");
     add_bake_options(app, arguments.bake);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.inputs.empty()) {

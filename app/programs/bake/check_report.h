@@ -1,4 +1,4 @@
-/// What a check found: lines for one scan, a table for several, JSON for programs.
+/// The findings of a check: lines for one scan, a table for several, JSON for programs.
 ///
 /// Threads  pure; any.
 #pragma once

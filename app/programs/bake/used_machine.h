@@ -1,4 +1,4 @@
-/// What this process has used of the machine so far.
+/// The time and memory that this process has used so far.
 ///
 /// Threads  any.
 #pragma once

@@ -201,15 +201,14 @@ Result<void> work(Arguments arguments) {
 
 int watch_command(int argc, char** argv) {
     Arguments arguments;
-    CommandLine app("Bakes a coarse preview of a curator's folder again whenever a file in it changes. A "
-                    "browser that has the page "
-                    "open shows each new one by itself.",
+    CommandLine app("Bakes a coarse preview of a folder at each change of a file in it. A browser that shows "
+                    "the page reloads it.",
                     program);
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");
-    app.add_option("-o,--output", arguments.pack, "coarse pack to keep (default: none is kept)");
+    app.add_option("-o,--output", arguments.pack, "coarse pack to keep (default: none)");
     add_bake_options(app, arguments.bake);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty()) {

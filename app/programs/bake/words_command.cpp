@@ -203,21 +203,20 @@ int words_command(int argc, char** argv) {
     CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
                     program);
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
-    app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
+    app.add_option("--words", arguments.folder,
+                   "folder with LANGUAGE.toml files (default: the built-in words)")
         .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();
-    app.add_option(
-           "--languages", arguments.languages,
-           "the house's language first, such as en,de (default: all built-in ones, and those of the folder)")
+    app.add_option("--languages", arguments.languages,
+                   "languages, the exhibit's first language first, such as en,de (default: all built-in ones "
+                   "and those of the folder)")
         .delimiter(',');
-    app.add_option("--preview", arguments.preview, "also draw all texts into this PNG");
-    app.add_option(
-        "--speech", arguments.speech,
-        "program that takes text on standard input and writes WAV; {language} in it is replaced; none: "
-        "no voice (default: espeak-ng)");
-    app.add_flag("--force", arguments.force, "replace the output also if it is not a file of words");
-    app.add_flag("--strict", arguments.strict,
-                 "refuse words of which something would be lost; nothing is written");
+    app.add_option("--preview", arguments.preview, "PNG to draw all texts into");
+    app.add_option("--speech", arguments.speech,
+                   "program that reads text from standard input and writes WAV; {language} stands for the "
+                   "language; none: no voice (default: espeak-ng)");
+    app.add_flag("--force", arguments.force, "replace an output file that is not a file of words");
+    app.add_flag("--strict", arguments.strict, "write nothing if any words would be lost");
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

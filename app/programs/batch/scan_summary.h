@@ -1,4 +1,4 @@
-/// What a scan has and what a bake makes of it, in columns: `frustumscreen-bake --check` prints them, and the report of a
+/// Properties of a scan and of its bake, in columns: `frustumscreen-bake --check` prints them, and the report of a
 /// batch has the same.
 ///
 /// Threads  pure; any.

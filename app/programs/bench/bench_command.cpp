@@ -30,7 +30,7 @@ void add_place_options(CommandLine& command, BenchPlace& place) {
 }
 
 void add_picture_options(CommandLine& command, bench::PictureOptions& picture) {
-    command.add_option("--samples", picture.samples, "samples a pixel; 0: as many as the pack asks for")
+    command.add_option("--samples", picture.samples, "samples per pixel; 0: as many as the pack asks for")
         .one_of_numbers({0, 1, 2, 4, 8, 16})
         .capture_default_str();
 }
@@ -44,7 +44,7 @@ void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed) {
 
 void add_artifact_options(CommandLine& command, BenchArtifact& artifact) {
     command.add_option("--pack", artifact.pack, "pack to measure").required();
-    command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from").required();
+    command.add_option("--mesh", artifact.mesh, "file that the pack was baked from").required();
 }
 
 namespace {

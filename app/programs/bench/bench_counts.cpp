@@ -82,7 +82,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand counts_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "counts", "triangles, samples and bytes of a frame, and their change against a reference");
+        "counts", "counts triangles, samples and bytes of a frame, and their change against a reference");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     command.add_option("--pack", arguments->packs, "one or several packs").required();

@@ -103,7 +103,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand error_time_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "error-time", "error and run time of every level of a pack and of its peers, against a ray cast");
+        "error-time",
+        "measures error and frame time of every level of a pack and of its peers, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);

@@ -68,15 +68,15 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand estimate_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "estimate", "the exhibit's own estimate of its picture error, level by level, against a ray cast");
+        "estimate",
+        "measures the exhibit's estimate of its picture error, level by level, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     command.add_option("--pack", arguments->packs, "one or several packs").required();
-    command
-        .add_option("--mesh", arguments->meshes, "the file that each pack was baked from, in the same order")
+    command.add_option("--mesh", arguments->meshes, "file that each pack was baked from, in the same order")
         .required();
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
-    command.add_option("--rays", arguments->options.rays, "rays a pixel for the true mean error")
+    command.add_option("--rays", arguments->options.rays, "rays per pixel for the true mean error")
         .one_of_numbers({1, 2, 4, 8, 16})
         .capture_default_str();
     command

@@ -54,8 +54,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand guidance_command(CommandLine& app) {
-    CommandLine command =
-        app.add_subcommand("guidance", "effect of advice, in random situations and for simulated visitors");
+    CommandLine command = app.add_subcommand(
+        "guidance", "measures the effect of advice, in random situations and for simulated visitors");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table and the plot").required();
     command.add_option(

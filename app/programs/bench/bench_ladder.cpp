@@ -38,9 +38,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 } // namespace
 
 BenchCommand ladder_command(CommandLine& app) {
-    CommandLine command = app.add_subcommand(
-        "ladder",
-        "dark time with the recovery ladder and with other policies, over simulated days of a museum");
+    CommandLine command = app.add_subcommand("ladder", "measures dark time with the recovery ladder and with "
+                                                       "other policies, over simulated days of a museum");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
     command.add_option("--days", arguments->days, "number of simulated days")

@@ -69,10 +69,11 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand latency_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "latency", "displacement of the picture on a moving prop, by filter, prediction and latency");
+        "latency",
+        "measures the displacement of the picture on a moving prop, by filter, prediction and latency");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and plots").required();
-    command.add_option("--recordings", arguments->recordings, "folder of recordings to replay, too")
+    command.add_option("--recordings", arguments->recordings, "folder of recordings that are replayed too")
         .capture_default_str();
     command
         .add_option("--display-latency-ms", arguments->options.setting.display_latency_ms,

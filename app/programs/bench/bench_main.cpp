@@ -13,11 +13,8 @@ namespace frustumscreen::programs {
 namespace {
 
 int run(int argc, char** argv) {
-    CommandLine app("Measures FrustumScreen: error and run time of its picture, scaling, the visitor's view, "
-                    "shimmer, numerical "
-                    "stability and latency; the set-up that suits a table; the benefit of the recovery "
-                    "ladder; the accuracy of "
-                    "tags on the prop and of a camera that sees visitors.",
+    CommandLine app("Measures the exhibit: picture, frame times, numerical stability, latency, guidance, "
+                    "recovery, tags and cameras. Also finds the set-up that suits a table.",
                     "frustumscreen-bench");
     app.set_version_flag("--version", name_and_version("frustumscreen-bench"));
     app.require_subcommand();

@@ -31,7 +31,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand projection_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "projection", "error of the visitor's view at the default and the finest level, against a ray cast");
+        "projection",
+        "measures the error of the visitor's view at the default and finest level, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);

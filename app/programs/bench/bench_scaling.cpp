@@ -107,7 +107,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand scaling_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "scaling", "cost against the number of source triangles, for the built-in amphora");
+        "scaling", "measures cost against the number of source triangles, for the built-in amphora");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_picture_options(command, arguments->options.picture);
@@ -116,11 +116,10 @@ BenchCommand scaling_command(CommandLine& app) {
     command.add_flag("--same-surface", arguments->options.same_surface,
                      "use the first amphora only, and subdivide its triangles into four until each number is "
                      "reached: more triangles, the same detail");
-    command.add_flag(
-        "--bakes", arguments->bakes,
-        "bakes alone, each in a program of its own: time, memory and bytes of the pack at each count, "
-        "and at 20 million triangles");
-    command.add_flag("--long", arguments->longer, "as --bakes, and at 50 million triangles");
+    command.add_flag("--bakes", arguments->bakes,
+                     "measure only bakes, each in its own process: time, memory and bytes of the pack at "
+                     "each count, and at 20 million triangles");
+    command.add_flag("--long", arguments->longer, "as --bakes, also at 50 million triangles");
     command
         .add_option("--size", arguments->options.size,
                     "texels along the longest edge of a face, for the bakes")

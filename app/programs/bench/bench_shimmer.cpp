@@ -33,8 +33,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand shimmer_command(CommandLine& app) {
     CommandLine command =
-        app.add_subcommand("shimmer", "flicker while the prop moves in small steps: default and finest level "
-                                      "against a ray cast, edges between faces");
+        app.add_subcommand("shimmer", "measures flicker while the prop moves in small steps: default and "
+                                      "finest level against a ray cast, edges between faces");
     const auto arguments = std::make_shared<Arguments>();
     add_place_options(command, arguments->place);
     add_artifact_options(command, arguments->artifact);

@@ -44,7 +44,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand stability_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "stability", "numerical stability in stiff and extreme cases, each result against its bound");
+        "stability",
+        "measures numerical stability in stiff and extreme cases, each result against its bound");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
     command.add_option("--recordings", arguments->options.recordings, "folder of tracker recordings")

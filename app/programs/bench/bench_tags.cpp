@@ -77,12 +77,12 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 BenchCommand tags_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
-        "tags", "pose of the prop from its tags, in rendered scenes: error, spread and time");
+        "tags", "measures the prop's pose from its tags, in rendered scenes: error, spread and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table").required();
     command
         .add_option("--recordings", arguments->recordings,
-                    "folder of recorded hand motions to slide the prop by, too")
+                    "folder of recorded hand motions that slide the prop too")
         .capture_default_str();
     command.add_option("--pictures", arguments->pictures, "pictures of each scene")
         .within(1, 100000)

@@ -27,7 +27,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     }
     std::vector<simulators::WrongPresence> wrong;
     for (const simulators::VisitorCase& one : empty) {
-        progress.show("nobody there: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
+        progress.show("no visitor: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
         wrong.push_back(simulators::measure_empty(one, arguments.minutes, arguments.seed));
     }
     progress.clear();
@@ -41,7 +41,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 BenchCommand visitor_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
         "visitor",
-        "position of the visitor's eye from a camera, in rendered scenes: presence, error, jitter and time");
+        "measures the visitor's eye from a camera, in rendered scenes: presence, error, jitter and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables").required();
     command.add_option("--visits", arguments->visits, "visits of each scene, of seven seconds each")

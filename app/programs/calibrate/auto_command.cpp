@@ -87,23 +87,22 @@ Result<int> calibrate(const CalibrateRequest& request) {
 
 void add_auto_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CommandLine command = app.add_subcommand(
-        "auto", "by a camera, on the table itself: the prop rests here and there on its printed board, the "
-                "projector shows stripes; Back and "
-                "Next are the first and the second button. Or, with --from, from a file of rests");
+        "auto", "calibrates by a camera: on the table, with the printed sheet of tags (Back and Next are the "
+                "first two buttons); or, with --from, from a file of rests");
     add_common_options(command, request);
     const CommandOption from = command.get_option("--from").required(false);
     add_touch_options(command, request);
-    command.add_option("--rests", request.rests, "on the table: how many; 16 are recommended")
+    command.add_option("--rests", request.rests, "on the table: number of rests (default: 16)")
         .within(6, 40)
         .excludes(from);
     command
         .add_option("--board", request.board_m,
-                    "on the table: how thick the board is, metres; 0.003 if left out")
+                    "on the table: thickness of the board under the sheet of tags, metres (default: 0.003)")
         .within(0.0, 0.05)
         .excludes(from);
-    command.add_option("--out", request.out, "on the table: writes the rests, CSV, for --from")
+    command.add_option("--out", request.out, "on the table: write the rests to this CSV file, for --from")
         .excludes(from);
-    command.add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+    command.add_flag("--headless", request.headless, "on the table: run run without a screen, for tests")
         .excludes(from);
     command.callback([&] {
         if (request.from.empty() && (request.config.empty() || request.json)) {

@@ -30,8 +30,8 @@ constexpr std::array<WordMessage<calibration::AutoPrompt>, 15> auto_messages{{
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
     {calibration::AutoPrompt::FewTags,
      {"calibration.few_tags",
-      "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Nothing may "
-      "lie on them or stand before them; put the board more into the middle."}},
+      "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Clear "
+      "everything off the tags; move the board closer to the middle."}},
     {calibration::AutoPrompt::TurnIt,
      {"calibration.turn_it", "Turn it too: the first three rests must look in different directions."}},
     {calibration::AutoPrompt::NotFlat,
@@ -143,7 +143,7 @@ Message choice_of(const calibration::TouchCalibration& found) {
     case calibration::Verdict::Refused:
         break;
     }
-    return {"calibration.refused", "Next begins anew. Back goes on with four more rests."};
+    return {"calibration.refused", "Next starts again. Back goes on with four more rests."};
 }
 
 TableWords words_of_verdict(const calibration::TouchCalibration& found) {
@@ -222,10 +222,10 @@ image::Image8 table_picture(const calibration::AutoProcedure& procedure, const T
     const bool below = !has_place || place.y < 0.45 * height;
     const TableWords words = table_words(procedure);
     const image::Image<std::uint8_t> coverage =
-        above(house_sentence(with.house, words.key, 0.7 * width),
+        above(sentence_above(with.own_words, words.key, 0.7 * width),
               with.typesetter.set(paragraphs_of(words.lines, unit), 0.7 * width), 2.0 * unit);
-    const double room = height - 5.0 * unit - coverage.height;
-    const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
+    const double lowest = height - 5.0 * unit - coverage.height;
+    const double top = !has_place ? 0.4 * height : below ? std::fmin(lowest, 0.68 * height) : 5.0 * unit;
     const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};
     const glm::dvec2 end = glm::dvec2(corner) + glm::dvec2(coverage.width, coverage.height);
     canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit,

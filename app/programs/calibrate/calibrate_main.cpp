@@ -14,17 +14,13 @@ namespace frustumscreen::programs {
 namespace {
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Projector and tracker of a table, from points that were touched or measured on it: on the "
-        "table itself (table, or auto with a camera), or "
-        "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
-        "the eyes' place in the head's sensor (eye); and what is kept (kept).",
-        "frustumscreen-calibrate");
+    CommandLine app("Calibrates a table: finds the poses of projector and tracker. table, auto and eye work "
+                    "on the table; touch, auto, corners and eye also compute from a file of points.",
+                    "frustumscreen-calibrate");
     app.set_version_flag("--version", name_and_version("frustumscreen-calibrate"));
     app.require_subcommand();
-    app.footer("Status 0: a calibration that is good or usable; 1: points are to be done again, or say "
-               "nothing (with --json the "
-               "verdict is printed all the same); 2: wrong use.");
+    app.footer("Exit status: 0 the calibration is good or usable; 1 points must be repeated or are unusable "
+               "(--json prints the verdict all the same); 2 wrong arguments.");
     CalibrateRequest request;
     std::function<int()> chosen;
     add_touch_command(app, request, chosen);

@@ -11,34 +11,35 @@
 namespace frustumscreen::programs {
 
 void add_common_options(CommandLine& command, CalibrateRequest& request) {
-    command.add_option("--from", request.from, "the points, CSV").required();
+    command.add_option("--from", request.from, "file of points, CSV").required();
     const CommandOption picture =
         command
             .add_option("--picture", request.picture, "width and height of the projector's picture, pixels")
             .expected(2)
             .within(16, 16384);
-    command.add_option("--config", request.config, "or the kiosk's settings, TOML, which have it")
+    command.add_option("--config", request.config, "the kiosk's settings, TOML, with the picture's size")
         .excludes(picture);
-    command.add_flag("--json", request.json, "for programs");
+    command.add_flag("--json", request.json, "print JSON");
 }
 
 void add_map_option(CommandLine& command, CalibrateRequest& request) {
     command
         .add_option("--map", request.map,
-                    "draws how uncertain the picture is, on the table and at the prop's top: PNG")
+                    "write a PNG of the picture's uncertainty on the table and at the prop's top")
         .needs("--from");
 }
 
 void add_keep_option(CommandLine& command, CalibrateRequest& request) {
     command
-        .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
+        .add_flag("--keep", request.keep,
+                  "keep a good or usable calibration in the settings' calibration.folder")
         .needs("--config");
 }
 
 void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_option("--sensor-height", request.sensor_height_m,
-                    "the sensor above the touched place while the prop stands upright, metres")
+                    "height of the sensor above the touched place while the prop stands upright, metres")
         .within(-2.0, 2.0);
     add_keep_option(command, request);
     add_map_option(command, request);

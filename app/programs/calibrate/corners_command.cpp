@@ -90,7 +90,8 @@ Result<int> corners(const CalibrateRequest& request) {
 
 void add_corners_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CommandLine command = app.add_subcommand(
-        "corners", "from the picture's four corners, measured by hand at two distances: the projector");
+        "corners",
+        "computes the projector from the picture's four corners, measured by hand at two distances");
     add_common_options(command, request);
     add_keep_option(command, request);
     add_map_option(command, request);

@@ -127,22 +127,21 @@ Result<int> eye(const CalibrateRequest& request) {
 } // namespace
 
 void add_eye_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CommandLine command = app.add_subcommand(
-        "eye",
-        "the eyes' place in the head's sensor, on the table itself: the projector shows crosses behind the "
-        "prop, a person with the sensor on brings a corner of the prop over each, with one eye; Back and "
-        "Next are the first and the second button. Or, with --from, from a file of such sightings");
-    const CommandOption from = command.add_option("--from", request.from, "the sightings, CSV");
+    CommandLine command =
+        app.add_subcommand("eye", "finds where the eyes are relative to the head's sensor: on the table, "
+                                  "where a person lines up the prop's corners with crosses (Back and Next "
+                                  "are the first two buttons); or, with --from, from a file of sightings");
+    const CommandOption from = command.add_option("--from", request.from, "file of sightings, CSV");
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     command.add_flag("--json", request.json,
-                     "for programs; without --from: prints the crosses for a prop on its square, and ends");
+                     "print JSON; without --from, print the crosses for a prop on its square and end");
     command
         .add_flag("--keep", request.keep,
-                  "keeps what is good or usable, with the calibration that is kept; on the table, Next does")
+                  "add good or usable eyes to the kept calibration; on the table, Next does this")
         .needs(from);
-    command.add_option("--out", request.out, "on the table: writes the sightings, CSV, for --from")
+    command.add_option("--out", request.out, "on the table: write the sightings to this CSV file, for --from")
         .excludes(from);
-    command.add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+    command.add_flag("--headless", request.headless, "on the table: run run without a screen, for tests")
         .excludes(from);
     command.callback([&] { chosen = [&] { return end_with(eye(request)); }; });
 }

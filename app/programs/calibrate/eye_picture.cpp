@@ -18,7 +18,7 @@ constexpr std::array<WordMessage<calibration::EyePrompt>, 9> eye_messages{{
      {"calibration.eyes.block_moves", "The prop is not at rest yet. Take your hands away."}},
     {calibration::EyePrompt::PropMoved,
      {"calibration.eyes.block_moved",
-      "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again."}},
+      "The prop was pushed. Let it lie; its place is measured again, and this sighting is repeated."}},
     {calibration::EyePrompt::PropNotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
     {calibration::EyePrompt::HeadNotSeen,
@@ -30,10 +30,9 @@ constexpr std::array<WordMessage<calibration::EyePrompt>, 9> eye_messages{{
     {calibration::EyePrompt::NoRoom,
      {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
     {calibration::EyePrompt::HeadMoved,
-     {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second begins anew."}},
+     {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second starts again."}},
     {calibration::EyePrompt::SameHead,
-     {"calibration.eyes.same_head",
-      "Your head is held as before. Hold it as it is asked for, then press Next again."}},
+     {"calibration.eyes.same_head", "Your head is held as before. Hold it as shown, then press Next again."}},
     {calibration::EyePrompt::Taken, {"", "Good."}},
 }};
 constexpr std::array<WordMessage<calibration::HeadPosture>, 4> posture_messages{{
@@ -95,7 +94,7 @@ Message choice_of(const calibration::EyeProcedure& procedure) {
     case calibration::Verdict::Refused:
         break;
     }
-    return {"calibration.eyes.refused", "Next begins anew. Back does one sighting again."};
+    return {"calibration.eyes.refused", "Next starts again. Back repeats one sighting."};
 }
 
 TableWords words_of_verdict(const calibration::EyeProcedure& procedure) {
@@ -213,7 +212,7 @@ image::Image<std::uint8_t> words_at(const calibration::EyeProcedure& procedure, 
     const TableWords said = table_words(procedure);
     image::Image<std::uint8_t> words = with.typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
     const auto put_above = [&](std::string_view key) {
-        words = above(house_sentence(with.house, key, 0.95 * width, beside_em), words, 2.0 * unit);
+        words = above(sentence_above(with.own_words, key, 0.95 * width, beside_em), words, 2.0 * unit);
     };
     if (procedure.stage() == Stage::Place) {
         const std::string_view held = message_of(posture_messages, procedure.asked().posture).key;

@@ -145,10 +145,10 @@ Result<void> keep_eye(const settings::Settings& settings, const glm::dvec3& eye_
 
 void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CommandLine command = app.add_subcommand(
-        "kept", "lists the calibrations that this kiosk keeps, the newest first; undoes the newest");
+        "kept", "lists the calibrations that this kiosk keeps, newest first, or undoes the newest");
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    command.add_flag("--undo", request.undo, "the exhibit uses the one before the newest again");
-    command.add_flag("--json", request.json, "for programs");
+    command.add_flag("--undo", request.undo, "return to the calibration before the newest");
+    command.add_flag("--json", request.json, "print JSON");
     command.callback([&] { chosen = [&] { return end_with(show_kept(request)); }; });
 }
 

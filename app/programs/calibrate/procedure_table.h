@@ -107,7 +107,7 @@ private:
                                               .above_m = above_m_,
                                               .board_px = board_px_,
                                               .typesetter = devices_.typesetter(),
-                                              .house = devices_.house()}));
+                                              .own_words = devices_.own_words()}));
         }
         TRY(const MonotonicTime lit, devices_.present(now));
         if (!lit_ || lit_->number != words_.of) {

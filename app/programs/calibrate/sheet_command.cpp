@@ -30,9 +30,9 @@ Result<calibration::Board> board_of(const settings::Settings& settings) {
 
 void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CommandLine command = app.add_subcommand(
-        "sheet", "draws the board of tags that auto needs, for the settings' prop: A3, true size, SVG");
+        "sheet", "draws the sheet of tags that auto needs, for the settings' prop: A3, true size, SVG");
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    command.add_option("-o,--output", request.out, "the sheet, SVG").required();
+    command.add_option("-o,--output", request.out, "SVG file to write").required();
     command.callback([&] { chosen = [&] { return end_with(draw(request)); }; });
 }
 

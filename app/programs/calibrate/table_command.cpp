@@ -257,30 +257,30 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
 } // namespace
 
 void add_table_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CommandLine command =
-        app.add_subcommand("table", "on the table itself, step by step: the projector shows crosses, the "
-                                    "prop is laid on them; Back and Next are the "
-                                    "first and the second button. Where a calibration is kept, its touch-up "
-                                    "is offered first; then, with a camera in the settings, the way of auto");
+    CommandLine command = app.add_subcommand(
+        "table", "calibrates on the table, step by step: the prop is laid on crosses that the projector "
+                 "shows (Back and Next are the first two buttons). It offers the touch-up of a kept "
+                 "calibration first, then auto if the settings have a camera");
     command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    command
-        .add_option("--touches", request.touches,
-                    "how many crosses, 6 to 30; left out: this and the next two are as in the settings")
+    command.add_option("--touches", request.touches, "number of crosses (default: the settings')")
         .within(6, 30);
     command
-        .add_option("--block", request.block_m, "how high a block raises the prop for half of them, metres")
+        .add_option(
+            "--block", request.block_m,
+            "height of the boards under the prop for half of the crosses, metres (default: the settings')")
         .within(0.02, 0.5);
     command
-        .add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
+        .add_option("--sensor-height", request.sensor_height_m,
+                    "height of the sensor above the prop's bottom, metres (default: the settings')")
         .within(-2.0, 2.0);
     command.add_option("--out", request.out,
-                       "writes the touches, or the rests, CSV, for touch or auto --from");
+                       "write the touches, or the rests, to this CSV file, for touch or auto with --from");
     const CommandOption touch_up = command.add_flag(
-        "--touch-up", request.touch_up, "of the kept calibration, or nothing: without one it is an error");
-    command.add_flag("--anew", request.anew, "the whole calibration, also where one is kept")
+        "--touch-up", request.touch_up, "touch up the kept calibration; an error if none is kept");
+    command.add_flag("--anew", request.anew, "calibrate completely even if a calibration is kept")
         .excludes(touch_up);
-    command.add_flag("--headless", request.headless, "without a screen, for tests");
-    command.add_flag("--json", request.json, "prints the crosses and ends");
+    command.add_flag("--headless", request.headless, "run without a screen, for tests");
+    command.add_flag("--json", request.json, "print the crosses as JSON and end");
     command.callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
 }
 

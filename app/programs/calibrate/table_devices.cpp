@@ -2,7 +2,7 @@
 
 #include "app/programs/devices/wiring.h"
 #include "app/scene/device_plan.h"
-#include "app/show/house_words.h"
+#include "app/show/default_words.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -22,11 +22,11 @@ constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
 constexpr int max_buffers = 4; // of a display: each buffer gets the picture once
 
 /// The house's words. Without them a calibration goes on in English.
-std::optional<pack::LanguageWords> house_words(const settings::Settings& settings) {
+std::optional<pack::LanguageWords> load_default_words(const settings::Settings& settings) {
     if (settings.exhibit.words.empty()) {
         return std::nullopt;
     }
-    Result<pack::LanguageWords> words = show::read_house_words(settings, "calibration.begin");
+    Result<pack::LanguageWords> words = show::read_default_words(settings, "calibration.begin");
     if (!words) {
         say_line(program, words.error().message);
         return std::nullopt;
@@ -66,7 +66,7 @@ TableDevices::TableDevices(const settings::Settings& settings, bool headless, sh
                            std::unique_ptr<display::Display> display, typography::Typesetter typesetter)
     : headless_(headless), inputs_(std::move(inputs)), display_(std::move(display)),
       typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
-      house_(house_words(settings)), voice_(voice_of(settings, house_)) {}
+      own_words_(load_default_words(settings)), voice_(voice_of(settings, own_words_)) {}
 
 calibration::CalibrationInput TableDevices::hear(MonotonicTime now) {
     calibration::CalibrationInput heard;

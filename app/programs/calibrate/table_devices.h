@@ -62,7 +62,7 @@ public:
     [[nodiscard]] int height() const { return display_->height(); }
     [[nodiscard]] const typography::Typesetter& typesetter() const { return typesetter_; }
     /// None: silent, and in English only.
-    [[nodiscard]] const pack::LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
+    [[nodiscard]] const pack::LanguageWords* own_words() const { return own_words_ ? &*own_words_ : nullptr; }
 
 private:
     bool headless_;
@@ -74,7 +74,7 @@ private:
     std::unique_ptr<display::Display> display_;
     typography::Typesetter typesetter_;
     render::PictureUpload upload_;
-    std::optional<pack::LanguageWords> house_;
+    std::optional<pack::LanguageWords> own_words_;
     std::optional<TableVoice> voice_;
     image::Image8 picture_;
     int uploads_left_ = 0;

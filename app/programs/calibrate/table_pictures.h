@@ -45,7 +45,7 @@ struct TableDrawing {
         0.0; ///< approximate height of the projector, which widens what lies on boards; 0: ignored
     double board_px = 0.0; ///< approximate width of the board
     const typography::Typesetter& typesetter;
-    const pack::LanguageWords* house = nullptr; ///< the house's words
+    const pack::LanguageWords* own_words = nullptr; ///< the house's words
 };
 [[nodiscard]] image::Image8 table_picture(const calibration::TouchProcedure& procedure,
                                           const TableDrawing& with);

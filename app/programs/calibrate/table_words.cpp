@@ -50,15 +50,17 @@ std::vector<typography::Paragraph> paragraphs_of(const std::vector<std::string>&
     return paragraphs;
 }
 
-image::Image<std::uint8_t> house_sentence(const pack::LanguageWords* house, std::string_view key,
+image::Image<std::uint8_t> sentence_above(const pack::LanguageWords* own_words, std::string_view key,
                                           double width_px, double width_em) {
-    if (house == nullptr || house->language.starts_with("en")) {
+    if (own_words == nullptr || own_words->language.starts_with("en")) {
         return {};
     }
     const double em_px = width_px / width_em;
-    const pack::GlyphSetting* const setting = typography::fitting_setting(house->runs.find(key), width_em);
-    return setting != nullptr ? typography::glyph_image(house->runs, house->atlas, *setting, em_px).coverage
-                              : image::Image<std::uint8_t>();
+    const pack::GlyphSetting* const setting =
+        typography::fitting_setting(own_words->runs.find(key), width_em);
+    return setting != nullptr
+               ? typography::glyph_image(own_words->runs, own_words->atlas, *setting, em_px).coverage
+               : image::Image<std::uint8_t>();
 }
 
 image::Image<std::uint8_t> above(const image::Image<std::uint8_t>& upper,

@@ -62,7 +62,7 @@ struct TableWords {
 inline constexpr double widest_em = 36.0, beside_em = 20.0;
 /// The word of a key, set in the house's language; empty if there is none, or if that language is English,
 /// the language of the other words.
-[[nodiscard]] image::Image<std::uint8_t> house_sentence(const pack::LanguageWords* house,
+[[nodiscard]] image::Image<std::uint8_t> sentence_above(const pack::LanguageWords* own_words,
                                                         std::string_view key, double width_px,
                                                         double width_em = widest_em);
 /// Stacks two pictures, aligned at their left edges.

@@ -118,12 +118,13 @@ nlohmann::ordered_json touch_json(const calibration::TouchCalibration& c) {
 
 void add_touch_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CommandLine command = app.add_subcommand(
-        "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
+        "touch", "computes projector, tracker and the sensor's place in the prop from touches");
     add_common_options(command, request);
     add_touch_options(command, request);
     command
-        .add_flag("--touch-up", request.touch_up,
-                  "corrects the kept calibration by three touches or more: what moved since, and how far")
+        .add_flag(
+            "--touch-up", request.touch_up,
+            "correct the kept calibration by three touches or more, and print what has moved and how far")
         .needs("--config")
         .excludes("--sensor-height");
     command.callback([&] { chosen = [&] { return end_with(touch(request)); }; });

@@ -17,7 +17,7 @@ using Stage = calibration::CalibrationStage;
 
 constexpr std::array<WordMessage<calibration::TouchPrompt>, 4> touch_messages{{
     {calibration::TouchPrompt::Moved,
-     {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+     {"calibration.moved", "The prop moved. Keep it still; the second starts again."}},
     {calibration::TouchPrompt::NotSeen,
      {"calibration.not_seen",
       "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
@@ -56,17 +56,16 @@ TableWords words_of_begin(const calibration::TouchProcedure& procedure) {
                                            "a little wider than the prop.",
                                            fmt::join(block_heights_mm(procedure), ", "));
     if (procedure.task() == calibration::TouchTask::TouchUp) {
-        return {
-            "calibration.touch_up",
-            {"Staff: put the picture right",
-             fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
-                         "the picture right; that takes about two minutes. {}",
-                         procedure.count(), boards),
-             "Next begins. Back goes on to measuring the whole table anew; from there Back leaves. A minute "
-             "without a press returns to the exhibit."}};
+        return {"calibration.touch_up",
+                {"Staff: put the picture right",
+                 fmt::format("Has the projector or the tracker been moved? {} touches find out and correct "
+                             "the picture; that takes about two minutes. {}",
+                             procedure.count(), boards),
+                 "Next begins. Back goes on to measuring the whole table; from there Back leaves. A minute "
+                 "without a press returns to the exhibit."}};
     }
     return {"calibration.begin",
-            {"Staff: measure the table anew",
+            {"Staff: measure the whole table",
              fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
                          "about {} minutes. {}",
                          procedure.count(), minutes_for(procedure.count()), boards),
@@ -113,8 +112,8 @@ Message choice_of(const calibration::TouchProcedure& procedure) {
         break;
     }
     return is_touch_up ? Message{"calibration.does_not_fit",
-                                 "Next measures the whole table anew. Back does all touches again."}
-                       : Message{"calibration.refused", "Next begins anew."};
+                                 "Next measures the whole table. Back repeats all touches."}
+                       : Message{"calibration.refused", "Next starts again."};
 }
 
 typography::Colour colour_of(const calibration::TouchProcedure& procedure) {
@@ -180,15 +179,15 @@ WordsColumn middle_column(double width) {
 WordsColumn column_beside(const calibration::Cross& cross, const TableDrawing& with, double unit) {
     constexpr double min_share = 0.2; // of the picture's width
     const double reach = 0.5 * prop_px_at(cross, with) + 3.0 * unit;
-    const double left_room = cross.pixel.x - reach - 3.0 * unit;
-    const double right_room = with.width - 3.0 * unit - (cross.pixel.x + reach);
-    const double room = std::min(std::max(left_room, right_room), 0.6 * with.width);
-    if (room < min_share * with.width) {
+    const double left_width = cross.pixel.x - reach - 3.0 * unit;
+    const double right_width = with.width - 3.0 * unit - (cross.pixel.x + reach);
+    const double width = std::min(std::max(left_width, right_width), 0.6 * with.width);
+    if (width < min_share * with.width) {
         return middle_column(with.width);
     }
     const double middle =
-        right_room >= left_room ? cross.pixel.x + reach + 0.5 * room : cross.pixel.x - reach - 0.5 * room;
-    return {middle, room};
+        right_width >= left_width ? cross.pixel.x + reach + 0.5 * width : cross.pixel.x - reach - 0.5 * width;
+    return {middle, width};
 }
 
 std::string what_moved(calibration::Moved moved) {
@@ -279,7 +278,7 @@ image::Image8 table_picture(const calibration::TouchProcedure& procedure, const 
         has_cross ? column_beside(procedure.cross(), with, unit) : middle_column(width);
     const TableWords words = table_words(procedure);
     const image::Image<std::uint8_t> coverage =
-        above(house_sentence(with.house, words.key, column.width),
+        above(sentence_above(with.own_words, words.key, column.width),
               with.typesetter.set(paragraphs_of(words.lines, unit), column.width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     const double left = column.middle - 0.5 * coverage.width;

@@ -29,19 +29,19 @@ void print_usage(std::FILE* to) {
     fmt::print(to,
                "usage: frustumscreen "
                "run|status|counts|report|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
-               "  run     the exhibit\n"
-               "  status  how the exhibit on this machine is, and its picture\n"
-               "  counts  how often, when and for how long it is used\n"
-               "  report  all that its makers want to know of it, into a folder\n"
-               "  record  what the tracker sends, into a file\n"
-               "  camera  which cameras are there, and how that of the settings is\n"
-               "  render  a pose file into pictures, without devices\n"
-               "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
-               "  states  what the exhibit does, and what leads from one thing to the other\n"
-               "  plan    what a scene needs, what it leaves out, and what that saves\n"
-               "  config  the resolved, checked settings; what they mean on the table\n"
-               "  drawing the table, the projector and the prop to build, to scale\n"
-               "  --version\n");
+               "  run     runs the exhibit\n"
+               "  status  prints the exhibit's status; saves its picture\n"
+               "  counts  prints how often, when and for how long it is used\n"
+               "  report  collects status, journal, faults, visits and settings into a folder\n"
+               "  record  writes what the tracker sends to a file\n"
+               "  camera  lists cameras and checks the one in the settings\n"
+               "  render  draws the pictures of a pose file, without devices\n"
+               "  guide   lists for each pose the seen faces that are not lit, and the move that helps\n"
+               "  states  prints the table of the exhibit's states and events\n"
+               "  plan    lists what a scene loads, what it leaves out, and what that saves\n"
+               "  config  prints the checked settings, or explains them\n"
+               "  drawing draws table, projector and prop to scale, to build them\n"
+               "  --version prints the version\n");
 }
 
 struct Command {

@@ -221,7 +221,7 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<sh
     switch (end.why) {
     case RunEnd::Why::SetInstalled:
         journal.note(service::LogPriority::Notice,
-                     "a set of packs was installed; the exhibit starts anew with it", {{"DEVICE", "set"}});
+                     "a set of packs was installed; the exhibit restarts with it", {{"DEVICE", "set"}});
         service::end_within(longest_stop);
         return 0;
     case RunEnd::Why::Failed:

@@ -28,7 +28,7 @@ struct ImportArguments {
     /// (kiosk_copy/take_kiosk_copy.h). Empty: none is.
     std::filesystem::path calibration, counts;
     std::filesystem::path report; ///< file; empty: none
-    /// What another program left of the report that it wrote to the stick; removed. Empty: this kiosk writes none.
+    /// File with the outcome of the report that another program wrote to the stick; it is removed. Empty: this kiosk writes none.
     std::filesystem::path stick_report;
     std::string label;            ///< label of the stick
     std::string id;               ///< id of this import; empty: a new one

@@ -65,9 +65,9 @@ int list(const ImportArguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
-        "frustumscreen-import");
+    CommandLine app("Imports packs from a stick into the set that the exhibit shows. Only packs that are "
+                    "signed and complete are taken.",
+                    "frustumscreen-import");
     app.set_version_flag("--version", name_and_version("frustumscreen-import"));
     ImportArguments arguments;
     std::string unsigned_packs = "refuse";
@@ -75,44 +75,45 @@ int run(int argc, char** argv) {
     bool is_unmounted = false;
     bool has_ended = false;
     const CommandOption from =
-        app.add_option("--from", arguments.from, "the stick's folder; nothing is written to it");
+        app.add_option("--from", arguments.from, "the stick's folder; it is only read");
     const CommandOption into =
-        app.add_option("--into", arguments.into, "folder of the installed set; made where it is missing");
+        app.add_option("--into", arguments.into, "folder of the installed set; created if missing");
     const CommandOption keys =
         app.add_option("--keys", arguments.keys, "folder of the museum's public keys (*.pub)");
-    const CommandOption config =
-        app.add_option("--config", arguments.config, "settings (TOML): exhibit.keys, exhibit.unsigned");
+    const CommandOption config = app.add_option("--config", arguments.config,
+                                                "settings, TOML, with exhibit.keys and exhibit.unsigned");
     app.add_option("--settings", arguments.settings,
-                   "folder of the kiosk's own kiosk.toml: the stick's replaces it, signed if it names a key; "
-                   "a file settings-taken beside the report says so");
-    app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
+                   "folder of the kiosk's kiosk.toml, which one on the stick replaces (signed, if the kiosk "
+                   "names a key); a file settings-taken beside the report notes it");
+    app.add_option("--unsigned", unsigned_packs,
+                   "allow: also take packs without a signature, for a bench (default: refuse)")
         .one_of({"refuse", "allow"});
     app.add_option("--calibration", arguments.calibration,
-                   "folder of the kiosk's calibrations: with --settings and --counts, a stick's copy of a "
-                   "kiosk, kiosk.fsk, is taken too, signed as settings are");
-    app.add_option("--counts", arguments.counts, "folder of the kiosk's visits, for --calibration");
-    const CommandOption report = app.add_option("--report", arguments.report,
-                                                "file that says what happens, renewed while it does (JSON)");
+                   "folder of the kiosk's calibrations; with --settings and --counts, a kiosk copy "
+                   "(kiosk.fsk) is imported too, signed as settings are");
+    app.add_option("--counts", arguments.counts, "folder of the kiosk's visits, for a kiosk copy");
+    const CommandOption report =
+        app.add_option("--report", arguments.report, "JSON file to write the progress and the result to");
     app.add_option("--report-stands", arguments.report_stands_s,
-                   "s that another stick's report stands once it is over, before this one's replaces it")
+                   "seconds to leave another stick's finished report before it is replaced")
         .within(0.0, 60.0);
     app.add_option("--stick-report", arguments.stick_report,
-                   "file in which frustumscreen report left its outcome; told, and removed");
+                   "file with the outcome of frustumscreen report; it is reported, then removed");
     const CommandOption label =
         app.add_option("--label", arguments.label, "the stick's name, for the report");
     std::string label_folder;
     app.add_option("--label-from", label_folder,
-                   "folder in which udev left the stick's name, as a link label=NAME")
+                   "folder where udev left the stick's name, as a link label=NAME")
         .excludes(label);
-    app.add_flag("--json", arguments.json, "for programs");
+    app.add_flag("--json", arguments.json, "print JSON");
     const CommandOption list_flag = app.add_flag(
         "--list", to_list,
-        "the set that an exhibit started now would show, and the keys that count; takes nothing");
-    app.add_flag("--unmounted", is_unmounted, "only leaves the report of a stick that cannot be mounted");
-    const CommandOption ended = app.add_flag(
-        "--ended", has_ended, "only leaves the last word on an import that was stopped (ExecStopPost=)");
+        "list the set that the exhibit would show at a start, and the valid keys; import nothing");
+    app.add_flag("--unmounted", is_unmounted, "only report that a stick cannot be mounted");
+    const CommandOption ended =
+        app.add_flag("--ended", has_ended, "only report that an import was stopped (ExecStopPost=)");
     const CommandOption id =
-        app.add_option("--id", arguments.id, "name of this import; another one for each stick");
+        app.add_option("--id", arguments.id, "name of this import, different for each stick");
     ended.needs(id).needs(report);
     list_flag.needs(into).excludes(from);
     const auto check = [&] {

@@ -62,9 +62,8 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
         ::unlink((name + ".key").c_str()); // half a pair is useless
         return written;
     }
-    fmt::print("{0}.key: the secret key{1}; keep it and a copy where nobody else comes\n"
-               "{0}.pub: the public key, for the kiosk's settings:\n"
-               "  [[exhibit.keys]]\n  name = \"{0}\"\n  public_key = \"{2}\"\n",
+    fmt::print("{0}.key: the secret key{1}; keep it and a copy in a locked place\n{0}.pub: the public key, "
+               "for the kiosk's settings:\n  [[exhibit.keys]]\n  name = \"{0}\"\n  public_key = \"{2}\"\n",
                name,
                password ? ", encrypted with your password"
                         : " WITHOUT A PASSWORD: who has the file can sign (mode 0600)",

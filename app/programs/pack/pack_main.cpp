@@ -112,33 +112,36 @@ int sign(SignRequest request) {
 constexpr std::uint64_t max_serial = (std::uint64_t{1} << 53U) - 1;
 
 void add_looking_commands(CommandLine& app, Request& request) {
-    CommandLine to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
+    CommandLine to_verify =
+        app.add_subcommand("verify", "checks packs completely; exit status 1 if one is damaged or refused");
     to_verify.add_option("PACK", request.verify.packs, "packs (*.fspack)").required();
     to_verify
-        .add_option("--key", request.verify.keys, "a public key (NAME.pub); others than these are refused")
+        .add_option("--key", request.verify.keys,
+                    "public key (NAME.pub) to accept; without one, signatures are not checked")
         .allow_extra_args(false);
-    to_verify.add_flag("--json", request.verify.json, "for programs");
-    CommandLine to_list =
-        app.add_subcommand("list", "title, levels with their errors, parts with their sizes");
+    to_verify.add_flag("--json", request.verify.json, "print JSON");
+    CommandLine to_list = app.add_subcommand(
+        "list", "lists a pack's title, levels with their errors, and parts with their sizes");
     to_list.add_option("PACK", request.pack, "a pack (*.fspack)").required();
     CommandLine to_explain =
-        app.add_subcommand("explain", "all that the pack says, and how it stands in the prop");
+        app.add_subcommand("explain", "prints everything in a pack and its placement in the prop");
     to_explain.add_option("PACK", request.pack, "a pack (*.fspack)").required();
-    to_explain.add_option("--config", request.config, "settings (TOML) with the prop; else the default prop");
+    to_explain.add_option("--config", request.config,
+                          "settings, TOML, with the prop (default: the default prop)");
     CommandLine to_preview =
-        app.add_subcommand("preview", "draws the artifact from four sides into one picture");
+        app.add_subcommand("preview", "draws the artifact from four sides as one picture");
     to_preview.add_option("PACK", request.pack, "a pack (*.fspack)").required();
-    to_preview.add_option("-o,--output", request.output, "picture to write (*.png)").required();
+    to_preview.add_option("-o,--output", request.output, "PNG file to write").required();
     to_preview.add_flag("--table", request.table,
-                        "the small picture that lies on the table instead, cut out");
+                        "draw the small, cut-out picture that lies on the table instead");
     for (CommandLine command : {to_list, to_explain}) {
-        command.add_flag("--json", request.json, "for programs");
+        command.add_flag("--json", request.json, "print JSON");
     }
 }
 
 void add_signing_commands(CommandLine& app, Request& request) {
     CommandLine to_keygen = app.add_subcommand(
-        "keygen", "makes a pair of keys in minisign's format; on a terminal it asks for a password");
+        "keygen", "makes a key pair in minisign's format; asks for a password on a terminal");
     to_keygen.add_option("-o,--output", request.key_name, "NAME: writes NAME.key and NAME.pub").required();
     CommandLine to_sign = app.add_subcommand(
         "sign", "signs packs, set files and a kiosk's settings (*.toml -> *.toml.minisig)");
@@ -147,16 +150,15 @@ void add_signing_commands(CommandLine& app, Request& request) {
         .required();
     to_sign.add_option("--key", request.sign.key, "the secret key (NAME.key)").required();
     to_sign
-        .add_option("--serial", request.sign.serial,
-                    "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
+        .add_option(
+            "--serial", request.sign.serial,
+            "serial number; on the kiosk a higher one replaces a lower one (default: seconds since 1970)")
         .within(std::uint64_t{1}, max_serial);
-    to_sign.add_flag("--json", request.sign.json, "for programs");
+    to_sign.add_flag("--json", request.sign.json, "print JSON");
 }
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Packs for FrustumScreen: are they sound, what do they hold, how do they look, who signed them?",
-        "frustumscreen-pack");
+    CommandLine app("Verifies, lists, previews and signs packs.", "frustumscreen-pack");
     app.set_version_flag("--version", name_and_version("frustumscreen-pack"));
     app.require_subcommand();
     Request request;

@@ -141,47 +141,47 @@ Result<void> follow_path(const PathRequest& request) {
 
 void add_convert(CommandLine& app, ConvertRequest& request, std::vector<double>& within) {
     CommandLine command = app.add_subcommand(
-        "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres; or packets) into a pose file");
+        "convert", "converts a recording (rows of t x y z qx qy qz qw in seconds and metres, or packets)");
     command
         .add_option("INPUT", request.input,
-                    "the recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
+                    "recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
         .required();
-    command.add_option("-o,--output", request.output, "the pose file to write").required();
+    command.add_option("-o,--output", request.output, "pose file to write").required();
     command.add_option("--config", request.settings,
-                       "packets: the settings whose table_from_tracker places the poses on the table");
-    command.add_option("--station", request.recording.station, "1 prop, 2 head, 3 torch")
+                       "for packets: settings whose table_from_tracker places the poses on the table");
+    command.add_option("--station", request.recording.station, "station to convert: 1 prop, 2 head, 3 torch")
         .within(1, 3)
         .capture_default_str();
     command.add_flag("--flat", request.recording.flat,
-                     "lay the motion onto the table: x, y and the turn about Z");
+                     "keep only x, y and the turn about Z, to lay the motion onto the table");
     command
         .add_option("--within", within,
-                    "flat: half the width and half the depth of where the prop may be, metres")
+                    "with --flat: half the width and half the depth of the prop's area, metres")
         .expected(2)
         .within(0.001, 10.0);
 }
 
 void add_simulate(CommandLine& app, SimulateRequest& request) {
-    CommandLine command = app.add_subcommand("simulate", "a pose file of a simulated visitor");
-    command.add_option("--config", request.settings, "the settings: table, light and eye").required();
-    command.add_option("-o,--output", request.output, "the pose file to write").required();
-    command.add_option("--seed", request.seed, "another seed, another visit").capture_default_str();
-    command.add_option("--seconds", request.seconds, "how long").within(0.001, 86400.0).capture_default_str();
-    command.add_option("--hz", request.rate_hz, "poses a second").within(0.1, 1000.0).capture_default_str();
+    CommandLine command = app.add_subcommand("simulate", "simulates a visitor");
+    command.add_option("--config", request.settings, "settings, TOML: table, light and eye").required();
+    command.add_option("-o,--output", request.output, "pose file to write").required();
+    command.add_option("--seed", request.seed, "seed of the visit").capture_default_str();
+    command.add_option("--seconds", request.seconds, "length, seconds")
+        .within(0.001, 86400.0)
+        .capture_default_str();
+    command.add_option("--hz", request.rate_hz, "poses per second").within(0.1, 1000.0).capture_default_str();
 }
 
 void add_path(CommandLine& app, PathRequest& request) {
-    CommandLine command = app.add_subcommand("path", "a pose file of a smooth path through a few poses");
-    command.add_option("INPUT", request.input, "a pose file: where the prop and the head are, and when")
-        .required();
-    command.add_option("-o,--output", request.output, "the pose file to write").required();
-    command.add_option("--hz", request.rate_hz, "poses a second").within(0.1, 1000.0).capture_default_str();
+    CommandLine command = app.add_subcommand("path", "draws a smooth path through a few poses");
+    command.add_option("INPUT", request.input, "pose file with the poses to pass").required();
+    command.add_option("-o,--output", request.output, "pose file to write").required();
+    command.add_option("--hz", request.rate_hz, "poses per second").within(0.1, 1000.0).capture_default_str();
 }
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Pose files for FrustumScreen: from recordings of other trackers, simulated, and along a path.",
-        "frustumscreen-poses");
+    CommandLine app("Makes pose files: from recordings of trackers, of a simulated visitor, or along a path.",
+                    "frustumscreen-poses");
     app.set_version_flag("--version", name_and_version("frustumscreen-poses"));
     app.require_subcommand();
     ConvertRequest to_convert;

@@ -76,8 +76,8 @@ simulation::VisitorCamera camera_for(const simulation::VisitorScene& scene,
         }
     }
     geometry::Pinhole& pinhole = camera.pinhole;
-    const glm::dvec2 room = used_share * glm::dvec2(size) / glm::max(high - low, glm::dvec2(1.0));
-    const double zoom = std::min(room.x, room.y);
+    const glm::dvec2 frame = used_share * glm::dvec2(size) / glm::max(high - low, glm::dvec2(1.0));
+    const double zoom = std::min(frame.x, frame.y);
     const glm::dvec2 middle(0.5 * (low + high));
     pinhole.fx *= zoom;
     pinhole.fy *= zoom;

@@ -51,11 +51,9 @@ Result<void> write_picture(const std::string& file, const Size& size, const Safe
 }
 
 int run(int argc, char** argv) {
-    CommandLine app(
-        "Shows that the exhibit rests, in all languages, and tells the staff why and what to do. It "
-        "needs a graphics "
-        "card's driver and nothing else: no settings, no packs, no OpenGL.",
-        "frustumscreen-safe");
+    CommandLine app("Tells visitors in all languages that the exhibit is out of order, and the staff why and "
+                    "what to do. Needs only the graphics card's driver: no settings, no packs, no OpenGL.",
+                    "frustumscreen-safe");
     app.set_version_flag("--version", name_and_version("frustumscreen-safe"));
     SafeArguments arguments;
     arguments.languages = safe::safe_languages();
@@ -64,16 +62,17 @@ int run(int argc, char** argv) {
     std::string size_text;
     std::vector<std::string> languages;
     app.add_option("--card", arguments.card,
-                   "the graphics card, such as /dev/dri/card0; else the first with a projector");
+                   "graphics card, such as /dev/dri/card0 (default: the first with a projector)");
     app.add_option("--reason", arguments.reason,
-                   "file whose first line is shown to the staff, read once a second");
+                   "file whose first line is shown to the staff; read once a second");
     app.add_option("--alive", arguments.alive,
-                   "file rewritten after each picture shown: how many, and CLOCK_MONOTONIC in ns");
-    app.add_option("--language", languages, "for visitors, all if left out; the first is the staff's too")
+                   "file to rewrite after each shown picture: their number, and CLOCK_MONOTONIC in ns");
+    app.add_option("--language", languages,
+                   "languages for visitors, the first also for the staff (default: all)")
         .one_of({arguments.languages.begin(), arguments.languages.end()});
-    const CommandOption out =
-        app.add_option("--png", png, "draws the picture into this file and ends; needs no graphics card");
-    app.add_option("--size", size_text, "of that picture in pixels, such as 1280x800; else 1920x1080")
+    const CommandOption out = app.add_option(
+        "--png", png, "draw the picture into this PNG file and end; no graphics card is needed");
+    app.add_option("--size", size_text, "size of that picture, pixels, such as 1280x800 (default: 1920x1080)")
         .needs(out)
         .check({[&size](const std::string& text) { return read_size(text, size); }, ""});
     if (const auto end = app.end_of_arguments(argc, argv)) {

@@ -65,7 +65,7 @@ Result<image::Image8> room_picture(const settings::Settings& settings, const She
     simulation::VisitorScene in_room = scene;
     const simulation::VisitorCamera bystander = room_camera(scene, room_tile);
     in_room.eye_m = bystander.table_from_camera.translation;
-    in_room.blocks = simulation::room_around(scene.table_size_m, scene.table_from_projector.translation);
+    in_room.objects = simulation::room_around(scene.table_size_m, scene.table_from_projector.translation);
     typography::Canvas room(simulation::visitor_view(in_room, picture, bystander));
     draw_beam(room, scene, bystander);
 
@@ -81,7 +81,7 @@ Result<image::Image8> room_picture(const settings::Settings& settings, const She
     place(canvas, projector_view(scene, picture, projector_tile), {right, gap},
           "The projector\u2019s picture", typesetter);
     simulation::VisitorScene seen = scene;
-    seen.blocks = in_room.blocks;
+    seen.objects = in_room.objects;
     place(canvas, simulation::visitor_view(seen, picture, framed_camera(scene, visitor_tile)), {right, below},
           "What the visitor sees", typesetter);
     return canvas.take();

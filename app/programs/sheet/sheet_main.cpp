@@ -38,45 +38,44 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Makes a contact sheet (projector's picture and visitor's view), an animation and a table of frame "
-        "times from pictures of 'frustumscreen run' or 'render'.",
-        "frustumscreen-sheet");
+    CommandLine app("Makes a contact sheet, an animation and a table of frame times from the pictures of "
+                    "'frustumscreen run' or 'render'.",
+                    "frustumscreen-sheet");
     app.set_version_flag("--version", name_and_version("frustumscreen-sheet"));
-    app.add_option("--config", request.config, "the settings that the pictures were made with").required();
-    app.add_option("--frames", request.folders, "folders with frame_00000.png ...").required();
-    app.add_option("--poses", request.poses, "a pose file for each folder (default: its poses.csv)");
+    app.add_option("--config", request.config, "settings of these pictures, TOML").required();
+    app.add_option("--frames", request.folders, "folders of pictures, frame_00000.png ...").required();
+    app.add_option("--poses", request.poses, "pose file of each folder (default: its poses.csv)");
     app.add_option("--label", request.labels,
-                   "a label for each folder (default: the artifact in its frames.csv)");
-    app.add_option("-o,--output", request.sheet, "contact sheet to write, PNG");
-    app.add_option("--rows", request.rows, "frames of each folder on the sheet")
+                   "label of each folder (default: the artifact in its frames.csv)");
+    app.add_option("-o,--output", request.sheet,
+                   "contact sheet to write: PNG, with the projector's picture and the visitor's view");
+    app.add_option("--rows", request.rows, "number of frames of each folder on the sheet")
         .within(1, 64)
         .capture_default_str();
-    app.add_option("--columns", request.sheet_options.columns, "frames beside each other (default: 1 or 2)")
+    app.add_option("--columns", request.sheet_options.columns,
+                   "number of frames next to each other (default: 1 or 2)")
         .within(1, 4);
     app.add_flag("--whole-table", request.sheet_options.whole_table,
-                 "the sheet shows all of the table, with its words, not the prop alone");
-    app.add_option("--title", request.sheet_options.title, "the sheet's and the table's title")
+                 "show the whole table with its words instead of the prop alone");
+    app.add_option("--title", request.sheet_options.title, "title of the sheet and the table")
         .capture_default_str();
-    app.add_option("--animation", request.animation, "animation of the first folder to write, animated WebP");
-    app.add_option("--animation-frames", request.animation_frames, "at most so many pictures each way")
+    app.add_option("--animation", request.animation, "animation of the first folder to write: WebP");
+    app.add_option("--animation-frames", request.animation_frames, "largest number of pictures each way")
         .within(2, 600)
         .capture_default_str();
     app.add_flag("--closed", request.animation_options.closed,
-                 "the last picture leads to the first: play forwards only, not there and back");
+                 "play forwards only, because the last picture leads to the first");
     app.add_flag("--lossless", request.animation_options.lossless,
-                 "the animation without loss, several times as large");
-    app.add_option("--width", request.animation_options.width, "the animation's width")
+                 "compress the animation without loss; the file is several times as large");
+    app.add_option("--width", request.animation_options.width, "width of the animation, pixels")
         .within(16, 4096)
         .capture_default_str();
-    app.add_option("--height", request.animation_options.height, "the animation's height")
+    app.add_option("--height", request.animation_options.height, "height of the animation, pixels")
         .within(16, 4096)
         .capture_default_str();
-    app.add_option(
-        "--room", request.room,
-        "picture of the first frame to write, PNG: the table in its room, the projector's picture, the "
-        "visitor's view");
-    app.add_option("--table", request.table, "table of frame times and errors to write, .html or .md");
+    app.add_option("--room", request.room,
+                   "PNG of the first frame to write: table in its room, projector's picture, visitor's view");
+    app.add_option("--table", request.table, "table of frame times and errors to write: .html or .md");
     return app.end_of_arguments(argc, argv, [&] {
         if (request.sheet.empty() && request.animation.empty() && request.room.empty() &&
             request.table.empty()) {

@@ -165,21 +165,21 @@ int watch(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    CommandLine app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
-                    "manager starts it.",
-                    "frustumscreen-watchdog");
+    CommandLine app(
+        "Watches the exhibit and climbs the recovery ladder. The kiosk's service manager starts it.",
+        "frustumscreen-watchdog");
     app.set_version_flag("--version", name_and_version("frustumscreen-watchdog"));
     Arguments arguments;
-    app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
+    app.add_option("--run-folder", arguments.run_folder, "folder for its status and its requests")
         .capture_default_str();
-    app.add_option("--state-folder", arguments.state_folder, "folder for what survives a reboot")
+    app.add_option("--state-folder", arguments.state_folder, "folder for data that survives a reboot")
         .capture_default_str();
-    app.add_option("--start-patience", arguments.start_patience_s, "s that a start of the exhibit may take")
+    app.add_option("--start-patience", arguments.start_patience_s, "longest start of the exhibit, seconds")
         .within(5.0, 600.0)
         .capture_default_str();
-    app.add_option("--root", arguments.places.root, "a folder that stands for /, for tests")
+    app.add_option("--root", arguments.places.root, "folder that stands for /, for tests")
         .capture_default_str();
-    app.add_option("--seconds", arguments.seconds, "s after which it ends; 0: when it is told to")
+    app.add_option("--seconds", arguments.seconds, "seconds after which to end; 0: run until stopped")
         .within(0.0, 1e6);
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;

@@ -38,20 +38,20 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "The exhibit in a window: left the projector's picture, right what the visitor sees. Drag: slide the "
-        "prop; "
-        "wheel or right drag: turn it; middle drag: move the eye; 1, 2, 3: the buttons; H: help; Esc: end.",
-        "frustumscreen-window");
+    CommandLine app("Runs the exhibit in a window: the projector's picture on the left, the visitor's view "
+                    "on the right. Drag: slide the prop; wheel or right drag: turn it; middle drag: move the "
+                    "eye; 1, 2, 3: the buttons; H: help; Esc: end.",
+                    "frustumscreen-window");
     app.set_version_flag("--version", name_and_version("frustumscreen-window"));
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
+    app.add_option("--packs", request.show.packs, "packs to show instead of those in the settings");
     app.add_option("--technique", request.show.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
+                   "quality level to draw: auto, finest, level0, level1, ..., relief, relief96, ..., "
+                   "relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
-    app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
-    app.add_option("--seconds", request.seconds, "stop after so many seconds")
+    app.add_flag("--pattern", request.pattern, "show the alignment pattern instead of artifacts");
+    app.add_option("--seconds", request.seconds, "stop after this many seconds")
         .check(seconds_between(0.01, 1e6));
     return app.end_of_arguments(argc, argv);
 }

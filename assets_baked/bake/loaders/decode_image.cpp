@@ -31,9 +31,9 @@ Bytes essential_png_chunks(ByteView png) {
     Bytes essential(png.begin(), png.begin() + signature);
     std::size_t position = signature;
     while (png.size() - position >= frame) {
-        const std::size_t room = png.size() - position - frame;
+        const std::size_t left = png.size() - position - frame;
         const std::size_t length = load<std::uint32_t>(png, position, std::endian::big);
-        const ByteView chunk = png.subspan(position, frame + std::min(length, room));
+        const ByteView chunk = png.subspan(position, frame + std::min(length, left));
         if (std::find(kept.begin(), kept.end(), as_text(chunk.subspan(4, 4))) != kept.end()) {
             essential.insert(essential.end(), chunk.begin(), chunk.end());
         }

@@ -243,7 +243,7 @@ private:
         }
     }
 
-    /// Of the face that is read.
+    /// Mean texture coordinate of the face being read.
     [[nodiscard]] glm::vec2 middle_uv() const {
         glm::vec2 sum(0.0F);
         for (const std::uint32_t corner : corners_) {

@@ -23,7 +23,7 @@ float colour_factor(float value) {
 }
 
 /// At least doubles the room if there is too little, because a file may have many small parts.
-template <typename Value> void make_room(std::vector<Value>& values, std::size_t more, std::size_t most) {
+template <typename Value> void make_space(std::vector<Value>& values, std::size_t more, std::size_t most) {
     const std::size_t needed = std::min(values.size() + more, most);
     if (needed > values.capacity()) {
         values.reserve(std::max(needed, std::min(2 * values.capacity(), most)));
@@ -41,12 +41,12 @@ void resize_like(std::vector<Attribute>& values, const std::vector<glm::dvec3>& 
 } // namespace
 
 void MeshAssembly::expect_vertices(std::size_t more) {
-    make_room(mesh_.positions, more, max_source_vertices);
+    make_space(mesh_.positions, more, max_source_vertices);
 }
 
 void MeshAssembly::expect_triangles(std::size_t more) {
-    make_room(mesh_.triangles, more, max_triangles);
-    make_room(mesh_.triangle_materials, more, max_triangles);
+    make_space(mesh_.triangles, more, max_triangles);
+    make_space(mesh_.triangle_materials, more, max_triangles);
 }
 
 std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* place, std::size_t number) {

@@ -33,7 +33,7 @@ public:
     void set_uv(const glm::dvec2& uv) { set_uv(last_vertex(), uv); }
     void set_uv(std::uint32_t vertex, const glm::dvec2& uv);
     void set_colour(const glm::vec4& linear);
-    /// Of any length; one that is no direction becomes zero, as those of vertices without a normal.
+    /// Normals of any length; an invalid one becomes zero, as for vertices without a normal.
     void set_normal(const glm::dvec3& normal);
     /// Sets an sRGB code as written in the file, in 0..1 or 0..255. `codes_to_linear` converts all of them to linear
     /// factors and returns true if they are in 0..255: some are above 1, and all are whole or some are above 2.

@@ -24,7 +24,7 @@ public:
     /// `notes` receives files that were found under a different name than the model's.
     Sidecars(std::filesystem::path folder, LoadNotes& notes) : folder_(std::move(folder)), notes_(notes) {}
 
-    /// Bytes of the file called `name` (plain, not percent-encoded). They are read again only where nobody holds them any
+    /// Bytes of the file called `name` (plain, not percent-encoded). They are read again only if no caller holds them any
     /// more: sixteen large pictures do not fit into memory. A refusal's message begins with `place`.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name) const { return find(name).has_value(); }

@@ -12,7 +12,7 @@ namespace frustumscreen::bake {
 
 class VertexNumbers {
 public:
-    /// What makes a vertex: the file's numbers of its position, texture coordinate and normal, or bits of its position.
+    /// The key of a vertex: the file's numbers of its position, texture coordinate and normal, or bits of its position.
     using Key = std::array<std::uint32_t, 3>;
 
     VertexNumbers();

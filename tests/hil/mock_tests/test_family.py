@@ -1,4 +1,4 @@
-"""What a test run starts ends with it, even if SIGTERM comes during a test or while the guest is made."""
+"""Processes of a test run end with it, even if SIGTERM comes during a test or while the guest is made."""
 
 import pathlib
 import signal

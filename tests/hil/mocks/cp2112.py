@@ -88,4 +88,4 @@ class Cp2112(UsbDevice):
 
     def received(self, endpoint, data):
         if data[:1] == bytes([_STATUS_REQUEST]):
-            self.send(IN | 1, bytes([_STATUS, 3, 0, 0, 0, 0, 0]))  # error: nobody answered
+            self.send(IN | 1, bytes([_STATUS, 3, 0, 0, 0, 0, 0]))  # error: no answer

@@ -1,4 +1,4 @@
-"""What the consoles of mocked devices with faults have in common: a fault begins by its name, for a while or until it is ended."""
+"""The common part of consoles of mocked devices with faults: a fault begins by its name, for a while or until it is ended."""
 
 import asyncio
 import time
@@ -8,7 +8,7 @@ class FaultConsole:
     """Subclasses say which faults there are, `kinds`, what else is understood, and what a fault's beginning and end do."""
 
     kinds = {}
-    commands = ""  # help for what is no fault
+    commands = ""  # help for unknown faults
     ended_by_time = ("unplug", "hang")  # of the others nothing is done at their end
 
     def __init__(self, device):
@@ -44,7 +44,7 @@ class FaultConsole:
         """To a command that is no fault; None: it is none of this device's."""
 
     def begin_or_end(self, name, begins):
-        """What a fault's beginning and end do, besides that it is on."""
+        """Actions at a fault's beginning and end, besides its switch."""
 
     def _fault(self, name, words):
         duration = self._device.faults.tell(name, words)

@@ -1,4 +1,4 @@
-"""What the programs that play a device share: options, commands to a running one, the run until it is stopped."""
+"""The common part of programs that play a device: options, commands to a running one, the run until it is stopped."""
 
 import argparse
 import asyncio

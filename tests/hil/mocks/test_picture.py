@@ -51,7 +51,7 @@ def luma(width, height, number, light="usual"):
 
 
 def number_in(picture, width):
-    """Of a luma picture, what `luma` has written."""
+    """The number that `luma` has written into a picture."""
     block = width // BITS
     row = picture[width * (BLOCK // 2):]
     return sum(1 << bit for bit in range(BITS) if row[bit * block + block // 2] > 128)

@@ -1,4 +1,4 @@
-"""What all mocked trackers share: they play poses at their own rate, and misbehave as they are told."""
+"""The common part of mocked trackers: they play poses at their own rate, and misbehave as they are told."""
 
 import asyncio
 import time
@@ -128,7 +128,7 @@ class Tracker(UsbDevice):
             for _ in range(min(count, self.most_waiting)):
                 self.answer(data)
 
-    # What the descriptors tell the host.
+    # The descriptors.
 
     @property
     def described_endpoints(self):

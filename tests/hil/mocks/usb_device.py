@@ -39,7 +39,7 @@ class Request(NamedTuple):
 
 
 class UsbDevice:
-    """What devices have in common; subclasses add their own part, and those of several interfaces their descriptors."""
+    """The common part of devices; subclasses add their own part, and those of several interfaces their descriptors."""
 
     vendor_id = product_id = 0
     version_bcd = 0x0100
@@ -89,7 +89,7 @@ class UsbDevice:
     def greet(self):
         """On a link without endpoint 0: sends what a host would ask for when it opens the device."""
 
-    # What links use.
+    # Used by links.
 
     def send(self, endpoint, data):
         """Sends to the host, as one transfer."""

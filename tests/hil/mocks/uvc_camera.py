@@ -46,7 +46,7 @@ GAIN, WHITE_BALANCE, AUTO_WHITE_BALANCE = (_UNIT, 4), (_UNIT, 0x0A), (_UNIT, 0x0
 
 
 def _intervals(format_, size):
-    """Of a frame, units of 100 ns."""
+    """The intervals between frames that this format and size allow, units of 100 ns."""
     return tuple(10_000_000 // rate for rate in RATES_HZ[FORMATS[format_ - 1], SIZES[size - 1]])
 
 

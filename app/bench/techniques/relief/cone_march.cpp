@@ -98,7 +98,7 @@ Cones cones_of(const ReliefImages& images, int axis, image::Image16 (*make)(cons
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const ReliefImages& images) {
+Result<std::unique_ptr<Technique>> make_cone_march(const Kiosk& kiosk, const ReliefImages& images) {
     if (!std::has_single_bit(static_cast<unsigned>(images.texels))) {
         return bad_input("bench.cone_texels", "cone maps need a power of two of texels, not {}",
                          images.texels);
@@ -118,7 +118,7 @@ Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const Rel
         set_layer(0, axis, forward);
         set_layer(0, axis + 3, backward);
     }
-    return make_relief_technique(stage, images,
+    return make_relief_technique(kiosk, images,
                                  {.name = fmt::format("relaxed cone {}", images.texels),
                                   .defines = "",
                                   .source = cone_source,

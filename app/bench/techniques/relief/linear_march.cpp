@@ -32,14 +32,14 @@ bool search(vec3 start, vec3 along, float leave, out float at) {
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_linear_march(const Stage& stage, const ReliefImages& images,
+Result<std::unique_ptr<Technique>> make_linear_march(const Kiosk& kiosk, const ReliefImages& images,
                                                      const LinearBinary& search) {
     gl::GlTexture relief = make_relief_array(GL_RG16UI, images.texels, 1, 3);
     for (int axis = 0; axis < 3; ++axis) {
         set_layer(0, axis, material_along(images, axis));
     }
     return make_relief_technique(
-        stage, images,
+        kiosk, images,
         {.name = fmt::format("linear {}+{} {}", search.steps, search.bisections, images.texels),
          .defines = fmt::format("#define STEPS {}\n#define BISECTIONS {}\n", search.steps, search.bisections),
          .source = linear_source,

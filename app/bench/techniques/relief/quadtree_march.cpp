@@ -58,7 +58,7 @@ constexpr int coarsest_cells = 16;
 
 } // namespace
 
-Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const ReliefImages& images) {
+Result<std::unique_ptr<Technique>> make_quadtree_march(const Kiosk& kiosk, const ReliefImages& images) {
     const auto texels = static_cast<unsigned>(images.texels);
     if (!std::has_single_bit(texels) || images.texels < coarsest_cells) {
         return bad_input("bench.mipmap_texels",
@@ -73,7 +73,7 @@ Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const
             set_layer(level, axis, levels[static_cast<std::size_t>(level)]);
         }
     }
-    return make_relief_technique(stage, images,
+    return make_relief_technique(kiosk, images,
                                  {.name = fmt::format("quadtree {}", images.texels),
                                   .defines = fmt::format("#define COARSEST {}\n", coarsest),
                                   .source = quadtree_source,

@@ -11,7 +11,7 @@
 ///          light.
 /// Precision 16-bit depths, 32-bit rays in box coordinates.
 ///
-/// Threads  the one whose context is current; the stage must outlive the technique, the images need not.
+/// Threads  the one whose context is current; the kiosk must outlive the technique, the images need not.
 #pragma once
 
 #include "app/bench/techniques/relief/relief_images.h"
@@ -28,7 +28,7 @@ struct LinearBinary {
     int bisections = 5;
 };
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_linear_march(const Stage& stage, const ReliefImages& images, const LinearBinary& search);
+make_linear_march(const Kiosk& kiosk, const ReliefImages& images, const LinearBinary& search);
 
 /// Relaxed cone stepping: each step runs to the border of a cone whose rays cross the image's surface at most
 /// once, then bisection finds the crossing. An image that faces away from the ray steps by cones that do not
@@ -37,7 +37,7 @@ make_linear_march(const Stage& stage, const ReliefImages& images, const LinearBi
 /// Source   Policarpo & Oliveira, Relaxed cone stepping for relief mapping, GPU Gems 3, ch. 18, 2007.
 /// Differs  a step extends at least to the border of the texel, so no ray gets stuck; the crossing is
 ///          bisected in the image that stepped, since behind it the ray may still be in front of the others.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage,
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_cone_march(const Kiosk& kiosk,
                                                                  const ReliefImages& images);
 
 /// Maximum mipmaps: a texel of a coarser level bounds the material below it, so the ray either skips the
@@ -45,7 +45,7 @@ make_linear_march(const Stage& stage, const ReliefImages& images, const LinearBi
 /// Source   Tevs, Ihrke & Seidel, Maximum mipmaps for fast, accurate, and scalable dynamic height field
 ///          rendering, 2008; Drobot, Quadtree displacement mapping with height blending, GPU Pro, 2010.
 /// Differs  one level for the three axes at a time; columns are flat, not bilinear.
-[[nodiscard]] Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage,
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_quadtree_march(const Kiosk& kiosk,
                                                                      const ReliefImages& images);
 
 } // namespace frustumscreen::bench

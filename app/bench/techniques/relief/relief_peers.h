@@ -1,7 +1,7 @@
 /// All the peers that show relief images, made from one cast of the images.
 ///
 /// Errors   any error from making a technique.
-/// Threads  the one whose context is current; the stage must outlive the techniques.
+/// Threads  the one whose context is current; the kiosk must outlive the techniques.
 #pragma once
 
 #include "app/bench/techniques/technique.h"
@@ -18,7 +18,7 @@ struct ReliefPeer {
 };
 
 /// `texels`: side of a relief image, a power of two.
-[[nodiscard]] Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
+[[nodiscard]] Result<std::vector<ReliefPeer>> make_relief_peers(const Kiosk& kiosk, const Truth& truth,
                                                                 const bake::SourceMesh& mesh,
                                                                 const glm::dmat4& prop_from_artifact,
                                                                 int texels);

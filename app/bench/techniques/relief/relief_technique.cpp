@@ -137,9 +137,9 @@ struct ReliefGl {
 
 class ReliefTechnique final : public PeerTechnique {
 public:
-    ReliefTechnique(const Stage& stage, const geometry::Box& box, std::string name, ReliefGl gl,
+    ReliefTechnique(const Kiosk& kiosk, const geometry::Box& box, std::string name, ReliefGl gl,
                     OffscreenTarget points)
-        : PeerTechnique(stage, std::move(name), std::move(points)), box_(box), gl_(std::move(gl)),
+        : PeerTechnique(kiosk, std::move(name), std::move(points)), box_(box), gl_(std::move(gl)),
           array_(gl::GlVertexArray::generate()), corners_(gl::GlBuffer::generate()) {
         glBindVertexArray(array_.get());
         glBindBuffer(GL_ARRAY_BUFFER, corners_.get());
@@ -150,8 +150,8 @@ public:
 
 private:
     void draw_into(GLuint framebuffer, const BenchPose& pose, Output output) override {
-        begin_picture(framebuffer, stage_.width(), stage_.height());
-        const PeerView view = peer_view(stage_, pose);
+        begin_picture(framebuffer, kiosk_.width(), kiosk_.height());
+        const PeerView view = peer_view(kiosk_, pose);
         set_uniforms(gl_.programs[static_cast<std::size_t>(output)].get(), view);
         glActiveTexture(GL_TEXTURE1);
         glBindTexture(GL_TEXTURE_2D_ARRAY, gl_.colours.get());
@@ -281,20 +281,20 @@ void set_layer(int level, int layer, const image::Image<glm::u16vec4>& image) {
     set_layer_of(level, layer, GL_RGBA_INTEGER, image);
 }
 
-Result<std::unique_ptr<Technique>> make_relief_technique(const Stage& stage, const ReliefImages& images,
+Result<std::unique_ptr<Technique>> make_relief_technique(const Kiosk& kiosk, const ReliefImages& images,
                                                          ReliefSearch search) {
     std::string fragment(common_source);
     fragment += search.source;
     fragment += main_source;
     TRY(OutputPrograms programs,
         make_programs(search.defines + constants_of(images), vertex_source, fragment));
-    TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
+    TRY(OffscreenTarget points, make_target(kiosk.width(), kiosk.height(), GL_RGBA32F));
     ReliefGl gl{std::move(programs), std::move(search.relief), upload_colours(images)};
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::Internal, "bench.no_room_for_relief",
                     "the driver cannot hold the relief images");
     }
-    return std::make_unique<ReliefTechnique>(stage, images.box, std::move(search.name), std::move(gl),
+    return std::make_unique<ReliefTechnique>(kiosk, images.box, std::move(search.name), std::move(gl),
                                              std::move(points));
 }
 

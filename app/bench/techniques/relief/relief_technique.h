@@ -31,7 +31,7 @@ struct ReliefSearch {
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
-make_relief_technique(const Stage& stage, const ReliefImages& images, ReliefSearch search);
+make_relief_technique(const Kiosk& kiosk, const ReliefImages& images, ReliefSearch search);
 
 /// An array of `layers` unsigned 16-bit images with `levels` mip levels, read by texelFetch.
 [[nodiscard]] gl::GlTexture make_relief_array(GLenum format, int texels, int levels, int layers);

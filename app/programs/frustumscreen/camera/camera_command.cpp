@@ -36,18 +36,16 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Says which cameras are there, how that of the settings is set, and whether its frames show "
-        "anything. No picture is kept. Exit status: 0 it is well, or the settings have none; 1 it is "
-        "not well.",
-        "frustumscreen camera");
+    CommandLine app("Lists the cameras, and checks the one in the settings and its frames. No picture is "
+                    "kept. Exit status: 0 the camera works or the settings have none; 1 it does not work.",
+                    "frustumscreen camera");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--seconds", request.seconds, "how long to look")
+    app.add_option("--seconds", request.seconds, "time to watch the camera, seconds")
         .check(seconds_between(0.01, longest_s))
         .capture_default_str();
-    const CommandOption json = app.add_flag("--json", request.json, "all that is found, as JSON");
+    const CommandOption json = app.add_flag("--json", request.json, "print the findings as JSON");
     app.add_flag("--is-on", request.is_on,
-                 "only whether the settings have a camera, by the exit status; nothing is opened")
+                 "only test whether the settings have a camera, by the exit status; nothing is opened")
         .excludes(json);
     return app.end_of_arguments(argc, argv);
 }

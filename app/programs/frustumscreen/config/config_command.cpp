@@ -28,16 +28,16 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Prints the resolved, checked settings, what they mean on the table, or what settings there are.",
-        "frustumscreen config");
+    CommandLine app("Prints the checked settings with their defaults, explains them, or lists all settings.",
+                    "frustumscreen config");
     app.add_option("--config", request.config, "the kiosk's settings, TOML");
-    const CommandOption json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
-    const CommandOption explain = app.add_flag("--explain", request.explain,
-                                               "in words: the picture on the table, the light on the prop, "
-                                               "the zone; what visitors get of it, and what to look into");
+    const CommandOption json =
+        app.add_flag("--json", request.json, "print the settings as JSON (the default)");
+    const CommandOption explain = app.add_flag(
+        "--explain", request.explain,
+        "explain in words: the picture on the table, the light on the prop, the zone, and what to check");
     app.add_flag("--describe", request.describe,
-                 "every setting with its default and what it is; needs no --config")
+                 "list every setting with its default and meaning; needs no --config")
         .excludes(json)
         .excludes(explain);
     explain.excludes(json);

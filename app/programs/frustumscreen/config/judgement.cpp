@@ -217,7 +217,7 @@ void judge_language(const settings::Settings& settings, const std::vector<NamedP
 std::string judgement_page(const settings::Settings& settings, std::chrono::sys_seconds now) {
     const std::vector<NamedPack> packs = named_packs(settings);
     Page page;
-    page.text = "What visitors get\n";
+    page.text = "The visitors' view\n";
     if (const std::size_t unread = settings.exhibit.packs.size() - packs.size(); unread > 0) {
         page.text += fmt::format("  Of {} packs {} cannot be read, and are not judged.\n",
                                  settings.exhibit.packs.size(), unread);

@@ -1,7 +1,7 @@
 /// Judges what visitors get from the settings: whether text is readable, where captions fit, where artifacts are seen
 /// whole, whether the exhibit speaks their languages, when it is open; and lists what to look into.
 ///
-/// Reads the packs and words that the settings name. What cannot be read is reported and not judged.
+/// Reads the packs and words that the settings name. A file that cannot be read is reported and not judged.
 ///
 /// Units    metres on the table.
 /// Time     `now`: start of the week that is judged.

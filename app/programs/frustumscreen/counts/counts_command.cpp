@@ -27,15 +27,15 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Says how often, when and for how long the exhibit was used: numbers alone, of 400 days at most.",
-        "frustumscreen counts");
-    app.add_option("--folder", request.folder, "where the exhibit keeps them, exhibit.counts of its settings")
+    CommandLine app("Prints how often, when and for how long the exhibit was used, in numbers for each of at "
+                    "most 400 days.",
+                    "frustumscreen counts");
+    app.add_option("--folder", request.folder, "folder of the counts: exhibit.counts in the settings")
         .capture_default_str();
-    app.add_option("--csv", request.csv, "write all numbers as a table: day,kind,name,visits,minutes");
-    app.add_option("--plot", request.plot, "write a picture, SVG");
-    app.add_option("--from", request.from, "the first day, as 2026-11-27; else the first that there is");
-    app.add_option("--to", request.to, "the last day");
+    app.add_option("--csv", request.csv, "write all numbers to this CSV file: day,kind,name,visits,minutes");
+    app.add_option("--plot", request.plot, "write a plot to this SVG file");
+    app.add_option("--from", request.from, "first day, such as 2026-11-27 (default: the first recorded)");
+    app.add_option("--to", request.to, "last day (default: the last recorded)");
     app.add_flag("--json", request.json, "print all numbers as JSON");
     return app.end_of_arguments(argc, argv);
 }

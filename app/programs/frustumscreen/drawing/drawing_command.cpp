@@ -22,14 +22,13 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app("Draws, from the settings, what there is to build: SVG, to scale, lengths in mm.",
+    CommandLine app("Draws what is to be built, from the settings: SVG, to scale, lengths in mm.",
                     "frustumscreen drawing");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("-o,--output", request.output, "the drawing, SVG").required();
-    app.add_option(
-           "--sheet", request.sheet,
-           "table: A3, table, projector and eyes (the default); prop: A3, its views, its faces unfolded; "
-           "net: these in true size, to cut along")
+    app.add_option("-o,--output", request.output, "SVG file to write").required();
+    app.add_option("--sheet", request.sheet,
+                   "table: A3 with table, projector and eyes (the default); prop: A3 with the prop's views "
+                   "and unfolded faces; net: the unfolded faces in true size, to cut out")
         .one_of({"table", "prop", "net"});
     return app.end_of_arguments(argc, argv);
 }

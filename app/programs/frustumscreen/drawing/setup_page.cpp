@@ -258,16 +258,15 @@ std::optional<settings::Rectangle> evenly_lit(const settings::Settings& settings
 /// A prop in the hand has no preferred turn and no face that is always lit.
 std::string describe_hand_zone(const settings::LitZone& zone) {
     return zone.any_eye.empty()
-               ? std::string("Where the prop lies in the picture\n"
-                             "  Nowhere at every turn: hang the projector higher, or take a smaller prop.\n")
-               : fmt::format("Where the prop lies in the picture\n"
-                             "  At every turn while its middle is within {},\n"
-                             "  the largest rectangle in a zone of {:.3f} m2.\n",
+               ? std::string("The prop inside the picture\n  Nowhere at every turn: hang the projector "
+                             "higher, or take a smaller prop.\n")
+               : fmt::format("The prop inside the picture\n  At every turn while its middle is within {},\n  "
+                             "the largest rectangle in a zone of {:.3f} m2.\n",
                              words_of(zone.any_eye_rectangle), settings::area_of(zone.any_eye));
 }
 
 std::string describe_table_zone(const settings::Settings& settings, const settings::LitZone& zone) {
-    std::string text = "Where the prop stays lit at every turn, by the place of its axis\n";
+    std::string text = "The prop lit at every turn, by the place of its axis\n";
     if (zone.any_eye.empty()) {
         text += "  Nowhere for eyes all around: hang the projector higher and more over the table, or take a "
                 "flatter "
@@ -322,7 +321,7 @@ std::string describe_errors(const settings::Settings& settings, const settings::
     const double shift = settings.prop.height_m / (lens.z - settings.prop.height_m);
     const double walk_m = 1e-3 * settings.tracker.display_latency_ms * 0.3;
     return fmt::format(
-        "What an error costs\n{}"
+        "The effect of errors\n{}"
         "  A tenth of a degree that the projector is turned: {:.1f} mm on the prop's top, {:.1f} pixels.\n"
         "  10 mm that the lens hangs beside its place, with the picture aligned on the table: {:.1f} mm on "
         "the top.\n"

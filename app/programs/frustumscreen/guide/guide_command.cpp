@@ -172,16 +172,14 @@ Result<void> guide(const Request& request) {
 
 int guide_command(int argc, char** argv) {
     Request request;
-    CommandLine app(
-        "For each pose: the faces that the visitor sees, those that the projector lights, and the one move\n"
-        "that lets the visitor see the whole artifact.",
-        "frustumscreen guide");
+    CommandLine app("Lists for each pose the faces that the visitor sees, those that the projector lights, "
+                    "and the one move\nthat lets the visitor see the whole artifact.",
+                    "frustumscreen guide");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--poses", request.poses, "poses, CSV").required();
-    app.add_option(
-        "--pack", request.pack,
-        "the artifact in the prop, a pack: what counts is whether it is seen whole, not every face");
-    app.add_flag("--json", request.json, "one JSON object a line");
+    app.add_option("--poses", request.poses, "pose file, CSV").required();
+    app.add_option("--pack", request.pack,
+                   "pack of the artifact; then only the faces that the artifact needs count");
+    app.add_flag("--json", request.json, "print one JSON object per line");
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

@@ -25,18 +25,17 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
-        "measures what that saves.",
-        "frustumscreen plan");
+    CommandLine app("Lists what the exhibit loads from a pack and opens on this machine, what it leaves out "
+                    "and why, and measures the saving.",
+                    "frustumscreen plan");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--pack", request.pack,
-                   "the artifact, *.fspack; without it the first that the settings name");
+    app.add_option("--pack", request.pack, "pack of the artifact, *.fspack (default: the settings' first)");
     app.add_option("--technique", request.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
+                   "quality level to draw: auto, finest, level0, level1, ..., relief, relief96, ..., "
+                   "relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
-    app.add_flag("--json", request.json, "report as JSON");
+    app.add_flag("--json", request.json, "print the report as JSON");
     return app.end_of_arguments(argc, argv);
 }
 

@@ -42,16 +42,15 @@ struct Request {
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CommandLine app(
-        "Records what the tracker sends, before it is smoothed: poses in table coordinates, or with --raw "
-        "the packets themselves.",
+        "Records what the tracker sends, unsmoothed: poses in table coordinates, or its packets with --raw.",
         "frustumscreen record");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("-o,--output", request.output, "the file to write").required();
-    app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
+    app.add_option("-o,--output", request.output, "file to write").required();
+    app.add_option("--seconds", request.seconds,
+                   "stop after this many seconds (default: at SIGINT or SIGTERM)")
         .check(seconds_between(0.01, longest_s));
     app.add_flag("--raw", request.raw,
-                 "the packets with their times of arrival, in a new file, readable also if it is cut off; "
-                 "frustumscreen-poses convert makes poses of it");
+                 "record packets with their times of arrival to a new file, for frustumscreen-poses convert");
     return app.end_of_arguments(argc, argv);
 }
 

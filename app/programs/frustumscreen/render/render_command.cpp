@@ -38,29 +38,33 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
+    CommandLine app("Draws the pictures of a pose file: DIR/frame_00000.png ... and DIR/frames.csv.",
                     "frustumscreen render");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
-    app.add_option("--poses", request.poses, "poses, CSV").required();
-    app.add_option("--out", request.out, "folder for the pictures; made if missing").required();
+    app.add_option("--pack", request.pack, "pack of the artifact, *.fspack").required();
+    app.add_option("--poses", request.poses, "pose file, CSV").required();
+    app.add_option("--out", request.out, "folder for the pictures; created if missing").required();
     app.add_option("--technique", request.options.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
+                   "quality level to draw: auto, finest, level0, level1, ..., relief, relief96, ..., "
+                   "relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
     const CommandOption width =
-        app.add_option("--width", request.width, "picture's width in pixels").within(1, 16384);
+        app.add_option("--width", request.width, "width of the pictures, pixels (default: the settings')")
+            .within(1, 16384);
     const CommandOption height =
-        app.add_option("--height", request.height, "picture's height in pixels").within(1, 16384);
+        app.add_option("--height", request.height, "height of the pictures, pixels (default: the settings')")
+            .within(1, 16384);
     width.needs(height);
     height.needs(width);
     app.add_option("--view", request.view,
-                   "projector: its picture; visitor: what the eye sees of it, half as wide and high as the"
-                   " configured projector's picture, or as --width and --height say")
+                   "picture to draw: the projector's, or the visitor's view, which is half as wide and high "
+                   "unless --width and --height are given")
         .one_of({"projector", "visitor"})
         .capture_default_str();
-    app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
-    app.add_flag("--aov", request.options.hit_points, "also frame_00000.pfm: hit points, prop frame, metres");
+    app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
+    app.add_flag("--aov", request.options.hit_points,
+                 "also write hit points (frame_00000.pfm; prop frame, metres)");
     const std::optional<int> end = app.end_of_arguments(argc, argv);
     request.options.light = !request.no_light;
     if (request.view == "projector") {

@@ -19,7 +19,7 @@
 namespace frustumscreen::programs {
 
 struct CopyPlaces {
-    std::filesystem::path stick; ///< with the request; empty: nobody asks
+    std::filesystem::path stick; ///< with the request; empty: no request
     std::filesystem::path config;
     std::filesystem::path counts;
     std::filesystem::path calibration = "/var/lib/frustumscreen/calibration";

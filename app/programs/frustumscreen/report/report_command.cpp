@@ -40,32 +40,33 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Writes all that the makers want to know of this machine's exhibit into a folder: status, "
-        "journal, faults, visits, settings. Nothing in it names a person.",
-        "frustumscreen report");
+    CommandLine app("Collects a report on this machine's exhibit into a folder: status, journal, faults, "
+                    "visits, settings. It contains no personal data.",
+                    "frustumscreen report");
     ReportPlaces& places = request.places;
-    app.add_option("--into", request.into, "an empty folder, or a new one").required();
+    app.add_option("--into", request.into, "folder to write to, empty or new").required();
     app.add_option("--config", places.config, "the kiosk's settings, TOML").capture_default_str();
-    app.add_option("--counts", places.counts, "folder of the visits' numbers").capture_default_str();
-    app.add_option("--faults", places.faults, "the watchdog's ring of faults").capture_default_str();
-    app.add_option("--journal", places.journal, "folder of the journal; else this machine's own");
+    app.add_option("--counts", places.counts, "folder of the counts of visits").capture_default_str();
+    app.add_option("--faults", places.faults, "folder of the watchdog's fault records").capture_default_str();
+    app.add_option("--journal", places.journal, "folder of the journal (default: this machine's)");
     add_status_places(app, places.status);
     app.add_option("--stick", request.copy.stick,
-                   "the stick that asks: an empty frustumscreen-report.toml for the report, a signed "
-                   "frustumscreen-request.toml for settings, calibration, visits and packs");
+                   "folder of the stick: an empty frustumscreen-report.toml on it requests the report, a "
+                   "signed frustumscreen-request.toml a kiosk copy");
     app.add_option("--calibration", request.copy.calibration, "folder of the calibrations, for --stick")
         .capture_default_str();
     app.add_option("--library", request.copy.library, "folder of the installed set, for --stick")
         .capture_default_str();
-    app.add_option("--name", request.name, "the folder's name on the stick, for --outcome");
-    app.add_option("--outcome", request.outcome, "file that says what came of it, for frustumscreen-import");
-    const CommandOption id = app.add_option("--id", request.id, "name of the stick's import");
-    app.add_option("--import-report", request.import_report,
-                   "the importer's report: says meanwhile that the stick is to stay in")
+    app.add_option("--name", request.name, "name of the folder on the stick, for --outcome");
+    app.add_option("--outcome", request.outcome, "file to write the outcome to, for frustumscreen-import");
+    const CommandOption id =
+        app.add_option("--id", request.id, "name of the stick's import, for --import-report");
+    app.add_option(
+           "--import-report", request.import_report,
+           "the importer's report; while this command works, it tells the staff to leave the stick in")
         .needs(id);
     app.add_option("--report-stands", request.report_stands_s,
-                   "s that another stick's report stands once it is over")
+                   "seconds to leave another stick's finished report before it is replaced")
         .within(0.0, 60.0);
     const std::optional<int> end = app.end_of_arguments(argc, argv);
     request.copy.config = places.config;
@@ -93,9 +94,9 @@ Result<std::unique_ptr<WritableTree>> open_or_make(const std::filesystem::path& 
     return open_tree(folder);
 }
 
-/// All that is written, and what of it is refused.
+/// The files to write, and those that are refused.
 struct Contents {
-    std::string asked_by; ///< the stick's file, for what fails
+    std::string asked_by; ///< name of the stick's file, for messages
     std::vector<report::ReportFile> texts;
     CopyFiles copy;
     std::optional<library::ImportFailure> refused; ///< the request for a copy
@@ -110,7 +111,7 @@ bool asks_for_report(const Request& request) {
     return stick && read_text(**stick, library::report_request_name, library::max_report_request_bytes);
 }
 
-/// None: nobody asks for one.
+/// nullopt: none was requested.
 tl::expected<std::optional<CopyFiles>, library::ImportFailure> copy_for(const Request& request) {
     const auto clock = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     TRY(const std::optional<kiosk_copy::CopyRequest> asked, copy_asked_for(request.copy, clock));
@@ -200,7 +201,7 @@ library::ImportedPack not_written(std::string_view file, const library::ImportFa
             .reason = is_named ? failure.reason.substr(name.size()) : failure.reason};
 }
 
-/// Writes, and adds a line for what was written and for what was not.
+/// Writes the files, and adds a line for each success and failure.
 void write_and_tell(const Request& request, const Contents& contents, library::ImportReport& told) {
     if (contents.refused) {
         told.packs.push_back(not_written(library::copy_request_name, *contents.refused));

@@ -1,4 +1,4 @@
-/// `frustumscreen report`: all that the makers of a kiosk want to know of it, as files in a folder.
+/// `frustumscreen report`: collects a report for the makers of a kiosk, as files in a folder.
 #pragma once
 
 namespace frustumscreen::programs {

@@ -9,9 +9,9 @@ namespace frustumscreen::programs {
 
 int states_command(int argc, char** argv) {
     bool dot = false;
-    CommandLine app("Prints the exhibit's states and what leads from one to the other, in Markdown.",
+    CommandLine app("Prints the table of the exhibit's states and events as Markdown.",
                     "frustumscreen states");
-    app.add_flag("--dot", dot, "the same as a graph, in the language of Graphviz");
+    app.add_flag("--dot", dot, "print a graph for Graphviz instead");
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

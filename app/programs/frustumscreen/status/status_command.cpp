@@ -31,19 +31,20 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app("Says how the exhibit on this machine is. Exit status: 0 it is well and its devices are "
-                    "there, 1 it is "
-                    "not, or nothing is known.",
+    CommandLine app("Prints the status of this machine's exhibit. Exit status: 0 the exhibit runs and all "
+                    "its devices work; 1 something is wrong, or no status was found.",
                     "frustumscreen status");
-    const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
-    app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
-    app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
+    const CommandOption json = app.add_flag("--json", request.json, "print the whole status as JSON");
+    app.add_flag("--prometheus", request.prometheus, "print figures in Prometheus' text format")
+        .excludes(json);
+    app.add_option("--screenshot", request.screenshot,
+                   "write the picture that is projected now to this PNG file");
     add_status_places(app, request.places);
-    app.add_option("--data-folder", request.places.data_folder, "on the disk with the packs")
+    app.add_option("--data-folder", request.places.data_folder, "a folder on the disk with the packs")
         .capture_default_str();
-    app.add_option("--root", request.places.root, "the folder that has sys: another one for a test")
+    app.add_option("--root", request.places.root, "folder that contains sys; another one for tests")
         .capture_default_str();
-    app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
+    app.add_option("--staff-socket", request.staff_socket, "the exhibit's socket for screenshots")
         .capture_default_str();
     return app.end_of_arguments(argc, argv);
 }

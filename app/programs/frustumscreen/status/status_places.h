@@ -10,12 +10,12 @@ namespace frustumscreen::programs {
 
 /// The defaults are those of `places`.
 inline void add_status_places(CommandLine& app, status::StatusPlaces& places) {
-    app.add_option("--status-file", places.status_file, "the exhibit's status").capture_default_str();
-    app.add_option("--watchdog-file", places.watchdog_file, "its watchdog's status").capture_default_str();
-    app.add_option("--boot-folder", places.boot_folder, "what the start of an appliance has left")
+    app.add_option("--status-file", places.status_file, "the exhibit's status file").capture_default_str();
+    app.add_option("--watchdog-file", places.watchdog_file, "the watchdog's status file")
         .capture_default_str();
-    app.add_option("--crash-folder", places.crash_folder, "what the last crashes have left")
+    app.add_option("--boot-folder", places.boot_folder, "folder of what the appliance's start has reported")
         .capture_default_str();
+    app.add_option("--crash-folder", places.crash_folder, "folder of crash records").capture_default_str();
 }
 
 } // namespace frustumscreen::programs

@@ -1,4 +1,4 @@
-#include "app/exhibit/attract.h"
+#include "app/exhibit/idle_pose.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,15 +11,15 @@ enum Shown : std::size_t { Prop, Turning };
 
 } // namespace
 
-Attract::Attract(const glm::dvec2& place_m, bool known, MonotonicTime now)
+IdlePose::IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now)
     : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {}
 
-bool Attract::lost() const {
+bool IdlePose::lost() const {
     return fade_.goal() == Turning;
 }
 
-Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age,
-                  const geometry::RigidTransform& table_from_prop) {
+DrawnPose IdlePose::at(MonotonicTime now, bool known, Nanoseconds age,
+                       const geometry::RigidTransform& table_from_prop) {
     const bool never = !known && age == Nanoseconds::zero();
     if (known && fade_.goal() == Turning) {
         fade_.turn_to(Prop, now);
@@ -45,18 +45,18 @@ Stand Attract::at(MonotonicTime now, bool known, Nanoseconds age,
             .attracts = true};
 }
 
-std::optional<typography::TablePolygon> stand_hides(const geometry::PropShape& prop, const Stand& stand,
-                                                    const glm::dvec3& from_m) {
+std::optional<typography::TablePolygon> area_hidden_by(const geometry::PropShape& prop,
+                                                       const DrawnPose& drawn, const glm::dvec3& from_m) {
     std::optional<typography::TablePolygon> hidden =
-        typography::hidden_by_prop(prop, stand.table_from_prop, from_m);
-    if (!hidden || !stand.attracts) {
+        typography::hidden_by_prop(prop, drawn.table_from_prop, from_m);
+    if (!hidden || !drawn.attracts) {
         return hidden;
     }
     constexpr double eighth = 0.25 * std::numbers::pi;
     typography::TablePolygon all;
     for (const double yaw : {0.0, eighth}) {
         const geometry::RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
-                                            stand.table_from_prop.translation};
+                                            drawn.table_from_prop.translation};
         if (const std::optional<typography::TablePolygon> one =
                 typography::hidden_by_prop(prop, pose, from_m)) {
             all = typography::hull_of(all, one->corners());

@@ -16,25 +16,25 @@
 
 namespace frustumscreen::exhibit {
 
-struct Stand {
+struct DrawnPose {
     geometry::RigidTransform table_from_prop; ///< the pose to draw for
     double brightness = 1.0;                  ///< 0..1, a factor on linear light
     bool changing = false;                    ///< brightness changes
     bool attracts = false;                    ///< the pose drawn for is not the prop's own
 };
 
-class Attract {
+class IdlePose {
 public:
     static constexpr Nanoseconds held = std::chrono::seconds(2);            ///< since the last good pose
     static constexpr Nanoseconds each_way = std::chrono::milliseconds(600); ///< fade out, or fade in
     static constexpr Nanoseconds turn = std::chrono::seconds(40);
 
     /// Turns at `place_m` on the table. `known`: it begins at the prop, otherwise at `place_m`.
-    Attract(const glm::dvec2& place_m, bool known, MonotonicTime now);
+    IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now);
 
     /// `known`: the prop's pose is good. Otherwise `age` is that of the last good pose; 0 = there was none yet.
-    [[nodiscard]] Stand at(MonotonicTime now, bool known, Nanoseconds age,
-                           const geometry::RigidTransform& table_from_prop);
+    [[nodiscard]] DrawnPose at(MonotonicTime now, bool known, Nanoseconds age,
+                               const geometry::RigidTransform& table_from_prop);
     /// True if, as of the latest `at`, the pose has been unknown for a while and the picture leaves it or has left
     /// it.
     [[nodiscard]] bool lost() const;
@@ -46,8 +46,8 @@ private:
 };
 
 /// The area that the artifact's place hides from a point. An artifact that turns at the idle place hides the same
-/// area at any angle, so that nothing beside it moves.
+/// area at any angle, so nothing next to it moves.
 [[nodiscard]] std::optional<typography::TablePolygon>
-stand_hides(const geometry::PropShape& prop, const Stand& stand, const glm::dvec3& from_m);
+area_hidden_by(const geometry::PropShape& prop, const DrawnPose& drawn, const glm::dvec3& from_m);
 
 } // namespace frustumscreen::exhibit

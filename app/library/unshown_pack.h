@@ -10,16 +10,16 @@
 
 namespace frustumscreen::library {
 
-struct PackLeftOut {
+struct UnshownPack {
     std::string pack;
     std::string reason;
 };
 
 /// The list never changes.
-using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
+using UnshownPacks = std::shared_ptr<const std::vector<UnshownPack>>;
 
 /// The reason without the pack's name, with which an error's message begins.
-[[nodiscard]] inline PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+[[nodiscard]] inline UnshownPack unshown_pack(const std::string& pack, std::string_view message) {
     const std::string place = pack + ": ";
     if (message.starts_with(place)) {
         message.remove_prefix(place.size());
