@@ -41,7 +41,7 @@ private:
     void work_until_closed(int thread);
 
     std::atomic<int> next_{0};
-    std::mutex mutex_; ///< guards the following members
+    std::mutex mutex_; ///< guards all that follows
     std::condition_variable begun_, done_;
     Work work_;
     int count_ = 0;

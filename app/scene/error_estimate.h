@@ -13,7 +13,7 @@
 ///             picture's pixels. The bake therefore measures how far a level's edges move over all eyes
 ///             together, and combines it with the depth behind the edges that each eye sees
 ///             (assets_baked/bake/seen_error.cpp).
-///   Faces     The bake's rays are evenly spaced; pixels are not. For the picture that the eye sees through it, a face
+///   Faces     The bake's rays are evenly spaced; pixels are not. For what the eye sees through it, a face
 ///             turned to the projector gets up to three times as many pixels as a steep face, and an
 ///             artifact's parts differ in error. So each patch that an eye saw is weighted by its share of
 ///             rays times the pixels per square metre (FacePlan::pixels_per_m squared) of the face through

@@ -48,7 +48,7 @@ struct SourceAbout {
     [[nodiscard]] bool operator==(const SourceAbout&) const = default;
 };
 
-/// Properties of the file that the mesh keeps in another form.
+/// What the file has, where the mesh keeps it in another form.
 struct SourceContents {
     std::string format;                    ///< "glTF", "GLB", "OBJ", "PLY", "STL"
     std::vector<glm::ivec2> picture_sizes; ///< of each picture of colours, texels, as in the file

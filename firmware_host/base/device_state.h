@@ -1,4 +1,4 @@
-/// The state of a device: whether it can be used, in one sentence for the person beside it, and the sentence's id.
+/// What a device says of itself: whether it can be used, in one sentence for the person beside it, and the sentence's id.
 ///
 /// Threads  values of fixed size.
 #pragma once

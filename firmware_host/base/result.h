@@ -21,7 +21,7 @@
 
 namespace frustumscreen {
 
-/// The person or program that must act on an error.
+/// Who must act on an error.
 enum class ErrorKind {
     BadInput,         ///< bad bytes from outside: refuse them, keep running
     DeviceLost,       ///< a device went away: reconnect
