@@ -1,6 +1,5 @@
 // A cube from its mesh to its pictures and its measured error, made only by the programs.
 
-#include "app/pack/pack_file.h"
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"
 #include "tests/programs/program_folder.h"

@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 namespace frustumscreen::programs {

@@ -7,7 +7,6 @@
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <fstream>
 #include <future>
 

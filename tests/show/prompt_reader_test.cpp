@@ -5,7 +5,6 @@
 #include "firmware_host/sound/opus_reader.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
-#include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,6 @@
 #include "tests/base/told.h"
 #include "tests/texts/languages.h"
 
-#include <filesystem>
-
 using namespace frustumscreen;
 using namespace frustumscreen::texts;
 using frustumscreen::testing::Shaping;
