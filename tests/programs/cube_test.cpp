@@ -17,7 +17,6 @@ namespace {
 class CubeProgram : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         write_star();
         ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --prop cube --up z --unlit --size 64"), 0)
             << text("err.txt");

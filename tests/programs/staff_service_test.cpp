@@ -26,7 +26,6 @@ std::size_t open_descriptors() {
 class StaffService : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         path = folder / "s";
         ::unsetenv("JOURNAL_STREAM");
     }

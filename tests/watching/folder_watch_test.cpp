@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 class WatchedFolder : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         fs::create_directories(folder / "recordings" / "en");
         put("artifact.toml");
     }
