@@ -69,7 +69,7 @@ TEST_F(RestTest, TheArtifactsComeInTurnAndInSilence) {
     std::vector<std::size_t> turns;
     for (int k = 0; k < 7; ++k) {
         turns.push_back(shown.artifact);
-        wait(Exhibit::turn_time);
+        wait(Selection::turn_time);
         EXPECT_EQ(text(), "attract_line");
     }
     EXPECT_EQ(turns, (std::vector<std::size_t>{0, 0, 1, 2, 0, 1, 2}));
@@ -243,7 +243,7 @@ TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
     wait(seconds(1));
     wait(seconds(1), std::array{settings::Command::StaffMode});
     EXPECT_EQ(shown.state, State::Staff);
-    EXPECT_EQ(shown.state_before, State::View);
+    EXPECT_EQ(shown.before_staff, State::View);
     lose();
     wait(seconds(5));
     EXPECT_EQ(shown.state, State::Staff);
