@@ -9,7 +9,6 @@
 #include "app/calibration/verdict.h"
 
 #include <span>
-#include <string>
 
 namespace frustumscreen::calibration {
 

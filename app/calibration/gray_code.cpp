@@ -1,6 +1,5 @@
 #include "app/calibration/gray_code.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <array>
 
 namespace frustumscreen::calibration {
 

@@ -4,7 +4,6 @@
 #include "firmware_host/base/quantile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

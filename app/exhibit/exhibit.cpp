@@ -9,9 +9,8 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
                  MonotonicTime now)
     : place_(place), first_language_(language), catalogue_(std::move(catalogue)),
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
-      next_turn_(now + turn_time), table_(lay_out_catalogue(catalogue_.all(), place)),
-      caption_(place.picture_m), labels_(place.picture_m), guide_(place.guidance),
-      advice_(place.words, place.picture_m) {}
+      table_(lay_out_catalogue(catalogue_.all(), place)), caption_(place.picture_m), labels_(place.picture_m),
+      guide_(place.guidance), advice_(place.words, place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
                            const tracking::TrackedState& tracked_state) {
@@ -23,7 +22,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
     if (rests && state_ != State::Staff && state_ != State::Attract) {
         rest(now);
     }
-    go_to(next(state_, rests ? Event::Rest : Event::VisitorComes));
+    state_ = next(state_, rests ? Event::Rest : Event::VisitorComes);
     offer_what_can_be_shown(now);
     for (const settings::Command command : commands) {
         take(command, now);
@@ -35,11 +34,10 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
     const DrawnPose drawn =
         idle_pose_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
     side_.update(tracked_state.eye_m);
-    go_to(state_after(state_, observe(now, tracked_state, drawn)));
+    state_ = state_after(state_, observe(now, tracked_state, drawn));
     set_change_.step(now, moment_for_set(now));
-    if (state_ == State::Attract && now >= next_turn_ && !leaves_set()) {
-        selection_.choose(selection_.next(), now);
-        next_turn_ = now + turn_time;
+    if (state_ == State::Attract && selection_.turn_is_due(now) && !leaves_set()) {
+        selection_.turn(now);
     }
     return present(now, tracked_state, drawn, pressed);
 }
@@ -71,7 +69,7 @@ void Exhibit::take(settings::Command command, MonotonicTime now) {
     } else {
         staff_.press(static_cast<std::size_t>(settings::button_of(command)), now);
     }
-    go_to(next(state_, Event::Press));
+    state_ = next(state_, Event::Press);
 }
 
 /// Undoes the presses of the first and the last button, with which the chord began, and switches the staff's
@@ -85,21 +83,14 @@ void Exhibit::take_chord(MonotonicTime now) {
     if (state_ == State::Staff) {
         staff_.undo_chord(place_.buttons - 1);
     } else {
-        staff_.begin(now);
+        staff_.begin(state_, now);
     }
-    go_to(next(state_, Event::Chord));
-}
-
-void Exhibit::go_to(State state) {
-    if (state != state_) {
-        state_before_ = std::exchange(state_, state);
-    }
+    state_ = next(state_, Event::Chord);
 }
 
 void Exhibit::rest(MonotonicTime now) {
-    selection_.reset_language(now);
+    selection_.rest(now);
     guide_.forget_visitor();
-    next_turn_ = now + turn_time;
 }
 
 Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& tracked_state,

@@ -53,11 +53,6 @@ namespace frustumscreen::exhibit {
 
 class Exhibit {
 public:
-    /// How long each artifact is shown while they come in turn.
-    static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
-    /// How long another set waits for a visitor who is being told something.
-    static constexpr Nanoseconds longest_wait = SetChange::longest_wait;
-
     /// Begins in State::Attract with the first artifact, and with the caption that `caption_for` chooses for `language`.
     Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::string& language, MonotonicTime now);
 
@@ -77,7 +72,7 @@ public:
     void hear(bool speaking, const SpeechProgress& narration = {});
     /// Announces another set of artifacts; `ready`: it can be shown. When it does not disturb the visitor, everything
     /// of this set fades out: in State::Attract with the next turn; while something is told, spoken or chosen,
-    /// afterwards, or after `longest_wait`, which begins when the other set is first ready.
+    /// afterwards, or after `SetChange::longest_wait`, which begins when the other set is first ready.
     void await_set(bool ready) { set_change_.await(ready); }
     /// Withdraws the announced set.
     void await_no_set() { set_change_.await_none(); }
@@ -109,7 +104,6 @@ private:
     void take(settings::Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
     void offer_what_can_be_shown(MonotonicTime now);
-    void go_to(State state);
     /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
     [[nodiscard]] Observed observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
@@ -127,6 +121,8 @@ private:
     void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;
 
     // From the state to the presentation: exhibit_shows.cpp.
+    /// True if an artifact is not ready, or fades.
+    [[nodiscard]] bool waits() const { return has_artifact() && placeholder_.waits(); }
     /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.all().empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const tracking::TrackedState& tracked_state,
@@ -153,7 +149,6 @@ private:
     std::string first_language_;
     ShownCatalogue catalogue_;
     SetChange set_change_;
-    bool waits_ = false; ///< the artifact was not ready in the latest step
 
     // The visitor.
     Presses presses_;
@@ -164,8 +159,6 @@ private:
     StaffTool staff_;
 
     State state_ = State::Attract;
-    State state_before_ = State::Attract;
-    MonotonicTime next_turn_; ///< when the next artifact comes, in State::Attract
 
     // The presentation.
     Placeholder placeholder_;

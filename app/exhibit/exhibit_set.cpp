@@ -19,11 +19,11 @@ SetChange::Moment Exhibit::moment_for_set(MonotonicTime now) const {
     if (state_ == State::Staff || state_ == State::Fault) {
         return Moment::Fits;
     }
-    if (selection_.at(now).changing || waits_) {
+    if (selection_.at(now).changing || waits()) {
         return Moment::NotYet; // wait until a change between two artifacts has ended
     }
     if (state_ == State::Attract) {
-        return now >= next_turn_ ? Moment::Fits : Moment::NotYet;
+        return selection_.turn_is_due(now) ? Moment::Fits : Moment::NotYet;
     }
     return tells() || advice_.speaking() || state_ == State::Browse ? Moment::Busy : Moment::Fits;
 }
@@ -60,9 +60,7 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     selection_.begin_with(artifact, languages.empty() ? chosen : languages[caption_for(chosen, languages)],
                           now);
     set_change_ = {};
-    waits_ = false;
     presses_ = {};
-    next_turn_ = now + turn_time;
     placeholder_ = Placeholder();
     table_ = std::move(table);
     caption_ = ArtifactCaption(place_.picture_m);

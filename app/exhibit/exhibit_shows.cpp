@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace frustumscreen::exhibit {
 
@@ -13,7 +12,6 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     const Shown shown = selection_.at(now);
     Presentation presentation;
     presentation.state = state_;
-    presentation.state_before = state_before_;
     presentation.artifact = shown.artifact;
     const Placeholder::Output comes = placeholder(now, shown, drawn);
     presentation.brightness = comes.brightness * drawn.brightness;
@@ -42,11 +40,11 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     const double opacity = caption_.opacity(now);
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !drawn.changing &&
-                           !comes.waits && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
-    waits_ = comes.waits;
+                           !waits() && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
     presentation.staff_view = staff_.shown();
+    presentation.before_staff = staff_.state_before();
     presentation.staff_tones = staff_.tones();
     presentation.louder_db = staff_.louder_db();
     presentation.calibrate = staff_.take_measure();
@@ -92,7 +90,7 @@ typography::TableRectangle place_in(const geometry::PropShape& prop,
 
 Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, const DrawnPose& drawn) {
     if (catalogue_.all().empty()) {
-        return {0.0, std::nullopt, false};
+        return {0.0, std::nullopt};
     }
     const std::size_t chosen = selection_.artifact();
     Placeholder::Input input{.shown = shown,
@@ -110,7 +108,7 @@ Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, 
     }
     Placeholder::Output comes = placeholder_.step(now, input);
     if (!has_artifact()) {
-        return {0.0, std::nullopt, false};
+        return {0.0, std::nullopt};
     }
     if (comes.picture) {
         comes.picture->brightness *= drawn.brightness;

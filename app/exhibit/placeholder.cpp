@@ -46,7 +46,7 @@ Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
     leaving_ = input.shown.leaving;
     last_ = now;
 
-    Output output{input.shown.brightness * geometry::ease(arrival_), std::nullopt, false};
+    Output output{input.shown.brightness * geometry::ease(arrival_), std::nullopt};
     const double brightness = picture_ ? light(input, output.brightness) : 0.0;
     if (picture_ && brightness <= 0.0 && arrival_ >= 1.0 && !input.shown.leaving) {
         picture_.reset();
@@ -59,7 +59,6 @@ Placeholder::Output Placeholder::step(MonotonicTime now, const Input& input) {
                            glm::mix(from_.size_m, input.to.size_m, grown), input.to.quarter_turns},
                           brightness};
     }
-    output.waits = picture_.has_value() || arrival_ < 1.0;
     return output;
 }
 

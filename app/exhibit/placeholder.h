@@ -39,9 +39,10 @@ public:
     struct Output {
         double brightness = 1.0; ///< of the artifact that is shown, 0..1
         std::optional<PresentedPlaceholder> picture;
-        bool waits = false; ///< an artifact is not ready, or fades
     };
     [[nodiscard]] Output step(MonotonicTime now, const Input& input);
+    /// True if, as of the latest `step`, an artifact is not ready, or fades.
+    [[nodiscard]] bool waits() const { return picture_.has_value() || arrival_ < 1.0; }
 
 private:
     void begin(std::size_t artifact, MonotonicTime now, const Input& input);

@@ -50,10 +50,9 @@ private:
 
 struct Presentation {
     State state = State::Attract;
-    State state_before = State::Attract; ///< the latest state other than `state`
-    std::size_t artifact = 0;            ///< index into the catalogue
-    double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
-    WantedArtifacts wanted;  ///< to load ahead
+    std::size_t artifact = 0; ///< index into the catalogue
+    double brightness = 0.0;  ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
+    WantedArtifacts wanted;   ///< to load ahead
     std::optional<PresentedPlaceholder> placeholder; ///< in place of the chosen artifact until that is ready
     std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
@@ -79,6 +78,7 @@ struct Presentation {
     bool attracts = false;                    ///< the pose drawn for is not the prop's own
     bool settled = true;                      ///< nothing fades: a good moment for a picture
     bool staff = false;                       ///< State::Staff: the staff picture is shown instead
+    State before_staff = State::Attract;      ///< the state that led to it
     StaffView staff_view;                     ///< what the staff picture shows
     std::uint32_t staff_tones = 0;            ///< number of test tones asked for by the staff
     int louder_db = 0;                        ///< relative to the settings' volume

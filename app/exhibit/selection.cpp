@@ -18,7 +18,7 @@ Selection::Selection(std::size_t artifact_count, std::vector<std::string> langua
                      MonotonicTime now)
     : count_(artifact_count), left_out_(artifact_count), languages_(std::move(languages)),
       language_count_(languages_.size()), first_language_(place_of(language, languages_)),
-      language_before_(first_language_), artifact_(0, fade_time, now),
+      language_before_(first_language_), turned_(now), artifact_(0, fade_time, now),
       language_(first_language_, fade_time, now) {
     if (first_language_ == languages_.size()) {
         languages_.push_back(std::move(language));
@@ -83,7 +83,13 @@ void Selection::change_language(std::size_t which, MonotonicTime now) {
     }
 }
 
-void Selection::reset_language(MonotonicTime now) {
+void Selection::turn(MonotonicTime now) {
+    choose(next(), now);
+    turned_ = now;
+}
+
+void Selection::rest(MonotonicTime now) {
+    turned_ = now;
     language_before_ = first_language_;
     change_language(first_language_, now);
 }

@@ -37,6 +37,9 @@ struct Shown {
 
 class Selection {
 public:
+    /// How long each artifact is shown while they come in turn.
+    static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
+
     /// `languages` (BCP 47): those that some artifact has a caption in, in the order in which the button cycles
     /// through them.
     Selection(std::size_t artifact_count, std::vector<std::string> languages, std::string language,
@@ -55,8 +58,12 @@ public:
     /// other.
     [[nodiscard]] std::size_t next() const { return neighbour(1); }
     [[nodiscard]] std::size_t previous() const { return neighbour(count_ - 1); }
-    /// Returns to the first language.
-    void reset_language(MonotonicTime now);
+    /// True if `turn_time` has passed since the beginning, the latest `rest` or the latest `turn`.
+    [[nodiscard]] bool turn_is_due(MonotonicTime now) const { return now >= turned_ + turn_time; }
+    /// Chooses the next artifact in turn.
+    void turn(MonotonicTime now);
+    /// Returns to the first language, and begins the turns; the artifact stays.
+    void rest(MonotonicTime now);
     /// Undoes the latest command of this kind.
     void undo(settings::Command command, MonotonicTime now);
     /// True if the command has something to change to.
@@ -80,6 +87,7 @@ private:
     std::size_t language_count_;
     std::size_t first_language_;
     std::size_t language_before_; ///< the language before the latest command for another
+    MonotonicTime turned_;
     Fade artifact_;
     Fade language_; ///< indices into `languages_`
 };

@@ -17,7 +17,8 @@ StaffLight light_after(StaffLight light, int steps) {
 
 } // namespace
 
-void StaffTool::begin(MonotonicTime now) {
+void StaffTool::begin(State before, MonotonicTime now) {
+    state_before_ = before;
     StaffView view;
     view.louder_db = view_.louder_db;
     view.stays = view_.stays;

@@ -17,6 +17,7 @@
 /// Threads  a value; one caller. Allocates nothing.
 #pragma once
 
+#include "app/exhibit/states.h"
 #include "app/settings/command.h"
 #include "firmware_host/base/time.h"
 
@@ -63,8 +64,8 @@ public:
     /// `stays`: there is no calibration.
     explicit StaffTool(bool stays) { view_.stays = stays; }
 
-    /// Shows the first page.
-    void begin(MonotonicTime now);
+    /// Shows the first page; `before`: the exhibit's state until then.
+    void begin(State before, MonotonicTime now);
     void press(std::size_t button, MonotonicTime now);
     /// Call when a button is held: that of the latest press of `first`, or of another one.
     void hold(bool first, MonotonicTime now);
@@ -82,6 +83,7 @@ public:
 
     /// The content to show.
     [[nodiscard]] const StaffView& shown() const { return shown_; }
+    [[nodiscard]] State state_before() const { return state_before_; }
     /// Number of tones asked for.
     [[nodiscard]] std::uint32_t tones() const { return tones_; }
     /// Valid also while the picture is not shown.
@@ -101,6 +103,7 @@ private:
     void change_volume(int steps);
     void undo(std::optional<Step>& before);
 
+    State state_before_ = State::Attract;
     StaffView view_;  ///< as pressed
     StaffView shown_; ///< follows it
     std::array<std::optional<Step>, settings::button_commands.size()>

@@ -3,7 +3,6 @@
 #include "app/geometry/time_curves.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace frustumscreen::exhibit {
 

@@ -2,9 +2,7 @@
 
 #include "app/geometry/rotation_angle.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 namespace frustumscreen::guidance {

@@ -3,7 +3,6 @@
 #include "app/geometry/rotation_angle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -1,6 +1,5 @@
 #include "app/guidance/move.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "app/library/trusted_keys.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace frustumscreen::library {
 

@@ -9,7 +9,6 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
 #include <cstdint>
 
 namespace frustumscreen::pack {

@@ -14,7 +14,6 @@
 #include <glm/glm.hpp>
 
 #include <array>
-#include <cstring>
 
 namespace frustumscreen::relief {
 

@@ -11,14 +11,23 @@
 #pragma once
 
 #include "app/relief/frame_workers.h"
-#include "app/relief/picture_span.h"
 #include "app/relief/rasterize_blocks.h"
 #include "app/relief/sample_light.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace frustumscreen::relief {
+
+/// A view of texels in memory that it does not own: row 0 at the top, `stride` texels from row to row.
+template <typename Texel> struct PictureSpan {
+    Texel* first = nullptr;
+    int width = 0, height = 0;
+    std::ptrdiff_t stride = 0;
+
+    [[nodiscard]] Texel& at(int x, int y) const { return first[y * stride + x]; }
+};
 
 /// Changes a row's codes right after they are computed.
 class RowLight {

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace frustumscreen::report {

@@ -1,6 +1,5 @@
 #include "app/residency/loaded.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace frustumscreen::residency {

@@ -6,7 +6,6 @@
 #include "app/scene/exposure.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace frustumscreen::residency {

@@ -1,7 +1,5 @@
 #include "app/residency/residency.h"
 
-#include <algorithm>
-
 namespace frustumscreen::residency {
 
 namespace {

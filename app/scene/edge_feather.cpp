@@ -4,7 +4,6 @@
 #include "app/scene/frame_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace frustumscreen::scene {

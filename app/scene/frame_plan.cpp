@@ -7,7 +7,6 @@
 #include "app/scene/prop_outline.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace frustumscreen::scene {
 

@@ -1,6 +1,5 @@
 #include "app/scene/visibility.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "app/settings/light_range.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

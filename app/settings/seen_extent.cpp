@@ -10,7 +10,6 @@
 #include "app/settings/whole_zone.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -1,15 +1,29 @@
 #include "app/settings/toml_file.h"
 
 #include "firmware_host/base/printable.h"
-#include "firmware_host/base/utf8_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace frustumscreen::settings {
 
 namespace {
+
+/// The first line, counted from 1, that is not UTF-8; nullopt if all are. A zero byte counts as an error: it
+/// is half of a character in UTF-16.
+std::optional<std::size_t> line_that_is_not_utf8(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t bytes = character_bytes(text.substr(at));
+        if (bytes == 0 || text[at] == '\0') {
+            const auto before = text.substr(0, at);
+            return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+        }
+        at += bytes;
+    }
+    return std::nullopt;
+}
 
 /// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds the depth.
 constexpr std::size_t max_dots = 5000;

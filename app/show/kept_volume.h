@@ -11,8 +11,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
 namespace frustumscreen::show {
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 #include <utility>
@@ -149,7 +148,7 @@ void LiveExhibit::follow_staff_mode() {
         staff_.reset();
         if (presentation_.staff) {
             Result<std::unique_ptr<StaffShow>> made =
-                StaffShow::create(settings_, speaks(), driver_, presentation_.state_before);
+                StaffShow::create(settings_, speaks(), driver_, presentation_.before_staff);
             if (!made) {
                 say_line("frustumscreen", fmt::format("no picture for the staff: {}", made.error().message));
                 exhibit_.end_staff_mode();

@@ -3,7 +3,6 @@
 #include "app/scene/scene_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

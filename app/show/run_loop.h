@@ -21,7 +21,6 @@
 #include "firmware_host/display/display.h"
 #include "firmware_host/service/stop_signals.h"
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <vector>

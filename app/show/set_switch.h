@@ -15,7 +15,6 @@
 #include "app/show/artifact_show.h"
 #include "app/show/library_watch.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

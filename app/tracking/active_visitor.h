@@ -10,7 +10,6 @@
 #include "app/tracking/seen_head.h"
 
 #include <array>
-#include <optional>
 
 namespace frustumscreen::tracking {
 

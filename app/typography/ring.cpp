@@ -4,7 +4,6 @@
 #include "app/typography/visitor_side.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -11,7 +11,6 @@
 
 #include "app/watch/ladder.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

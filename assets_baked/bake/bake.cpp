@@ -18,7 +18,6 @@
 #include <array>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 namespace frustumscreen::bake {

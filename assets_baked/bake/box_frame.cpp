@@ -1,7 +1,6 @@
 #include "assets_baked/bake/box_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,7 +1,5 @@
 #include "assets_baked/bake/cell_quadric.h"
 
-#include <cmath>
-
 namespace frustumscreen::bake {
 
 void CellQuadric::add_plane(const glm::vec3& normal, const glm::vec3& on_plane) {

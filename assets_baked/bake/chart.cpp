@@ -1,7 +1,6 @@
 #include "assets_baked/bake/chart.h"
 
 #include <cmath>
-#include <vector>
 
 namespace frustumscreen::bake {
 

@@ -5,7 +5,6 @@
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -13,7 +13,6 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 namespace frustumscreen::bake {

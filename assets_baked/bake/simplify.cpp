@@ -6,7 +6,6 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <utility>
 

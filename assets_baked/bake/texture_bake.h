@@ -11,9 +11,6 @@
 
 #include <glm/glm.hpp>
 
-#include <functional>
-#include <vector>
-
 namespace frustumscreen::bake {
 
 /// The content of an atlas texel: a point on a triangle of the charted mesh.

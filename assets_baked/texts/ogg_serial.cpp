@@ -1,6 +1,5 @@
 #include "assets_baked/texts/ogg_serial.h"
 
-#include <algorithm>
 #include <cstring>
 #include <span>
 #include <string_view>

@@ -10,7 +10,6 @@
 
 #include "firmware_host/base/result.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>

@@ -4,7 +4,6 @@
 #include "firmware_host/display/kms_route.h"
 #include "firmware_host/display/output_properties.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace frustumscreen::display {

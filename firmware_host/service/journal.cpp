@@ -13,7 +13,6 @@
 
 #include <array>
 #include <cassert>
-#include <cstdio>
 #include <cstdlib>
 
 namespace frustumscreen::service {

@@ -13,7 +13,6 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/tracker/tracker.h"
 
-#include <optional>
 #include <string_view>
 #include <vector>
 

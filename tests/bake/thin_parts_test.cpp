@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 namespace frustumscreen::bake {

@@ -19,10 +19,7 @@ namespace {
 
 class OpenFileTest : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        WithTemporaryFolder::SetUp();
-        ASSERT_TRUE(write_file(folder / "digits", as_bytes("0123456789")));
-    }
+    void SetUp() override { put("digits", "0123456789"); }
     [[nodiscard]] std::string refusal(const std::string& name, std::uint64_t limit = 100) const {
         const Result<OpenFile> file = OpenFile::open(folder / name, limit);
         return file ? std::string() : test::told(file.error());

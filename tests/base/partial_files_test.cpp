@@ -17,9 +17,7 @@ namespace fs = std::filesystem;
 
 class PartialFiles : public WithTemporaryFolder {
 protected:
-    void put(const std::string& name) const {
-        ASSERT_TRUE(write_file(folder / name, as_bytes("half of a pack")));
-    }
+    void put(const std::string& name) const { WithTemporaryFolder::put(name, "half of a pack"); }
     /// The id of a process that has ended and was waited for.
     static std::string gone() {
         const pid_t child = ::fork();

@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 class CollectionFolder : public ProgramFolder {
 protected:
     void put(const std::string& file, const std::string& content = "x") const {
-        fs::create_directories((folder / file).parent_path());
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
+        ProgramFolder::put(file, content);
     }
 };
 

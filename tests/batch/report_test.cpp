@@ -9,7 +9,7 @@ class Report : public ProgramFolder {
 protected:
     /// The output of the Python program.
     std::string python(const std::string& program) const {
-        EXPECT_TRUE(write_file(folder / "look.py", as_bytes(program)));
+        put("look.py", program);
         EXPECT_EQ(std::system(fmt::format("cd '{}' && python3 look.py >out.txt", folder.string()).c_str()),
                   0);
         return text("out.txt");
@@ -31,7 +31,7 @@ const std::vector<BatchRow> rows = [] {
 }();
 
 TEST_F(Report, CsvIsReadAsItWasMeant) {
-    ASSERT_TRUE(write_file(folder / "report.csv", as_bytes(report_csv(rows))));
+    put("report.csv", report_csv(rows));
     EXPECT_EQ(
         python(
             "import csv\n"
@@ -44,8 +44,8 @@ TEST_F(Report, CsvIsReadAsItWasMeant) {
 }
 
 TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
-    ASSERT_TRUE(write_file(folder / "report.csv", as_bytes(report_csv(rows))));
-    ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "C", 1.0, {}))));
+    put("report.csv", report_csv(rows));
+    put("report.html", report_page(rows, "C", 1.0, {}));
     std::string keys;
     std::string headings;
     for (const ScanColumn& column : scan_columns()) {
@@ -81,7 +81,7 @@ TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
 
 TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
     const std::vector<std::string> over{"old <stuff>"};
-    ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "Coll & <i>", 61.0, over))));
+    put("report.html", report_page(rows, "Coll & <i>", 61.0, over));
     EXPECT_EQ(python("from html.parser import HTMLParser\n"
                      "class Look(HTMLParser):\n"
                      "    def handle_starttag(self, tag, attributes):\n"

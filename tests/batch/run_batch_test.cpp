@@ -33,8 +33,7 @@ END
 class Batch : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
-        ASSERT_TRUE(write_file(folder / "bake.sh", as_bytes(script)));
+        put("bake.sh", script);
         plan.output = folder / "out";
         fs::create_directories(plan.output);
         plan.program = {"env", "COUNT=" + (folder / "count").string(), "sh", (folder / "bake.sh").string()};
@@ -42,7 +41,7 @@ protected:
         plan.jobs = 2;
     }
     void add(const std::string& name, const std::string& content = "scan") {
-        ASSERT_TRUE(write_file(folder / name, as_bytes(content)));
+        put(name, content);
         plan.objects.push_back({name, folder / name, {}});
     }
     std::vector<BatchRow> run_all() const {
@@ -91,25 +90,25 @@ TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
     EXPECT_EQ(rows[0].title, "T") << "the report has it all the same";
     EXPECT_EQ(rows[0].scan.extents[2], 0.5) << "and what the scan has";
     EXPECT_EQ(rows[0].scan.lost, 1U);
-    ASSERT_TRUE(write_file(folder / "b", as_bytes("another scan")));
+    put("b", "another scan");
     rows = run_all();
     EXPECT_EQ(rows[1].status, BatchStatus::Baked);
     EXPECT_EQ(text("out/b.fspack"), "another scan");
     EXPECT_EQ(bakes(), 6U);
-    ASSERT_TRUE(write_file(folder / "out/a.fspack", as_bytes("somebody wrote here")));
+    put("out/a.fspack", "somebody wrote here");
     EXPECT_EQ(run_all()[0].status, BatchStatus::Baked) << "a pack that is not the stamp's";
     plan.bake_options = {"--unlit"};
     EXPECT_EQ(run_all()[0].status, BatchStatus::Baked);
     plan.program_key = "a newer program";
     EXPECT_EQ(run_all()[0].status, BatchStatus::Baked);
-    ASSERT_TRUE(write_file(folder / "out/a.stamp", as_bytes("{\"format\": 3}")));
+    put("out/a.stamp", "{\"format\": 3}");
     EXPECT_EQ(run_all()[0].status, BatchStatus::Baked) << "a stamp that is none";
     EXPECT_EQ(run_all()[0].status, BatchStatus::Unchanged);
 }
 
 TEST_F(Batch, AFailureSaysThatAnOlderPackIsStillThere) {
     add("bad");
-    ASSERT_TRUE(write_file(folder / "out/bad.fspack", as_bytes("of last year")));
+    put("out/bad.fspack", "of last year");
     EXPECT_NE(run_all()[0].sentence.find("(the previous pack is still there)"), std::string::npos);
     EXPECT_EQ(text("out/bad.fspack"), "of last year");
 }

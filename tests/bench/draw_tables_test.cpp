@@ -1,41 +1,31 @@
 // The bench's side of its plots, with fake scripts (tests/bench/plots tests the real one).
 
 #include "app/bench/plots/draw_tables.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-
-#include <fstream>
-#include <iterator>
 
 namespace frustumscreen::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-class DrawTables : public ::testing::Test {
+class DrawTables : public WithTemporaryFolder {
 protected:
-    DrawTables() : folder_(fs::path(testing::TempDir()) / ("draw_tables_" + std::to_string(::getpid()))) {
-        fs::create_directories(folder_);
-    }
-    ~DrawTables() override { fs::remove_all(folder_); }
-
     [[nodiscard]] fs::path script(const std::string& lines) const {
-        const fs::path path = folder_ / "script";
-        std::ofstream(path) << "#!/bin/sh\n" << lines;
+        const fs::path path = folder / "script";
+        put("script", "#!/bin/sh\n" + lines);
         fs::permissions(path, fs::perms::owner_all);
         return path;
     }
-
-    fs::path folder_;
 };
 
 TEST_F(DrawTables, TheScriptGetsItsArgumentsAsTheyAre) {
-    const fs::path said = folder_ / "said";
+    const fs::path said = folder / "said";
     const fs::path echo = script("printf '%s|' \"$@\" >'" + said.string() + "'\n");
     ASSERT_TRUE(draw_tables(echo, {"a b.csv", "$HOME", ""}));
-    std::ifstream file(said);
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "a b.csv|$HOME||");
+    EXPECT_EQ(text("said"), "a b.csv|$HOME||");
 }
 
 TEST_F(DrawTables, TheLastLineThatAFailingScriptSaysIsTheError) {
@@ -48,7 +38,7 @@ TEST_F(DrawTables, AScriptThatFailsSilentlyOrDiesIsNamed) {
     for (const char* lines : {"exit 3\n", "kill -9 $$\n"}) {
         const Result<void> drawn = draw_tables(script(lines), {});
         ASSERT_FALSE(drawn) << lines;
-        EXPECT_NE(drawn.error().message.find((folder_ / "script").string()), std::string::npos);
+        EXPECT_NE(drawn.error().message.find((folder / "script").string()), std::string::npos);
     }
 }
 
@@ -57,7 +47,7 @@ TEST_F(DrawTables, AWarningIsNoError) {
 }
 
 TEST_F(DrawTables, WhereThereIsNoScriptThePackageIsNamed) {
-    const Result<void> drawn = draw_tables(folder_ / "none", {});
+    const Result<void> drawn = draw_tables(folder / "none", {});
     ASSERT_FALSE(drawn);
     EXPECT_EQ(drawn.error().id, "plots.no_program") << drawn.error().message;
     EXPECT_EQ(drawn.error().message.find('\n'), std::string::npos);

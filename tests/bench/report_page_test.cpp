@@ -25,10 +25,6 @@ std::string page_of(const std::string& name, const std::string& table) {
 
 class ReportPage : public WithTemporaryFolder {
 protected:
-    void csv(const std::string& path, const std::string& text) const {
-        fs::create_directories((folder / path).parent_path());
-        ASSERT_TRUE(write_file(folder / path, as_bytes(text)));
-    }
     [[nodiscard]] Result<FilledPage> fill(const std::string& page) const {
         return fill_page(page, "page.md", folder);
     }
@@ -58,14 +54,14 @@ constexpr const char* frame_columns =
     "mean_silhouette_percent,mean_geometric_mean_mm,worst_geometric_mean_mm\n";
 
 TEST_F(ReportPage, AFrameOfEachModelHasItsCostAndErrors) {
-    csv("lit/skull/error_time.csv", std::string(frame_columns) +
+    put("lit/skull/error_time.csv", std::string(frame_columns) +
                                         "kiosk,floor,floor,1,1.0,,,,,\n"
                                         "near,mesh 2 (default),pack level,2,9.9,1,1,1,1,1\n"
                                         "kiosk,mesh 1,pack level,2,1.26,1,1,1,1,1\n"
                                         "kiosk,mesh 2 (default),pack level,2,3.449,0.0721,"
                                         "0.14649,9,0.065,0.1\n"
                                         "kiosk,relief384,pack relief,2,1.75,0.01,0.02,9,0.0049,0.0091\n");
-    csv("lit/bust/error_time.csv",
+    put("lit/bust/error_time.csv",
         std::string(frame_columns) + "kiosk,mesh 0 (default),pack level,2,31.6,0.5,1.25,9,0,12\n");
     expect_table("cost_shipped",
                  "| model | drawn as | x floor | outline px, mean | worst | mm, mean | worst |\n"
@@ -76,7 +72,7 @@ TEST_F(ReportPage, AFrameOfEachModelHasItsCostAndErrors) {
 }
 
 TEST_F(ReportPage, APeerIsTheCheapestOfThoseThatAreAsGood) {
-    csv("peers/skull/error_time.csv",
+    put("peers/skull/error_time.csv",
         std::string(frame_columns) +
             "kiosk,mesh 2 (default),pack level,2,3.0,0,0,0.100,0.050,0\n"
             "kiosk,relief384,pack relief,2,2.5,0,0,0.2,0.2,0\n"
@@ -85,7 +81,7 @@ TEST_F(ReportPage, APeerIsTheCheapestOfThoseThatAreAsGood) {
             "kiosk,LOD 20k,LOD,1,0.5,0,0,0.100,0.050,0\n" // another number of samples
             "kiosk,LOD 40k,LOD,2,2.2,0,0,0.010,0.010,0\n"
             "kiosk,ray cast (2 samples),ray cast,2,6.04,0,0,0,0,0\n");
-    csv("peers/sword/error_time.csv", std::string(frame_columns) +
+    put("peers/sword/error_time.csv", std::string(frame_columns) +
                                           "kiosk,mesh 2 (default),pack level,4,3.0,0,0,0.100,0.050,0\n"
                                           "kiosk,LOD 20k,LOD,4,2.0,0,0,0.2,0.052,0\n");
     expect_table("peers",
@@ -103,17 +99,17 @@ TEST_F(ReportPage, PosesAreCountedAndTheShownPicturesWorstIsThatOfBothSetUps) {
         "near,relief384,0.04,0.2,0.16,0.50,0.45,0.02,1.0\n"
         "kiosk,relief384,0.051,0,0,0.2,0.2,0.03,7.25\n"
         "kiosk,mesh 1 (default),9,9,9,0.1,0.2,0,0\n";
-    csv("lit/skull/error_time_poses.csv", poses);
+    put("lit/skull/error_time_poses.csv", poses);
     expect_table("relief_poses", "| model | near | shipped |\n|---|---|---|\n| skull | 1 of 2 | 0 of 1 |\n");
-    csv("shown/skull/error_time_poses.csv", poses);
-    csv("shown/skull/error_time.csv", "set_up,technique,kind,samples\nkiosk,relief384,pack relief,4\n");
+    put("shown/skull/error_time_poses.csv", poses);
+    put("shown/skull/error_time.csv", "set_up,technique,kind,samples\nkiosk,relief384,pack relief,4\n");
     expect_table("as_shown",
                  "| model | drawn as | samples | cover beyond samples, px | shift, px | RMSE, codes |\n"
                  "|---|---|---|---|---|---|\n| skull | relief384 | 4 | 0.100 | 0.030 | 7.2 |\n");
 }
 
 TEST_F(ReportPage, AnEstimateIsCountedByWhatWasDrawn) {
-    csv("estimate/six/estimate.csv", "artifact,level,poses,covered\n"
+    put("estimate/six/estimate.csv", "artifact,level,poses,covered\n"
                                      "\"a, b\",mesh 0 (default),6,5\n\"a, b\",mesh 1,6,3\n"
                                      "c,mesh 1,6,6\nc,mesh 2,6,1\nc,auto (mesh 1),6,4\nc,relief96,6,2\n");
     expect_table("estimate", "| scans | drawn | covered poses | of |\n|---|---|---|---|\n"
@@ -124,19 +120,19 @@ TEST_F(ReportPage, AnEstimateIsCountedByWhatWasDrawn) {
 }
 
 TEST_F(ReportPage, WhatVisitorsSeeIsAveragedOverPosesAndSequences) {
-    csv("projection/skull/projection.csv", "set_up,technique,right_16_rays_percent\n"
+    put("projection/skull/projection.csv", "set_up,technique,right_16_rays_percent\n"
                                            "kiosk,ray-cast picture,99\nkiosk,ray-cast picture,98\n"
                                            "kiosk,mesh 1 (default),97\nkiosk,mesh 1 (default),96.5\n"
                                            "near,mesh 1 (default),1\n");
     expect_table("projection", "| model | default, mean | default, worst | ray-cast picture, mean | "
                                "ray-cast picture, worst |\n|---|---|---|---|---|\n"
                                "| skull | 96.75 | 96.50 | 98.50 | 98.00 |\n");
-    csv("shimmer/skull/shimmer.csv", "set_up,technique,rms,rms_1_ray,rms_16_rays\n"
+    put("shimmer/skull/shimmer.csv", "set_up,technique,rms,rms_1_ray,rms_16_rays\n"
                                      "kiosk,mesh 1 (default),10,4,3\nkiosk,mesh 1 (default),11,4,3\n"
                                      "kiosk,mesh 12,2,6,4\nkiosk,mesh 12,3,7,5\n");
     expect_table("shimmer", "| model | default | finest | ray cast, 1 ray | ray cast, 16 rays |\n"
                             "|---|---|---|---|---|\n| skull | 10.50 | 2.50 | 6.50 | 4.50 |\n");
-    csv("shimmer/skull/edge_sparkle.csv", "set_up,pixels,edges,changes,rms\n"
+    put("shimmer/skull/edge_sparkle.csv", "set_up,pixels,edges,changes,rms\n"
                                           "near,shared,sharp,3,4\nnear,shared,sharp,1,8\n"
                                           "near,shared,feathered,5,2\nnear,beside,sharp,5,1\n"
                                           "near,beside,feathered,5,9\n");
@@ -146,14 +142,14 @@ TEST_F(ReportPage, WhatVisitorsSeeIsAveragedOverPosesAndSequences) {
 }
 
 TEST_F(ReportPage, CommandsWithoutAPackHaveOneFolderEach) {
-    csv("detail/scaling_near.csv", "source_triangles,technique,cpu_times_floor\n"
+    put("detail/scaling_near.csv", "source_triangles,technique,cpu_times_floor\n"
                                    "1000000,mesh 3 (default),8.5\n1000000,mesh 6,30\n1000000,relief384,5.64\n"
                                    "1000000,two-pass 1024,79.4\n500,mesh 0 (default),1\n");
     expect_table(
         "scaling_detail",
         "| source triangles | finest relief, x floor | default mesh | two-pass, eye image of 1024 |\n"
         "|---|---|---|---|\n| 500 | | 1.0 | |\n| 1,000,000 | 5.6 | 8.5 | 79 |\n");
-    csv("ladder/ladder_policies.csv",
+    put("ladder/ladder_policies.csv",
         "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n"
         "ladder,0.9856,0.009,0.0052,0.00019,120,27859,0\n"
         "systemd alone,0.95,0,0,0.05,43200,0,1\n");
@@ -162,7 +158,7 @@ TEST_F(ReportPage, CommandsWithoutAPackHaveOneFolderEach) {
                  "reboots | false alarms |\n|---|---|---|---|---|---|---|---|\n"
                  "| ladder | 98.56 % | 0.90 % | 0.52 % | 0.019 % | 2 min | 27,859 | 0 |\n"
                  "| systemd alone | 95.00 % | 0.00 % | 0.00 % | 5.00 % | 12 h | 0 | 1 |\n");
-    csv("stability/stability.csv", "theme,case,quantity,bound,observed,verdict\n"
+    put("stability/stability.csv", "theme,case,quantity,bound,observed,verdict\n"
                                    "light,a,\"shipped: light sent back, change a mm of the head\",1,0,held\n"
                                    "light,a,shipped: change a mm of the prop,1,7e-6,held\n"
                                    "light,a,shipped: change a turn of 0.05 deg,1,0.0123,held\n"
@@ -172,7 +168,7 @@ TEST_F(ReportPage, CommandsWithoutAPackHaveOneFolderEach) {
 }
 
 TEST_F(ReportPage, ATableWithoutItsCsvStaysAndSaysWhichFilesAreMissing) {
-    csv("ladder/ladder_policies.csv",
+    put("ladder/ladder_policies.csv",
         "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n");
     const std::string page = page_of("ladder", "| kept |\n") + page_of("shimmer", "");
     const Result<FilledPage> filled = fill(page);
@@ -191,7 +187,7 @@ TEST_F(ReportPage, AFolderWithoutAnyCsvIsAnError) {
 
 TEST_F(ReportPage, BadCsvFilesAreNamedWithLineAndColumn) {
     const std::string columns = "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n";
-    const auto ladder = [this](const std::string& text) { csv("ladder/ladder_policies.csv", text); };
+    const auto ladder = [this](const std::string& text) { put("ladder/ladder_policies.csv", text); };
     const std::string file = folder.string() + "/ladder/ladder_policies.csv, line ";
     ladder("policy,whole,untracked,words,dark,reboots,false_alarms\nladder,1,0,0,0,0,0\n");
     expect_error("ladder", "csv.column", file + "1: the column 'longest_dark_s' is missing");
@@ -210,7 +206,7 @@ TEST_F(ReportPage, BadCsvFilesAreNamedWithLineAndColumn) {
 }
 
 TEST_F(ReportPage, BadMarksAreNamedWithTheirLine) {
-    csv("ladder/ladder_policies.csv", "policy\n");
+    put("ladder/ladder_policies.csv", "policy\n");
     const auto error_of = [this](const std::string& page) {
         const Result<FilledPage> filled = fill(page);
         return filled ? std::string()
@@ -244,8 +240,8 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
     result.techniques = {mesh};
     result.poses.resize(1);
     for (const std::string run : {"lit", "shown"}) {
-        csv(run + "/skull/error_time.csv", summary_csv({&result, 1}));
-        csv(run + "/skull/error_time_poses.csv", poses_csv({&result, 1}));
+        put(run + "/skull/error_time.csv", summary_csv({&result, 1}));
+        put(run + "/skull/error_time_poses.csv", poses_csv({&result, 1}));
     }
     expect_table("cost_shipped",
                  "| model | drawn as | x floor | outline px, mean | worst | mm, mean | worst |\n"
@@ -259,7 +255,7 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
     ContestantResult shown{"exhibit, as shown", true, {}, {}, {}, {}, {}};
     shown.trembles = {{0.005, {1.0, 2.0, 0.25}}};
     tracker.contestants = {shown};
-    csv("latency/latency.csv", latency_csv({&tracker, 1}, {}));
+    put("latency/latency.csv", latency_csv({&tracker, 1}, {}));
     expect_table("trembling", "| slid at, mm/s | 2 | 5 | 15 | 50 | 150 |\n|---|---|---|---|---|---|\n"
                               "| as shown, 60 Hz | | | | | |\n"
                               "| as shown, 240 Hz | | 0.25 | | | |\n"

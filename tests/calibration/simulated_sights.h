@@ -5,7 +5,6 @@
 #include "app/calibration/eye_fit.h"
 #include "tests/simulators/table/simulated_table.h"
 
-#include <array>
 #include <cmath>
 
 namespace frustumscreen::calibration {

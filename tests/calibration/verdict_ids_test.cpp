@@ -4,28 +4,20 @@
 #include "app/calibration/corners.h"
 #include "app/calibration/eye_fit.h"
 #include "app/calibration/touch_up.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 
 namespace frustumscreen::calibration {
 
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 std::vector<std::string> found_in(const std::string& text, const std::regex& pattern) {
     std::vector<std::string> found;

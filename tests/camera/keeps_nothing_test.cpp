@@ -1,12 +1,12 @@
 // A camera's frames stay in memory. The kernel is the witness: strace records every call of a process while
 // frames pass through this module, and each call must be one that neither writes nor sends.
+#include "tests/base/temporary_folder.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -87,46 +87,29 @@ bool is_harmless(const std::string& call) {
     return harmless.contains(name);
 }
 
-/// Runs a program under strace; returns all calls.
-std::vector<std::string> calls_of(const std::string& program, const fs::path& folder) {
-    const fs::path trace = folder / "trace";
-    const std::string command =
-        "strace -f -qq -o " + trace.string() + " " + program + " > " + (folder / "said").string();
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    std::vector<std::string> calls;
-    std::ifstream file(trace);
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t begin = line.find_first_not_of("0123456789 ");
-        const std::string call = begin == std::string::npos ? "" : line.substr(begin);
-        const bool ends_another = call.rfind("<... ", 0) == 0; // "resumed": the call's beginning was counted
-        if (!ends_another && call.rfind("+++", 0) != 0 && call.rfind("---", 0) != 0) {
-            calls.push_back(call);
-        }
-    }
-    return calls;
-}
-
-std::string said_in(const fs::path& folder) {
-    std::ifstream file(folder / "said");
-    std::string line;
-    std::getline(file, line);
-    return line;
-}
-
-class KeepsNothing : public testing::Test {
+class KeepsNothing : public frustumscreen::WithTemporaryFolder {
 protected:
-    KeepsNothing()
-        : folder_(fs::temp_directory_path() / ("frustumscreen_keeps_nothing_" + std::to_string(::getpid()))) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
+    /// Runs a program under strace; returns all calls.
+    [[nodiscard]] std::vector<std::string> calls_of(const std::string& program) const {
+        EXPECT_EQ(shell("strace -f -qq -o trace " + program + " > said"), 0) << program;
+        std::vector<std::string> calls;
+        std::istringstream trace(text("trace"));
+        for (std::string line; std::getline(trace, line);) {
+            const std::size_t begin = line.find_first_not_of("0123456789 ");
+            const std::string call = begin == std::string::npos ? "" : line.substr(begin);
+            const bool ends_another =
+                call.rfind("<... ", 0) == 0; // "resumed": the call's beginning was counted
+            if (!ends_another && call.rfind("+++", 0) != 0 && call.rfind("---", 0) != 0) {
+                calls.push_back(call);
+            }
+        }
+        return calls;
     }
-    ~KeepsNothing() override { fs::remove_all(folder_); }
-    fs::path folder_;
 };
 
 TEST_F(KeepsNothing, NoFileIsOpenedForWritingAndNothingLeavesTheProcess) {
-    const std::vector<std::string> calls = calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY, folder_);
-    EXPECT_EQ(said_in(folder_), "60 frames");
+    const std::vector<std::string> calls = calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY);
+    EXPECT_EQ(text("said"), "60 frames\n");
     EXPECT_GT(calls.size(), 100U);
     for (const std::string& call : calls) {
         EXPECT_TRUE(is_harmless(call)) << call;
@@ -138,8 +121,8 @@ TEST_F(KeepsNothing, NoFileIsOpenedForWritingAndNothingLeavesTheProcess) {
 
 TEST_F(KeepsNothing, AFrameThatIsWrittenIsSeen) {
     const std::vector<std::string> calls =
-        calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY " " + (folder_ / "frame").string(), folder_);
-    ASSERT_TRUE(fs::exists(folder_ / "frame"));
+        calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY " " + (folder / "frame").string());
+    ASSERT_TRUE(fs::exists(folder / "frame"));
     EXPECT_GE(std::count_if(calls.begin(), calls.end(), [](const auto& call) { return !is_harmless(call); }),
               2)
         << "its opening and its writing";
@@ -152,14 +135,13 @@ protected:
     UsesKeepNothing() { fs::create_directories(kept_); }
     /// Collects the writing calls in order, separately for the drift file and the rest.
     void run(const std::string& option) {
-        for (const std::string& call :
-             calls_of(FRUSTUMSCREEN_USES_IN_MEMORY " " + kept_.string() + option, folder_)) {
+        for (const std::string& call : calls_of(FRUSTUMSCREEN_USES_IN_MEMORY " " + kept_.string() + option)) {
             if (!is_harmless(call)) {
                 (is_of_drift(call) ? of_drift_ : others_).push_back(call);
             }
         }
     }
-    fs::path kept_ = folder_ / "kept";
+    fs::path kept_ = folder / "kept";
     std::vector<std::string> of_drift_, others_;
     unsigned long written_ = 0; ///< bytes, into the drift file
 
@@ -187,7 +169,7 @@ private:
 
 TEST_F(UsesKeepNothing, ButTheSmallFileOfTheDriftsMarks) {
     run("");
-    EXPECT_EQ(said_in(folder_), "enough frames");
+    EXPECT_EQ(text("said"), "enough frames\n");
     for (const std::string& call : others_) {
         ADD_FAILURE() << call;
     }

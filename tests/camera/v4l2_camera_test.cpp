@@ -1,27 +1,14 @@
 #include "firmware_host/camera/v4l2_camera.h"
+#include "tests/base/comes_true.h"
 #include "tests/camera/fake_v4l2.h"
 
 #include <gtest/gtest.h>
-
-#include <thread>
 
 namespace frustumscreen::camera {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-/// Polls until `done` or for twenty seconds; asserts no duration.
-template <typename Done> bool eventually(const Done& done) {
-    const auto give_up = std::chrono::steady_clock::now() + seconds(20);
-    while (!done()) {
-        if (std::chrono::steady_clock::now() > give_up) {
-            return false;
-        }
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return true;
-}
 
 TEST(V4l2Camera, FramesComeThroughWholeEachOnceAndACameraIsFoundAgain) {
     FakeCamera fake;
@@ -39,19 +26,19 @@ TEST(V4l2Camera, FramesComeThroughWholeEachOnceAndACameraIsFoundAgain) {
         last = frame.number;
         return true;
     };
-    ASSERT_TRUE(eventually([&] { return next() && ++sequence == 10; }));
-    EXPECT_TRUE(eventually([&] { return camera.state() == CameraState::Running; }));
+    ASSERT_TRUE(comes_true([&] { return next() && ++sequence == 10; }));
+    EXPECT_TRUE(comes_true([&] { return camera.state() == CameraState::Running; }));
     EXPECT_EQ(frame.luma, noisy_ramp(64, 48, frame.number - 1));
     ASSERT_TRUE(camera.set_up());
     EXPECT_EQ(camera.set_up()->path, "/dev/video0");
     EXPECT_GT(camera.alive_until(), monotonic_now());
 
     fake.plugged = false;
-    ASSERT_TRUE(eventually([&] { return camera.state() == CameraState::NotConnected; }));
+    ASSERT_TRUE(comes_true([&] { return camera.state() == CameraState::NotConnected; }));
     static_cast<void>(next()); // one frame may have been waiting
     EXPECT_FALSE(camera.poll(frame)) << "an old frame is handed on once";
     fake.plugged = true;
-    ASSERT_TRUE(eventually([&] { return next(); }));
+    ASSERT_TRUE(comes_true([&] { return next(); }));
     EXPECT_EQ(camera.counts().connections, 2U);
     EXPECT_GE(camera.counts().frames, last);
 }

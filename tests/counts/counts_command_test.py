@@ -33,11 +33,9 @@ def day_file(day, hours, artifacts):
 
 class Counts(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name) / "counts"
+        self.out = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.folder = self.out / "counts"
         self.folder.mkdir()
-        self.out = Path(temporary.name)
 
     def write(self, name, content):
         text = content if isinstance(content, str) else json.dumps(content)

@@ -1,8 +1,7 @@
 // When the numbers are written, and to which day they belong; then the same through the thread.
 #include "app/counts/visit_book.h"
+#include "tests/base/comes_true.h"
 #include "tests/counts/folder_of_counts.h"
-
-#include <thread>
 
 namespace frustumscreen::counts {
 namespace {
@@ -29,10 +28,10 @@ protected:
         keeper_.take(all, start + after, wall);
     }
     [[nodiscard]] std::uint64_t kept(const char* name) const {
-        const Result<DayCounts> read = parse_day_counts(text_of(name));
+        const Result<DayCounts> read = parse_day_counts(text(name));
         return read ? read->all().visits : 0;
     }
-    DayKeeper keeper_{folder_, an_hour_east()};
+    DayKeeper keeper_{folder, an_hour_east()};
 };
 
 TEST_F(KeptDays, AreWrittenTenMinutesAfterSomethingWasCounted) {
@@ -45,7 +44,7 @@ TEST_F(KeptDays, AreWrittenTenMinutesAfterSomethingWasCounted) {
     EXPECT_EQ(keeper_.visits().today.visits, 3U);
     take(0, hours(3) + minutes(10) + seconds(1), friday + hours(13));
     EXPECT_EQ(kept("2026-11-27.json"), 3U);
-    std::filesystem::remove(folder_ / "2026-11-27.json");
+    std::filesystem::remove(folder / "2026-11-27.json");
     take(0, hours(5), friday + hours(15));
     EXPECT_FALSE(has("2026-11-27.json")) << "nothing new was counted";
 }
@@ -58,13 +57,13 @@ TEST_F(KeptDays, BeginAtLocalMidnight) {
     EXPECT_EQ(keeper_.visits().since_start.visits, 5U);
     keeper_.finish();
     EXPECT_EQ(kept("2026-11-28.json"), 3U);
-    const Result<DayCounts> read = parse_day_counts(text_of("2026-11-27.json"));
+    const Result<DayCounts> read = parse_day_counts(text("2026-11-27.json"));
     ASSERT_TRUE(read);
     EXPECT_EQ(read->hours[23].visits, 2U);
 }
 
 TEST_F(KeptDays, GoOnAfterAnotherStart) {
-    ASSERT_TRUE(keep_day(folder_, counted(std::chrono::floor<std::chrono::days>(friday), 4)));
+    ASSERT_TRUE(keep_day(folder, counted(std::chrono::floor<std::chrono::days>(friday), 4)));
     take(1, seconds(0), friday + hours(10));
     EXPECT_EQ(keeper_.visits().today.visits, 5U);
     EXPECT_EQ(keeper_.visits().since_start.visits, 1U);
@@ -82,23 +81,23 @@ TEST_F(KeptDays, HaveNoDayWhileTheClockIsWrong) {
 }
 
 TEST_F(KeptDays, TellADamagedFileAndCountOn) {
-    write("2026-11-27.json", "damaged");
+    put("2026-11-27.json", "damaged");
     take(1, seconds(0), friday + hours(10));
     EXPECT_NE(keeper_.visits().trouble.find("2026-11-27.json.bad"), std::string::npos);
     keeper_.finish();
     EXPECT_EQ(kept("2026-11-27.json"), 1U);
-    EXPECT_EQ(text_of("2026-11-27.json.bad"), "damaged");
+    EXPECT_EQ(text("2026-11-27.json.bad"), "damaged");
     EXPECT_NE(keeper_.visits().trouble, "") << "the disk needs attention";
 }
 
 TEST_F(KeptDays, AreWrittenLaterWhereTheyCannotBeWrittenNow) {
-    const std::filesystem::path away = folder_.string() + ".away";
+    const std::filesystem::path away = folder.string() + ".away";
     take(3, seconds(0), friday + hours(10));
-    std::filesystem::rename(folder_, away);
+    std::filesystem::rename(folder, away);
     take(0, minutes(11), friday + hours(10));
     EXPECT_NE(keeper_.visits().trouble, "");
     EXPECT_EQ(keeper_.visits().today.visits, 3U);
-    std::filesystem::rename(away, folder_);
+    std::filesystem::rename(away, folder);
     take(0, minutes(11) + seconds(30), friday + hours(10));
     EXPECT_FALSE(has("2026-11-27.json")) << "a disk that fails is not asked each second";
     take(0, minutes(13), friday + hours(10));
@@ -109,7 +108,7 @@ TEST_F(KeptDays, AreWrittenLaterWhereTheyCannotBeWrittenNow) {
 TEST_F(FolderOfCounts, TheBookTakesPiecesAndWritesThemAtItsEnd) {
     constexpr int rounds = 50;
     {
-        VisitBook book(folder_, [](sys_seconds) { return seconds(0); });
+        VisitBook book(folder, [](sys_seconds) { return seconds(0); });
         std::vector<VisitPiece> pieces;
         for (int k = 0; k < rounds; ++k) {
             pieces.push_back(piece(k % 2 == 0 ? "Amphora" : "Cup"));
@@ -118,15 +117,13 @@ TEST_F(FolderOfCounts, TheBookTakesPiecesAndWritesThemAtItsEnd) {
             }
         }
         CountedVisits visits;
-        for (const MonotonicTime end = monotonic_now() + seconds(60);
-             visits.since_start.visits != rounds && monotonic_now() < end;) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        EXPECT_TRUE(comes_true([&] {
             book.read(visits);
-        }
-        EXPECT_EQ(visits.since_start.visits, std::uint64_t{rounds});
+            return visits.since_start.visits == rounds;
+        })) << visits.since_start.visits;
         EXPECT_EQ(visits.trouble, "");
     }
-    const Result<ReadCounts> read = read_counts(folder_);
+    const Result<ReadCounts> read = read_counts(folder);
     ASSERT_TRUE(read) << read.error().message;
     std::uint64_t visits = 0;
     std::uint64_t ms = 0;

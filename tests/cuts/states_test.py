@@ -36,9 +36,7 @@ def slot(path, letter):
 class States(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.versions = []
         for name, part, letter in (("0.1.0", "a", b"1"), ("0.2.0", "b", b"2")):
             kernel = cls.folder / f"{name}.efi"

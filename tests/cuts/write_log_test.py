@@ -19,9 +19,7 @@ def sector(letter):
 
 class Recorded(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.image, self.log = self.folder / "image", self.folder / "log"
         self.image.write_bytes(sector(".") * 8)
         (self.folder / "disk").write_bytes(self.image.read_bytes())

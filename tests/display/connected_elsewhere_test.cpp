@@ -1,42 +1,33 @@
 #include "firmware_host/display/connected_elsewhere.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 namespace frustumscreen::display {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A folder like /sys/class/drm.
-class ConnectedElsewhere : public testing::Test {
+class ConnectedElsewhere : public WithTemporaryFolder {
 protected:
-    ConnectedElsewhere() : folder_(fs::path(testing::TempDir()) / "connected_elsewhere_test") {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_ / "card0");
-        std::ofstream(folder_ / "version") << "drm 1.1.0 20060810\n";
+    void SetUp() override {
+        std::filesystem::create_directory(folder / "card0");
+        put("version", "drm 1.1.0 20060810\n");
     }
-    ~ConnectedElsewhere() override { fs::remove_all(folder_); }
-
-    void put(const std::string& connector, const std::string& status) {
-        fs::create_directories(folder_ / connector);
-        std::ofstream(folder_ / connector / "status") << status << "\n";
+    void say(const std::string& connector, const std::string& status) const {
+        put(connector + "/status", status + "\n");
     }
-
-    fs::path folder_;
 };
 
 TEST_F(ConnectedElsewhere, ListsWhatIsConnectedToEachCard) {
-    EXPECT_TRUE(connected_connectors(folder_).empty());
-    EXPECT_TRUE(connected_connectors(folder_ / "nowhere").empty());
-    put("card1-HDMI-A-1", "connected");
-    put("card0-DP-1", "connected");
-    put("card0-VGA-1", "unknown");
-    put("card0-HDMI-A-1", "disconnected");
-    EXPECT_EQ(connected_connectors(folder_), (std::vector<std::string>{"card0-DP-1", "card1-HDMI-A-1"}));
-    put("card1-HDMI-A-1", "disconnected");
-    EXPECT_EQ(connected_connectors(folder_), (std::vector<std::string>{"card0-DP-1"}));
+    EXPECT_TRUE(connected_connectors(folder).empty());
+    EXPECT_TRUE(connected_connectors(folder / "nowhere").empty());
+    say("card1-HDMI-A-1", "connected");
+    say("card0-DP-1", "connected");
+    say("card0-VGA-1", "unknown");
+    say("card0-HDMI-A-1", "disconnected");
+    EXPECT_EQ(connected_connectors(folder), (std::vector<std::string>{"card0-DP-1", "card1-HDMI-A-1"}));
+    say("card1-HDMI-A-1", "disconnected");
+    EXPECT_EQ(connected_connectors(folder), (std::vector<std::string>{"card0-DP-1"}));
 }
 
 TEST_F(ConnectedElsewhere, ACardHasItsOwnConnectorsAlone) {

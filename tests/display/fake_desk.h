@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 
 namespace frustumscreen::display {
 

@@ -10,8 +10,6 @@
 #include <GLES2/gl2ext.h>
 #include <GLES3/gl3.h>
 
-#include <cstring>
-
 using namespace frustumscreen;
 using namespace frustumscreen::display;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 using namespace frustumscreen;
 using namespace frustumscreen::display;

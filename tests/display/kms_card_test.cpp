@@ -1,4 +1,5 @@
 // Which card is opened, and what is detected on it.
+#include "tests/base/temporary_folder.h"
 #include "tests/display/fake_desk.h"
 
 #include <filesystem>
@@ -125,21 +126,16 @@ TEST_F(KmsCardTest, ACardCanBeMoved) {
 }
 
 /// A folder of cards like /dev/dri, and a folder of their connectors like /sys/class/drm.
-class SeveralCards : public testing::Test {
+class SeveralCards : public WithTemporaryFolder {
 protected:
-    SeveralCards() : folder_(fs::path(testing::TempDir()) / "several_cards_test") {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_ / "dri");
-        std::ofstream(folder_ / "dri" / "renderD128");
-    }
+    void SetUp() override { put("dri/renderD128", ""); }
     ~SeveralCards() override {
-        fs::remove_all(folder_);
         EXPECT_EQ(kernel_.alive(), "");
         EXPECT_EQ(kernel_.wrongs(), "");
     }
-    [[nodiscard]] std::string cards() const { return folder_ / "dri"; }
-    [[nodiscard]] std::string path(const std::string& name) const { return folder_ / "dri" / name; }
-    [[nodiscard]] std::string connectors() const { return folder_ / "sys"; }
+    [[nodiscard]] std::string cards() const { return folder / "dri"; }
+    [[nodiscard]] std::string path(const std::string& name) const { return folder / "dri" / name; }
+    [[nodiscard]] std::string connectors() const { return folder / "sys"; }
 
     CardOnDesk& add(const std::string& name) {
         std::ofstream(path(name)).flush();
@@ -148,8 +144,8 @@ protected:
     }
     /// Sets a connector's status in sysfs.
     void say(const std::string& connector, const std::string& status) {
-        fs::create_directories(folder_ / "sys" / connector);
-        std::ofstream(folder_ / "sys" / connector / "status") << status << "\n";
+        fs::create_directories(folder / "sys" / connector);
+        std::ofstream(folder / "sys" / connector / "status") << status << "\n";
     }
     [[nodiscard]] std::string opened(const OutputRequest& request = {}) const {
         const Result<KmsCard> card = KmsCard::open("", request, cards());
@@ -160,7 +156,6 @@ protected:
     std::vector<std::unique_ptr<CardOnDesk>> desks_;
 
 private:
-    fs::path folder_;
 };
 
 TEST_F(SeveralCards, WithoutAnyTheDriverIsAskedFor) {

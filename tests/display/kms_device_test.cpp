@@ -21,6 +21,13 @@ protected:
         buffers_.push_back(DumbBuffer::create(card_->file(), {width, height}).value());
         return buffers_.back().shown();
     }
+    /// A picture that is shown, and whose flip was received.
+    FramebufferId lit() {
+        const FramebufferId picture = framebuffer();
+        EXPECT_EQ(light(picture), KmsAnswer::Done);
+        static_cast<void>(done());
+        return picture;
+    }
     KmsAnswer light(FramebufferId shown, int width = 320, int height = 200, std::uint64_t ticket = 1) {
         return kms_->light(desk.hdmi, a_mode(width, height, 60.0),
                            {shown, {width, height}, {0, 0, width, height}}, ticket);
@@ -81,9 +88,7 @@ TEST_P(Device, TwoFramebuffersTakeTurns) {
 }
 
 TEST_P(Device, AFlipHasTheCardsTime) {
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    const FramebufferId picture = lit();
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
     desk.card.time_us = 7'000'000;
     desk.card.refresh();
@@ -95,9 +100,7 @@ TEST_P(Device, AFlipHasTheCardsTime) {
 TEST_P(Device, ACardWhoseClockIsAnotherGetsTheProgramsTime) {
     desk.card.monotonic = false;
     kms_ = make_kms_device(*card_);
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    const FramebufferId picture = lit();
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
     const MonotonicTime before = kms_->now();
     desk.card.refresh();
@@ -109,18 +112,14 @@ TEST_P(Device, ACardWhoseClockIsAnotherGetsTheProgramsTime) {
 
 TEST_P(Device, WithoutVerticalBlanksFlipsKeepNoTime) {
     desk.card.vertical_blanks = false;
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    const FramebufferId picture = lit();
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
     EXPECT_EQ(done(), std::vector<std::uint64_t>{2});
     EXPECT_FALSE(kms_->flips_keep_time());
 }
 
 TEST_P(Device, WhatIsNoFlipOfOursIsPassedOver) {
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    lit();
     drm_event_vblank event{};
     event.base = {DRM_EVENT_VBLANK, sizeof event};
     event.crtc_id = desk.crtcs[0];
@@ -206,9 +205,7 @@ TEST_P(Device, WhatTheKernelSaysIsAnswered) {
 }
 
 TEST_P(Device, ACardThatWasPulledOutIsGone) {
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    const FramebufferId picture = lit();
     desk.card.gone = true;
     EXPECT_EQ(kms_->flip(picture, 2), KmsAnswer::Gone);
     EXPECT_EQ(light(picture), KmsAnswer::Gone);
@@ -217,9 +214,7 @@ TEST_P(Device, ACardThatWasPulledOutIsGone) {
 }
 
 TEST_P(Device, AFramebufferThatIsRemovedIsNoLongerShown) {
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    lit();
     buffers_.clear();
     EXPECT_EQ(shown(), 0U);
     EXPECT_EQ(kms_->flip(framebuffer(), 2), GetParam() ? KmsAnswer::Refused : KmsAnswer::Busy)
@@ -273,9 +268,7 @@ TEST_P(AtomicDevice, WhatAnEarlierProgramLeftOnThePlaneIsReset) {
 }
 
 TEST_P(AtomicDevice, AnOverlayOfAnEarlierProgramIsTurnedOff) {
-    const FramebufferId picture = framebuffer();
-    ASSERT_EQ(light(picture), KmsAnswer::Done);
-    static_cast<void>(done());
+    const FramebufferId picture = lit();
     desk.card.set(desk.overlay, "FB_ID", picture);
     desk.card.set(desk.overlay, "CRTC_ID", desk.crtcs[0]);
     ASSERT_EQ(light(picture), KmsAnswer::Done);

@@ -132,15 +132,20 @@ TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
     }
 }
 
-TEST(KmsMode, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
-    ConnectorSeen panel = a_projector(1, "eDP-1");
-    panel.built_in = true;
-    ConnectorSeen off = a_projector(2, "HDMI-A-1");
-    off.plugged = Plugged::No;
-    ConnectorSeen unsure = a_projector(3, "VGA-1");
-    unsure.plugged = Plugged::Unknown;
-    ConnectorSeen mute = a_projector(4, "DP-1");
-    mute.modes.clear();
+/// Connectors that are less than a projector that is there.
+class KmsChoice : public testing::Test {
+protected:
+    KmsChoice() {
+        panel.built_in = true;
+        off.plugged = Plugged::No;
+        unsure.plugged = Plugged::Unknown;
+        mute.modes.clear();
+    }
+    ConnectorSeen panel = a_projector(1, "eDP-1"), off = a_projector(2, "HDMI-A-1"),
+                  unsure = a_projector(3, "VGA-1"), mute = a_projector(4, "DP-1");
+};
+
+TEST_F(KmsChoice, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
     const ConnectorSeen there = a_projector(5, "DP-2");
     const auto chosen = [](std::vector<ConnectorSeen> all, const OutputRequest& asked) {
         const CardSeen card = a_card(std::move(all));
@@ -166,15 +171,7 @@ TEST(KmsMode, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) 
     EXPECT_EQ(chosen({there, mute, off}, forced), "none") << "no mode to force";
 }
 
-TEST(KmsMode, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
-    ConnectorSeen panel = a_projector(1, "eDP-1");
-    panel.built_in = true;
-    ConnectorSeen off = a_projector(2, "HDMI-A-1");
-    off.plugged = Plugged::No;
-    ConnectorSeen unsure = a_projector(3, "VGA-1");
-    unsure.plugged = Plugged::Unknown;
-    ConnectorSeen mute = a_projector(4, "DP-1");
-    mute.modes.clear();
+TEST_F(KmsChoice, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
     EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), request()), CardRank::Projector);
     EXPECT_EQ(rank_of(a_card({off, panel}), request()), CardRank::Panel);
     for (const ConnectorSeen& nothing_certain : {off, unsure, mute}) {

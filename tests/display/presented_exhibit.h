@@ -48,4 +48,13 @@ public:
     Presenter presenter;
 };
 
+/// One that has shown five pictures on a projector.
+class LitExhibit : public PresentedExhibit {
+public:
+    LitExhibit() {
+        presenter.connected(a_card({a_projector()}));
+        frames(5);
+    }
+};
+
 } // namespace frustumscreen::display

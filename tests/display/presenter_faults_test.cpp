@@ -9,9 +9,7 @@ namespace frustumscreen::display {
 namespace {
 
 TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     exhibit.kms.hangs = true;
     exhibit.frame();
     const MonotonicTime hung = exhibit.kms.time;
@@ -29,9 +27,7 @@ TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
 }
 
 TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     exhibit.kms.hangs = true;
     exhibit.frames(10);
     exhibit.kms.hangs = false;
@@ -41,9 +37,7 @@ TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
 }
 
 TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     exhibit.kms.busy = 2;
     exhibit.frames(3);
     EXPECT_TRUE(exhibit.says("is lit"));
@@ -52,9 +46,7 @@ TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
 }
 
 TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     exhibit.kms.master = false;
     exhibit.kms.held_by_another = true;
     exhibit.frames(200);
@@ -67,9 +59,7 @@ TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
 }
 
 TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     exhibit.kms.gone = true;
     exhibit.frames(100);
     EXPECT_TRUE(exhibit.says("graphics card is gone")) << exhibit.presenter.state();
@@ -83,9 +73,7 @@ TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
 }
 
 TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     ConnectorSeen bad = a_projector();
     bad.link_bad = true;
     exhibit.presenter.connected(a_card({bad}));

@@ -177,9 +177,7 @@ TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
 }
 
 TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
-    PresentedExhibit exhibit;
-    exhibit.presenter.connected(a_card({a_projector()}));
-    exhibit.frames(5);
+    LitExhibit exhibit;
     ConnectorSeen other = a_projector();
     other.modes = {a_mode(1920, 1080, 60.0, true)};
     exhibit.presenter.connected(a_card({other}));

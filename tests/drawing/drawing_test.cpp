@@ -40,7 +40,7 @@ constexpr Case cases[] = {
 class Drawing : public programs::ProgramFolder {
 protected:
     [[nodiscard]] std::string drawn(const char* settings, const char* sheet) const {
-        EXPECT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
+        put("kiosk.toml", settings);
         EXPECT_EQ(
             run(fmt::format("frustumscreen drawing --config kiosk.toml -o drawing.svg --sheet {}", sheet)), 0)
             << text("err.txt");
@@ -270,7 +270,7 @@ TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
 }
 
 TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
-    ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[prop]\ntop_m = 0.4\n")));
+    put("kiosk.toml", "[prop]\ntop_m = 0.4\n");
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg"), 1);
     EXPECT_TRUE(test::tells(text("err.txt"), {"frustumscreen: kiosk.toml:2: prop.top_m is 0.4", "0.3 metres",
                                               "[settings.prop_top]\n"}));

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 
 #include <cmath>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <string>

@@ -4,13 +4,13 @@
 #include "app/drift/mark_places.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/drift/table_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 
 namespace frustumscreen::drift {
@@ -31,15 +31,8 @@ class Kiosk {
 public:
     Kiosk(int width, int height, const SceneFaults& faults, std::vector<SceneTag> tags = {})
         : width(width), height(height), scene(width, height, faults, std::move(tags)) {
-        folder =
-            std::filesystem::temp_directory_path() /
-            ("drift_test_" + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()));
-        std::filesystem::create_directories(folder);
         start();
     }
-    ~Kiosk() { std::filesystem::remove_all(folder); }
-    Kiosk(const Kiosk&) = delete;
-    Kiosk& operator=(const Kiosk&) = delete;
 
     /// `aside_m`: displacement of the last mark's place, as by another calibration.
     void start(double aside_m = 0.0) {
@@ -70,7 +63,8 @@ public:
     MarkSchedule shadow{marks.size()}; ///< steps in parallel with the watch's own
     geometry::RigidTransform real = SceneProjector().table_from_projector;
     std::unique_ptr<DriftWatch> watch;
-    std::filesystem::path folder;
+    TemporaryFolder own_folder;
+    std::filesystem::path folder = own_folder.path();
     MonotonicTime now = MonotonicTime(seconds(100));
     Nanoseconds frame_time = milliseconds(66);
     bool someone = false;

@@ -145,8 +145,8 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
     exhibit.hear(true); // and never ends
     exhibit.await_set(true);
     const Nanoseconds waited = leaves_within(seconds(60));
-    EXPECT_GE(waited, Exhibit::longest_wait);
-    EXPECT_LE(waited, Exhibit::longest_wait + seconds(1));
+    EXPECT_GE(waited, SetChange::longest_wait);
+    EXPECT_LE(waited, SetChange::longest_wait + seconds(1));
 }
 
 TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
@@ -158,8 +158,8 @@ TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
         exhibit.await_set((now - from) % seconds(2) >= milliseconds(100));
         run(milliseconds(20));
     }
-    EXPECT_GE(now - from, Exhibit::longest_wait);
-    EXPECT_LE(now - from, Exhibit::longest_wait + seconds(1));
+    EXPECT_GE(now - from, SetChange::longest_wait);
+    EXPECT_LE(now - from, SetChange::longest_wait + seconds(1));
 }
 
 TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
@@ -171,7 +171,7 @@ TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
     run(seconds(15));
     EXPECT_FALSE(exhibit.leaves_set());
     exhibit.await_set(true);
-    EXPECT_GE(leaves_within(seconds(60)), Exhibit::longest_wait);
+    EXPECT_GE(leaves_within(seconds(60)), SetChange::longest_wait);
 }
 
 TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {

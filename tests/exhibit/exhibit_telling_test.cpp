@@ -1,5 +1,4 @@
 // Narration as the exhibit's decisions: buttons, rest, advice, captions and lamps.
-#include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
 
@@ -14,16 +13,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const settings::Settings shipped;
 constexpr glm::dvec2 short_text{0.2, 0.05};
 const std::vector<std::vector<glm::dvec2>> portion_sizes{{{0.20, 0.03}}, {{0.18, 0.06}}, {{0.10, 0.02}}};
 
 ExhibitPlace place() {
-    ExhibitPlace place;
-    place.prop = settings::make_prop(shipped.prop);
-    place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = settings::picture_on_table(shipped, 0.0);
-    place.guidance = guidance_setup(shipped);
+    ExhibitPlace place = sample::shipped_place();
     place.words = {{"en", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}}};
     place.buttons = 5;
     return place;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/exhibit/exhibit.h"
+#include "app/exhibit/guidance_setup.h"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,27 @@ inline exhibit::ExhibitPlace place() {
     place.lens_m = {0.0, 0.3, 1.4};
     place.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};
     return place;
+}
+
+/// The shipped settings' table, without words.
+inline exhibit::ExhibitPlace shipped_place() {
+    const settings::Settings shipped;
+    exhibit::ExhibitPlace place;
+    place.prop = settings::make_prop(shipped.prop);
+    place.lens_m = shipped.projector.table_from_projector.translation;
+    place.picture_m = settings::picture_on_table(shipped, 0.0);
+    place.guidance = exhibit::guidance_setup(shipped);
+    return place;
+}
+
+/// Words of one size for these keys.
+inline exhibit::AdviceLanguage words_of(const std::string& language, const std::vector<std::string>& keys,
+                                        const glm::dvec2& size_m = {0.1, 0.02}) {
+    exhibit::AdviceLanguage words{language, {}};
+    for (const std::string& key : keys) {
+        words.texts.push_back({key, {size_m}});
+    }
+    return words;
 }
 
 inline exhibit::Exhibit exhibit(std::size_t artifacts, const std::vector<std::string>& languages,

@@ -1,6 +1,5 @@
 // Guidance for visitors: signs that never lie on the prop, then words, then speech; and silence.
 #include "app/bench/truth/seeded_situations.h"
-#include "app/exhibit/guidance_setup.h"
 #include "exhibits.h"
 #include "tests/render/counted_new.h"
 
@@ -16,14 +15,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const settings::Settings shipped;
-
 ExhibitPlace guided_place() {
-    ExhibitPlace place;
-    place.prop = settings::make_prop(shipped.prop);
-    place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = settings::picture_on_table(shipped, 0.0);
-    place.guidance = guidance_setup(shipped);
+    ExhibitPlace place = sample::shipped_place();
     place.words = {{"de", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}},
                    {"en", {{"slide_left", {{0.1, 0.02}}}, {"slide_right", {{0.1, 0.02}}}}}};
     return place;

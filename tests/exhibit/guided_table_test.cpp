@@ -1,13 +1,11 @@
 // Guidance and the pictures on the table: choosing a picture needs no advice, and words lie beside pictures.
 
-#include "app/exhibit/guidance_setup.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/whole_zone.h"
 #include "tests/exhibit/exhibits.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -20,25 +18,19 @@ using std::chrono::milliseconds;
 
 struct Visit {
     settings::Settings shipped;
-    ExhibitPlace place;
+    ExhibitPlace place = sample::shipped_place();
     std::optional<Exhibit> exhibit;
     MonotonicTime now = start;
     tracking::TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown;
 
     explicit Visit(bool pictures, std::vector<glm::dvec3> hull = {}) {
-        place.prop = settings::make_prop(shipped.prop);
-        place.lens_m = shipped.projector.table_from_projector.translation;
-        place.picture_m = settings::picture_on_table(shipped, 0.0);
-        place.guidance = guidance_setup(shipped);
         place.table_pictures = pictures;
         place.zone = ZoneFrame(settings::lit_rectangle(shipped), 0.15, {0.8, 0.5});
-        for (const char* key : {"slide_left", "slide_right", "slide_nearer", "slide_farther",
-                                "slide_left_a_little", "slide_right_a_little", "slide_nearer_a_little",
-                                "slide_farther_a_little", "turn", "turn_left", "turn_right"}) {
-            words.texts.push_back({key, {{0.1, 0.02}}});
-        }
-        place.words = {words};
+        place.words = {
+            sample::words_of("en", {"slide_left", "slide_right", "slide_nearer", "slide_farther",
+                                    "slide_left_a_little", "slide_right_a_little", "slide_nearer_a_little",
+                                    "slide_farther_a_little", "turn", "turn_left", "turn_right"})};
         CatalogueEntry entry{{"en"}, {{{0.2, 0.05}, {0.1, 0.1}}}, {}};
         entry.hull = std::move(hull);
         exhibit.emplace(Catalogue(6, entry), place, "en", start);
@@ -69,8 +61,6 @@ struct Visit {
         }
         return signs;
     }
-
-    AdviceLanguage words{"en", {}};
 };
 
 /// The middle of a picture where a face of the prop is seen but not lit.

@@ -1,12 +1,10 @@
 // The exhibit without visitors, and when the tracker fails a visitor.
 
-#include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
 namespace frustumscreen::exhibit {
 namespace {
@@ -19,25 +17,12 @@ const std::vector<std::string> keys{"attract_line",     "uncover",         "slid
                                     "show_your_head",   "away_from_metal", "wait_tracker",
                                     "fault.no_artifact"};
 
-AdviceLanguage words_in(const std::string& language) {
-    AdviceLanguage words{language, {}};
-    for (const std::string& key : keys) {
-        words.texts.push_back({key, {{0.1, 0.02}}});
-    }
-    return words;
-}
-
 class RestTest : public ::testing::Test {
 protected:
     static Exhibit make(std::size_t artifacts) {
-        const settings::Settings shipped;
         const std::vector<std::string> languages{"en", "de"};
-        ExhibitPlace place;
-        place.prop = settings::make_prop(shipped.prop);
-        place.lens_m = shipped.projector.table_from_projector.translation;
-        place.picture_m = settings::picture_on_table(shipped, 0.0);
-        place.guidance = guidance_setup(shipped);
-        place.words = {words_in("de"), words_in("en")};
+        ExhibitPlace place = sample::shipped_place();
+        place.words = {sample::words_of("de", keys), sample::words_of("en", keys)};
         place.rest = seconds(30);
         const CatalogueEntry entry{languages, {languages.size(), {{0.2, 0.05}, {0.1, 0.1}}}};
         return {Catalogue(artifacts, entry), place, "en", start};
@@ -84,7 +69,7 @@ TEST_F(RestTest, TheArtifactsComeInTurnAndInSilence) {
     std::vector<std::size_t> turns;
     for (int k = 0; k < 7; ++k) {
         turns.push_back(shown.artifact);
-        wait(Exhibit::turn_time);
+        wait(Selection::turn_time);
         EXPECT_EQ(text(), "attract_line");
     }
     EXPECT_EQ(turns, (std::vector<std::size_t>{0, 0, 1, 2, 0, 1, 2}));
@@ -258,7 +243,7 @@ TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
     wait(seconds(1));
     wait(seconds(1), std::array{settings::Command::StaffMode});
     EXPECT_EQ(shown.state, State::Staff);
-    EXPECT_EQ(shown.state_before, State::View);
+    EXPECT_EQ(shown.before_staff, State::View);
     lose();
     wait(seconds(5));
     EXPECT_EQ(shown.state, State::Staff);

@@ -10,7 +10,6 @@
 #include <set>
 #include <string>
 #include <tuple>
-#include <vector>
 
 namespace frustumscreen::exhibit {
 namespace {
@@ -25,7 +24,7 @@ const MonotonicTime start{seconds(100)};
 class Played {
 public:
     explicit Played(bool stays = false) : tool(stays) {
-        tool.begin(now);
+        tool.begin(State::View, now);
         tool.step(now);
     }
     void play(const std::string& letters) {
@@ -124,10 +123,10 @@ TEST(StaffTool, TheStateOfDeliveryIsConfirmedOnTheFirstPageWhileItIsOffered) {
     }
     Played played;
     played.tool.offer_reset(true);
-    played.tool.begin(played.now);
+    played.tool.begin(State::View, played.now);
     played.play("F");
     EXPECT_TRUE(played.shown().resets) << "a new picture offers it too";
-    played.tool.begin(played.now);
+    played.tool.begin(State::View, played.now);
     EXPECT_FALSE(played.tool.take_reset()) << "what was asked on another picture is over";
 }
 
@@ -172,7 +171,7 @@ TEST(StaffTool, GoesAMinuteAfterTheLastPressAndHalfAnHourAfterItCame) {
         kept.play("2O");
     }
     EXPECT_TRUE(kept.tool.is_over(kept.now));
-    kept.tool.begin(kept.now);
+    kept.tool.begin(State::View, kept.now);
     EXPECT_FALSE(kept.tool.is_over(kept.now + minutes(1) - milliseconds(1)));
     EXPECT_TRUE(kept.tool.is_over(kept.now + minutes(1))) << "the next one is not kept";
 
@@ -228,7 +227,7 @@ TEST(StaffTool, AKeptVolumeIsOneOfItsSteps) {
         StaffTool tool(false);
         tool.set_louder_db(kept);
         EXPECT_EQ(tool.louder_db(), counts) << kept;
-        tool.begin(start);
+        tool.begin(State::View, start);
         EXPECT_EQ(tool.shown().louder_db, counts);
     }
 }

@@ -2,14 +2,12 @@
 
 #include "app/exhibit/states.h"
 #include "app/exhibit/states_page.h"
+#include "tests/base/text_of.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iterator>
-#include <map>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -109,15 +107,13 @@ TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
 }
 
 TEST(StatesPage, IsTheOneInTheDocuments) {
-    std::ifstream file(source_dir() + "/docs/states.md", std::ios::binary);
-    const std::string committed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string committed = text_of(source_dir() + "/docs/states.md");
     EXPECT_EQ(states_page(), committed) << "write it again: frustumscreen states > docs/states.md";
 }
 
 /// The committed page, compared with the hand-written table.
 TEST(StatesPage, LeadsWhereItShould) {
-    std::ifstream file(source_dir() + "/docs/states.md", std::ios::binary);
-    const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string page = text_of(source_dir() + "/docs/states.md");
     std::istringstream lines(by_hand);
     std::size_t rows = 0;
     for (std::string line; std::getline(lines, line); ++rows) {
@@ -133,8 +129,7 @@ TEST(StatesPage, LeadsWhereItShould) {
 
 /// The picture has the edges of the graph from which it was drawn.
 TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
-    std::ifstream file(source_dir() + "/docs/states.svg", std::ios::binary);
-    const std::string svg{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string svg = text_of(source_dir() + "/docs/states.svg");
     std::istringstream graph(states_graph());
     std::size_t edges = 0;
     for (std::string line; std::getline(graph, line);) {

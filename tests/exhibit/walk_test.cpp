@@ -1,7 +1,6 @@
 // A million random events (fewer under the sanitizers), with the exhibit's invariants checked after each.
 
 #include "app/bench/truth/seeded_situations.h"
-#include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
 
@@ -44,18 +43,9 @@ const std::vector<std::string> keys{"attract_line",
                                     "fault.no_artifact"};
 
 ExhibitPlace walked_place() {
-    const settings::Settings shipped;
-    ExhibitPlace place;
-    place.prop = settings::make_prop(shipped.prop);
-    place.lens_m = shipped.projector.table_from_projector.translation;
-    place.picture_m = settings::picture_on_table(shipped, 0.0);
-    place.guidance = guidance_setup(shipped);
+    ExhibitPlace place = sample::shipped_place();
     for (const std::string& language : languages) {
-        AdviceLanguage words{language, {}};
-        for (const std::string& key : keys) {
-            words.texts.push_back({key, {{0.12, 0.02}}});
-        }
-        place.words.push_back(words);
+        place.words.push_back(sample::words_of(language, keys, {0.12, 0.02}));
     }
     place.table_pictures = true;
     place.buttons = settings::button_commands.size();

@@ -2,6 +2,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -15,17 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class NewFolder : public testing::Test {
+class NewFolder : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        std::string name = fs::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        root = name;
         put("in/scan.obj", "mtllib scan.mtl");
         put("in/scan.mtl", "a material");
         put("in/pictures/skin.png", "a picture");
-        scan = {root / "in/scan.obj",
-                {root / "in/scan.mtl", root / "in/pictures/skin.png", root / "in/missing.png"},
+        scan = {folder / "in/scan.obj",
+                {folder / "in/scan.mtl", folder / "in/pictures/skin.png", folder / "in/missing.png"},
                 {-1, 0, 2},
                 {1, 5, 4},
                 'y',
@@ -34,16 +32,6 @@ protected:
                 {},
                 {}};
     }
-    void TearDown() override { fs::remove_all(root); }
-    void put(const std::string& file, std::string_view text) const {
-        fs::create_directories((root / file).parent_path());
-        ASSERT_TRUE(write_file(root / file, as_bytes(text)));
-    }
-    [[nodiscard]] std::string text(const std::string& file) const {
-        const Result<Bytes> bytes = read_file(root / file);
-        return bytes ? std::string(as_text(*bytes)) : std::string();
-    }
-    fs::path root;
     ScanFacts scan;
 };
 
@@ -60,15 +48,15 @@ std::string with_every_hint(std::string text) {
 } // namespace
 
 TEST_F(NewFolder, holds_the_scan_its_files_and_a_file_that_is_read) {
-    const Result<fs::path> file = start_folder(root / "out/vase", scan);
+    const Result<fs::path> file = start_folder(folder / "out/vase", scan);
     ASSERT_TRUE(file) << file.error().message;
-    EXPECT_EQ(*file, root / "out/vase/artifact.toml");
+    EXPECT_EQ(*file, folder / "out/vase/artifact.toml");
     EXPECT_EQ(text("out/vase/scan.obj"), "mtllib scan.mtl");
     EXPECT_EQ(text("out/vase/scan.mtl"), "a material");
     EXPECT_EQ(text("out/vase/pictures/skin.png"), "a picture");
-    const Result<ArtifactFile> read = read_artifact_file(root / "out/vase");
+    const Result<ArtifactFile> read = read_artifact_file(folder / "out/vase");
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->scan, root / "out/vase/scan.obj");
+    EXPECT_EQ(read->scan, folder / "out/vase/scan.obj");
     EXPECT_EQ(read->id.substr(0, 5), "scan-");
     ASSERT_EQ(read->texts.size(), 1U);
     EXPECT_EQ(read->texts[0].title, "scan");
@@ -98,8 +86,8 @@ TEST_F(NewFolder, says_what_the_scans_file_says_of_itself) {
     scan.author = "Ann (https://example.org/ann)";
     scan.licence = "CC-BY-4.0";
     scan.source = "https://example.org/cat";
-    ASSERT_TRUE(start_folder(root / "out", scan));
-    const Result<ArtifactFile> read = read_artifact_file(root / "out");
+    ASSERT_TRUE(start_folder(folder / "out", scan));
+    const Result<ArtifactFile> read = read_artifact_file(folder / "out");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->texts[0].title, scan.title);
     EXPECT_EQ(read->author, scan.author);
@@ -119,43 +107,43 @@ TEST_F(NewFolder, leaves_no_cut_file_where_it_cannot_be_written) {
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     const struct rlimit small { 50'000, before.rlim_max };
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-    const Result<fs::path> started = start_folder(root / "out", scan);
+    const Result<fs::path> started = start_folder(folder / "out", scan);
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     ASSERT_FALSE(started);
     EXPECT_EQ(started.error().id, "folder.not_copied") << started.error().message;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "out")) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / "out")) {
         EXPECT_TRUE(entry.is_directory()) << entry.path();
     }
-    EXPECT_TRUE(start_folder(root / "out", scan)) << "the next try finds nothing in its way";
+    EXPECT_TRUE(start_folder(folder / "out", scan)) << "the next try finds nothing in its way";
 }
 
 TEST_F(NewFolder, replaces_nothing) {
-    ASSERT_TRUE(start_folder(root / "in", scan)) << "a scan that lies there stays";
+    ASSERT_TRUE(start_folder(folder / "in", scan)) << "a scan that lies there stays";
     const std::string before = text("in/artifact.toml");
-    const Result<fs::path> again = start_folder(root / "in", scan);
+    const Result<fs::path> again = start_folder(folder / "in", scan);
     ASSERT_FALSE(again);
     EXPECT_EQ(again.error().id, "folder.artifact_file_there") << again.error().message;
     EXPECT_EQ(text("in/artifact.toml"), before);
     put("other/pictures/skin.png", "another picture");
-    const Result<fs::path> other = start_folder(root / "other", scan);
+    const Result<fs::path> other = start_folder(folder / "other", scan);
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().id, "folder.there_already") << other.error().message;
     EXPECT_EQ(text("other/pictures/skin.png"), "another picture");
-    EXPECT_FALSE(fs::exists(root / "other/scan.obj"));
+    EXPECT_FALSE(fs::exists(folder / "other/scan.obj"));
 }
 
 TEST_F(NewFolder, a_scan_whose_files_lie_elsewhere_is_refused) {
     put("skin.png", "a picture");
-    scan.side_files.push_back(root / "in/../skin.png");
-    const Result<fs::path> file = start_folder(root / "out", scan);
+    scan.side_files.push_back(folder / "in/../skin.png");
+    const Result<fs::path> file = start_folder(folder / "out", scan);
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().id, "folder.side_file_outside") << file.error().message;
-    EXPECT_FALSE(fs::exists(root / "out"));
+    EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(NewFolder, no_two_artifacts_get_one_id) {
-    ASSERT_TRUE(start_folder(root / "a", scan));
-    ASSERT_TRUE(start_folder(root / "b", scan));
-    EXPECT_NE(read_artifact_file(root / "a")->id, read_artifact_file(root / "b")->id);
+    ASSERT_TRUE(start_folder(folder / "a", scan));
+    ASSERT_TRUE(start_folder(folder / "b", scan));
+    EXPECT_NE(read_artifact_file(folder / "a")->id, read_artifact_file(folder / "b")->id);
 }

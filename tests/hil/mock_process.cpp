@@ -116,19 +116,6 @@ private:
 
 } // namespace
 
-ScratchFolder::ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-        ADD_FAILURE() << "no scratch folder: " << name;
-    }
-    folder_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
 MockProcess::MockProcess(std::vector<std::string> arguments, std::string control)
     : control_(std::move(control)) {
     arguments.insert(arguments.begin(), source_dir() + "/tests/hil/mock_tracker");

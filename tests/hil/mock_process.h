@@ -14,19 +14,6 @@
 
 namespace frustumscreen::tests {
 
-/// A new folder under the system's temporary folder, removed at the end; sockets need short paths.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-private:
-    std::filesystem::path folder_;
-};
-
 class MockProcess {
 public:
     /// Runs tests/hil/mock_tracker with these arguments; it listens for commands at `control`.

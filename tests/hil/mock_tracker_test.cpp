@@ -4,13 +4,13 @@
 #include "firmware_host/base/time.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/usb_tracker_driver.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/hil/mock_process.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <thread>
 
 namespace frustumscreen::tests {
@@ -42,12 +42,6 @@ tracker::PoseSample row_pose(int row, int station) {
     return pose;
 }
 
-std::string read_file(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
 /// The mock, which plays rows, and the driver connected to it; every sample, converted to the table's frame, is
 /// compared with its row.
 class Bench {
@@ -55,8 +49,8 @@ public:
     explicit Bench(const Device& device, const std::vector<std::string>& more = {},
                    const glm::dmat4& table_from_tracker = glm::dmat4(1.0))
         : device_(device), table_from_tracker_(table_from_tracker),
-          mock_(arguments(more), folder_.path("control")),
-          driver_(make_socket_bus(folder_.path("tracker"), device.model), {}, monotonic_now) {}
+          mock_(arguments(more), (folder_.path() / "control").string()),
+          driver_(make_socket_bus((folder_.path() / "tracker").string(), device.model), {}, monotonic_now) {}
 
     void tell(const std::string& command) {
         SCOPED_TRACE(command);
@@ -91,7 +85,7 @@ public:
     /// Checks that the mock's log has each good sample as a whole row. The mock still writes, so an incomplete last row
     /// is ignored.
     void check_against_log() const {
-        std::string log = read_file(folder_.path("log"));
+        std::string log = text_of((folder_.path() / "log").string());
         log.resize(log.rfind('\n') + 1);
         const auto sent = tracker::parse_poses(log, "log");
         ASSERT_TRUE(sent) << sent.error().message;
@@ -118,12 +112,16 @@ private:
             poses.push_back(row_pose(row, tracker::prop_station));
             poses.push_back(row_pose(row, tracker::head_station));
         }
-        std::ofstream(folder_.path("poses.csv")) << tracker::write_poses(poses);
-        std::vector<std::string> all{"--device",         device_.name,
-                                     "--socket",         folder_.path("tracker"),
-                                     "--poses",          folder_.path("poses.csv"),
-                                     "--loop",           "--log",
-                                     folder_.path("log")};
+        std::ofstream((folder_.path() / "poses.csv").string()) << tracker::write_poses(poses);
+        std::vector<std::string> all{"--device",
+                                     device_.name,
+                                     "--socket",
+                                     (folder_.path() / "tracker").string(),
+                                     "--poses",
+                                     (folder_.path() / "poses.csv").string(),
+                                     "--loop",
+                                     "--log",
+                                     (folder_.path() / "log").string()};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -154,7 +152,7 @@ private:
 
     Device device_;
     glm::dmat4 table_from_tracker_;
-    ScratchFolder folder_;
+    TemporaryFolder folder_;
     MockProcess mock_;
     tracker::UsbTrackerDriver driver_;
     std::vector<tracker::PoseSample> samples_;

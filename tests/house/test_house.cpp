@@ -86,8 +86,7 @@ std::set<fs::path> linked_from(const fs::path& page) {
 std::set<std::string> message_ids_in(const fs::path& file) {
     static const std::regex id(
         R"re(\b(?:bad_input|refuse|require|refusal|refused|lost|bad|fail|Error|Refusal)\s*[({]+\s*(?:[^"();{}]*,\s*(?://[^\n]*\n\s*)?)?"([a-z0-9_]+\.[a-z0-9_]+)"\s*,)re");
-    std::ifstream stream(fs::path(frustumscreen::source_dir()) / file);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::string text = frustumscreen::text_of(fs::path(frustumscreen::source_dir()) / file);
     std::set<std::string> ids;
     for (std::sregex_iterator match(text.begin(), text.end(), id), end; match != end; ++match) {
         ids.insert((*match)[1]);
@@ -193,8 +192,7 @@ std::size_t end_of_words(const std::string& text, std::size_t at) {
 
 /// A file's identifiers: strings and comments are left out.
 std::set<std::string> identifiers_of(const fs::path& file) {
-    std::ifstream stream(fs::path(frustumscreen::source_dir()) / file);
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    const std::string text = frustumscreen::text_of(fs::path(frustumscreen::source_dir()) / file);
     const auto is_word = [&](std::size_t k) {
         return std::isalnum(static_cast<unsigned char>(text[k])) != 0 || text[k] == '_';
     };
@@ -313,10 +311,8 @@ TEST_F(SkippedTests, AreListedWithTheirReasons) {
            "[  SKIPPED ] B.Silent\n";
     const std::string script = "'" + frustumscreen::source_dir() + "/tests/house/list_skipped.sh' '";
     ASSERT_EQ(std::system((script + log + "' >'" + listed + "'").c_str()), 0);
-    std::ifstream file(listed);
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
-              "== 2 tests were skipped\n   A.Traces: this machine allows no tracing\n"
-              "   B.Silent: it does not say why\n");
+    EXPECT_EQ(text("listed.txt"), "== 2 tests were skipped\n   A.Traces: this machine allows no tracing\n"
+                                  "   B.Silent: it does not say why\n");
 }
 
 TEST(House, EveryLinkLeadsToAFile) {

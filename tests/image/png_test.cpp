@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 using namespace frustumscreen;
 using namespace frustumscreen::image;
 

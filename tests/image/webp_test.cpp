@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
-#include <string>
-
 using namespace frustumscreen;
 using namespace frustumscreen::image;
 

@@ -27,9 +27,7 @@ LIT = '{"lit": true, "trouble": null, "mode": "normal"}\n'
 
 class NewSettings(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.top = pathlib.Path(temporary.name)
+        self.top = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         for folder in ("bin", "settings", "run/frustumscreen-import", "run/frustumscreen-watchdog", "run/frustumscreen-update"):
             (self.top / folder).mkdir(parents=True)
         for name, text in {"settings/kiosk.toml": "new", "settings/kiosk.toml.before": "before", "run/frustumscreen-import/settings-taken": "",

@@ -28,9 +28,7 @@ Description: a frog
 
 class Provenance(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.work = pathlib.Path(folder.name)
+        self.work = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         tree = self.work / "package"
         write(tree / "DEBIAN/control", CONTROL)
         write(tree / "lib/frog.so", "croak")

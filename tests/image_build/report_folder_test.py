@@ -54,9 +54,7 @@ def exfat(flags=0):
 
 class ReportFolder(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.top = pathlib.Path(temporary.name)
+        self.top = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         for folder in ("run/frustumscreen-stick/stick1", "run/frustumscreen-report", "run/frustumscreen-import", "sticks", "sys/class/block/sda1", "bin"):
             (self.top / folder).mkdir(parents=True)
         (self.top / "sticks/stick1").symlink_to(self.top / "sda1")

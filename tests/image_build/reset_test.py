@@ -25,9 +25,7 @@ PRESSED = "run/frustumscreen/reset"
 
 class Reset(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.top = pathlib.Path(temporary.name)
+        self.top = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         for name, text in {**KEPT, **OWN, SETTINGS: "own", ASKED: "", PRESSED: "", "bin/systemctl": '#!/bin/sh\necho "$*" >>"$ASKED"\n'}.items():
             (self.top / name).parent.mkdir(parents=True, exist_ok=True)
             (self.top / name).write_text(text, encoding="ascii")

@@ -37,9 +37,7 @@ def keys_in(folder):
 
 class Build(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(dir=CHECKOUT / "build")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(dir=CHECKOUT / "build")))
 
     @long  # test_what_is_shipped_is_what_is_started compares two builds for each change
     def test_two_builds_are_the_same(self):

@@ -25,9 +25,7 @@ exec chroot . /bin/sh -c 'PATH=/run/bin:$PATH exec /own/update stick1'"""
 class Update(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.made = pathlib.Path(temporary.name)
+        cls.made = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         for name in ("ours", "theirs"):
             subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
                             "-subj", f"/CN={name}", "-days", "7300", "-keyout", cls.made / f"{name}.key",
@@ -42,9 +40,7 @@ class Update(unittest.TestCase):
             cls.bundles[version] = out.read_bytes()
 
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.root = pathlib.Path(temporary.name)
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         for folder in ("usr", "proc", "dev", "own", "tmp", "etc/rauc", "run/bin", "run/frustumscreen-boot", "run/frustumscreen-import",
                        "run/frustumscreen-stick/stick1", "run/frustumscreen-update", "run/sticks/stick1", "efi/EFI/Linux"):
             (self.root / folder).mkdir(parents=True)

@@ -22,7 +22,6 @@ const std::string place = "stick/frustumscreen-1a2b3c-2031-05-04-120000";
 class CopyProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        programs::ProgramFolder::SetUp();
         for (const char* name :
              {"stick", "report", "a/counts", "a/calibration", "b/counts", "b/calibration"}) {
             std::filesystem::create_directories(folder / name);
@@ -37,10 +36,6 @@ protected:
         }
         ASSERT_EQ(run("frustumscreen-import --from packs --into a/library --config a/kiosk.toml"), 0)
             << text("err.txt");
-    }
-    void put(const std::string& file, std::string_view content) const {
-        std::filesystem::create_directories((folder / file).parent_path());
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
     void ask(const std::string& request) const {
         put("stick/frustumscreen-request.toml", request);

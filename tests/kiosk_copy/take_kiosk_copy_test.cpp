@@ -23,7 +23,6 @@ const std::string shipped = "[table]\nwidth_m = 0.9\n";
 class TakeKioskCopy : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         std::filesystem::create_directory(folder / "counts");
         settings.put("kiosk.toml", shipped);
     }

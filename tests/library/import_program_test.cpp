@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 #include <random>
 
 namespace frustumscreen::library {
@@ -25,7 +24,6 @@ using testing_disk::Museum;
 class ImportProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        programs::ProgramFolder::SetUp();
         std::filesystem::create_directories(folder / "stick/more");
         std::filesystem::create_directories(folder / "keys");
         put("keys/museum.pub", as_bytes(pack::write_public_key(museum.key.public_key())));

@@ -12,14 +12,10 @@ namespace {
 class SettingsProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        programs::ProgramFolder::SetUp();
         for (const char* name : {"stick", "settings", "report"}) {
             std::filesystem::create_directories(folder / name);
         }
         put("settings/kiosk.toml", shipped);
-    }
-    void put(const std::string& file, std::string_view content) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
     [[nodiscard]] static std::string naming(const pack::SecretKey& key, const std::string& more = "") {
         return fmt::format("[exhibit]\nlanguage = \"de\"\n[[exhibit.keys]]\nname = \"Museum\"\n"

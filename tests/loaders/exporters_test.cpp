@@ -15,22 +15,13 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
 const std::string textured_face = "f 1/1 2/1 3/1\n";
 const glm::u8vec4 wood_code(10, 20, 30, 255);
 
-bake::SourceMesh loaded(const Result<bake::SourceMesh>& mesh) {
-    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    if (!mesh) {
-        return {};
-    }
-    expect_sound(*mesh);
-    return *mesh;
-}
-
 /// An OBJ with a .mtl, and a picture wood.png of one texel.
 bake::SourceMesh obj_with(std::string_view mtl, const std::string& rest,
                           const std::string& first = "mtllib model.mtl\n") {
     const TemporaryFolder folder;
     folder.write("model.mtl", mtl);
     folder.write("wood.png", png_of(image::Image8(1, 1, wood_code)));
-    return loaded(bake::load_mesh(folder.write("model.obj", first + triangle + rest)));
+    return sound(bake::load_mesh(folder.write("model.obj", first + triangle + rest)));
 }
 
 glm::vec4 base_colour(const bake::SourceMesh& mesh) {
@@ -41,12 +32,6 @@ glm::vec4 base_colour(const bake::SourceMesh& mesh) {
 bool shows_wood(const bake::SourceMesh& mesh) {
     return mesh.textures.size() == 1 && mesh.textures[0].image->at(0, 0) == wood_code &&
            base_colour(mesh) == glm::vec4(1.0F);
-}
-
-bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words) {
-    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const bake::SourceNote& note) {
-        return note.kind == kind && note.text.find(words) != std::string::npos;
-    });
 }
 
 TEST(Exporters, AMaterialWithoutKdIsWhite) {
@@ -89,7 +74,7 @@ TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
     folder.write("a.mtl", "newmtl red\nKd 1 0 0\n");
     folder.write("my own.mtl", "newmtl blue\nKd 0 0 1\n");
     const auto colours = [&](const std::string& line) {
-        const bake::SourceMesh mesh = loaded(bake::load_mesh(folder.write(
+        const bake::SourceMesh mesh = sound(bake::load_mesh(folder.write(
             "model.obj", line + "\n" + triangle + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n")));
         EXPECT_TRUE(mesh.notes.empty()) << line;
         return std::pair(mesh.materials[0].base_colour, mesh.materials[1].base_colour);
@@ -98,7 +83,7 @@ TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
     EXPECT_EQ(colours("mtllib a.mtl my own.mtl"), expected);
     EXPECT_EQ(colours("mtllib my own.mtl a.mtl"), expected);
     EXPECT_EQ(colours("mtllib a.mtl\nmtllib my own.mtl"), expected);
-    const bake::SourceMesh half = loaded(bake::load_mesh(
+    const bake::SourceMesh half = sound(bake::load_mesh(
         folder.write("model.obj", "mtllib a.mtl none.mtl\n" + triangle + "usemtl red\nf 1 2 3\n")));
     EXPECT_TRUE(notes(half, bake::SourceNote::Kind::Lost, "\"none.mtl\""));
     EXPECT_EQ(half.materials[0].base_colour, expected.first);
@@ -108,7 +93,7 @@ TEST(Exporters, APictureIsAlsoLookedForBesideItsMtl) {
     const TemporaryFolder folder;
     folder.write("materials/model.mtl", "newmtl m\nmap_Kd wood.png\n");
     folder.write("materials/wood.png", png_of(image::Image8(1, 1, wood_code)));
-    const bake::SourceMesh mesh = loaded(bake::load_mesh(
+    const bake::SourceMesh mesh = sound(bake::load_mesh(
         folder.write("model.obj", "mtllib materials/model.mtl\n" + triangle + "usemtl m\n" + textured_face)));
     EXPECT_TRUE(shows_wood(mesh));
     EXPECT_TRUE(mesh.notes.empty());
@@ -124,7 +109,7 @@ TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
             const TemporaryFolder folder;
             folder.write(on_disk, png_of(image::Image8(1, 1, wood_code)));
             folder.write("model.mtl", "newmtl m\nmap_Kd " + named + "\n");
-            EXPECT_TRUE(shows_wood(loaded(bake::load_mesh(
+            EXPECT_TRUE(shows_wood(sound(bake::load_mesh(
                 folder.write("model.obj", "mtllib model.mtl\n" + triangle + "usemtl m\n" + textured_face)))))
                 << on_disk << " " << named;
         }
@@ -133,8 +118,8 @@ TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
 
 TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
     const bake::SourceMesh codes =
-        loaded(load_text("model.obj", "v 0 0 0 188 0 1\nv 1 0 0 1 0 0\nv 0 1 0 255 255 255\nf 1 2 3\n"));
-    const bake::SourceMesh shares = loaded(
+        sound(load_text("model.obj", "v 0 0 0 188 0 1\nv 1 0 0 1 0 0\nv 0 1 0 255 255 255\nf 1 2 3\n"));
+    const bake::SourceMesh shares = sound(
         load_text("model.obj", fmt::format("v 0 0 0 {0} 0 {1}\nv 1 0 0 {1} 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n",
                                            188.0 / 255, 1.0 / 255)));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -146,7 +131,7 @@ TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
     EXPECT_TRUE(notes(codes, bake::SourceNote::Kind::Guessed, "0 to 255"));
     EXPECT_TRUE(shares.notes.empty());
     const bake::SourceMesh over =
-        loaded(load_text("model.obj", "v 0 0 0 1.002 0 0\nv 1 0 0 0.5 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n"));
+        sound(load_text("model.obj", "v 0 0 0 1.002 0 0\nv 1 0 0 0.5 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n"));
     EXPECT_EQ(over.colours[0].r, 1.0F) << "a rounding above 1 makes no codes";
     EXPECT_EQ(base_colour(obj_with("newmtl m\nKd 255 51 0\n", "usemtl m\nf 1 2 3\n")),
               glm::vec4(1.0F, 0.2F, 0.0F, 1.0F));
@@ -192,10 +177,10 @@ TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
 }
 
 TEST(Exporters, ALineThatNoObjHasIsTold) {
-    EXPECT_TRUE(notes(loaded(load_text("model.obj", triangle + "f 1 2 3\nfoo 1\n")),
+    EXPECT_TRUE(notes(sound(load_text("model.obj", triangle + "f 1 2 3\nfoo 1\n")),
                       bake::SourceNote::Kind::Lost, "foo"));
     EXPECT_TRUE(
-        loaded(load_text("model.obj", "o a\ng b\ns 1\nvn 0 0 1\n" + triangle + "f 1 2 3\n")).notes.empty());
+        sound(load_text("model.obj", "o a\ng b\ns 1\nvn 0 0 1\n" + triangle + "f 1 2 3\n")).notes.empty());
 }
 
 std::string ply(std::string_view properties, std::string_view row, std::string_view index = "uchar int") {
@@ -220,7 +205,7 @@ TEST(Exporters, PlyColoursHaveManyNames) {
                                                  {"R", "G", "B"},
                                                  {"diffuse_r", "diffuse_g", "diffuse_b"}}) {
         const bake::SourceMesh mesh =
-            loaded(load_text("model.ply", ply(colours("uchar", red, green, blue), "188 0 255")));
+            sound(load_text("model.ply", ply(colours("uchar", red, green, blue), "188 0 255")));
         ASSERT_EQ(mesh.colours.size(), 3U) << red;
         EXPECT_NEAR(mesh.colours[0].r, 0.5028865, 1e-5) << red;
         EXPECT_EQ(mesh.colours[0].g, 0.0F);
@@ -231,29 +216,29 @@ TEST(Exporters, PlyColoursHaveManyNames) {
 
 TEST(Exporters, OfTwoPlyColoursThePlainOneCounts) {
     const bake::SourceMesh mesh =
-        loaded(load_text("model.ply", ply(colours("uchar", "diffuse_red", "diffuse_green", "diffuse_blue") +
-                                              colours("uchar", "red", "green", "blue"),
-                                          "0 0 0 255 255 255")));
+        sound(load_text("model.ply", ply(colours("uchar", "diffuse_red", "diffuse_green", "diffuse_blue") +
+                                             colours("uchar", "red", "green", "blue"),
+                                         "0 0 0 255 255 255")));
     EXPECT_EQ(mesh.colours[0], glm::vec4(1.0F));
 }
 
 TEST(Exporters, PlyColoursAsFloatsMayBeCodes) {
     const bake::SourceMesh codes =
-        loaded(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "188 0 255")));
+        sound(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "188 0 255")));
     EXPECT_NEAR(codes.colours[0].r, 0.5028865, 1e-5);
     EXPECT_TRUE(notes(codes, bake::SourceNote::Kind::Guessed, "0 to 255"));
     EXPECT_NEAR(
-        loaded(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "0.5 0 1"))).colours[0].r,
+        sound(load_text("model.ply", ply(colours("float", "red", "green", "blue"), "0.5 0 1"))).colours[0].r,
         0.2140411, 1e-5);
 }
 
 TEST(Exporters, PlyColoursMayBePackedIntoOneNumber) {
     const bake::SourceMesh whole =
-        loaded(load_text("model.ply", ply("property uint rgb\n", fmt::format("{}", (188U << 16U) | 255U))));
+        sound(load_text("model.ply", ply("property uint rgb\n", fmt::format("{}", (188U << 16U) | 255U))));
     ASSERT_EQ(whole.colours.size(), 3U);
     EXPECT_NEAR(whole.colours[0].r, 0.5028865, 1e-5);
     EXPECT_EQ(whole.colours[0].b, 1.0F);
-    const bake::SourceMesh packed = loaded(
+    const bake::SourceMesh packed = sound(
         load_text("model.ply", ply("property float rgb\n",
                                    fmt::format("{:.17g}", std::bit_cast<float>((188U << 16U) | 255U)))));
     EXPECT_NEAR(packed.colours[0].r, 0.5028865, 1e-5);
@@ -261,21 +246,21 @@ TEST(Exporters, PlyColoursMayBePackedIntoOneNumber) {
 
 TEST(Exporters, PlyWholeNumbersMayHave64Bits) {
     for (const char* index : {"uchar int64", "uchar uint64", "int64 int64", "int uint"}) {
-        EXPECT_EQ(loaded(load_text("model.ply", ply("", "", index))).triangles.size(), 1U) << index;
+        EXPECT_EQ(sound(load_text("model.ply", ply("", "", index))).triangles.size(), 1U) << index;
     }
-    EXPECT_TRUE(loaded(load_text("model.ply", ply("property int64 id\n", "7"))).notes.empty());
-    EXPECT_EQ(loaded(load_text("model.ply", "\xEF\xBB\xBF" + ply("", ""))).triangles.size(), 1U)
+    EXPECT_TRUE(sound(load_text("model.ply", ply("property int64 id\n", "7"))).notes.empty());
+    EXPECT_EQ(sound(load_text("model.ply", "\xEF\xBB\xBF" + ply("", ""))).triangles.size(), 1U)
         << "a byte order mark";
 }
 
 TEST(Exporters, WhatOfAPlyIsNotUsedIsTold) {
-    EXPECT_TRUE(notes(loaded(load_text("model.ply", ply("property float shininess\n", "1"))),
+    EXPECT_TRUE(notes(sound(load_text("model.ply", ply("property float shininess\n", "1"))),
                       bake::SourceNote::Kind::Lost, "shininess"));
-    EXPECT_TRUE(notes(loaded(load_text("model.ply", ply("property uchar red\n", "1"))),
+    EXPECT_TRUE(notes(sound(load_text("model.ply", ply("property uchar red\n", "1"))),
                       bake::SourceNote::Kind::Lost, "not all there"));
-    EXPECT_TRUE(loaded(load_text("model.ply",
-                                 ply("property float nx\nproperty float quality\nproperty float scalar_C2C\n",
-                                     "0 0 0")))
+    EXPECT_TRUE(sound(load_text("model.ply",
+                                ply("property float nx\nproperty float quality\nproperty float scalar_C2C\n",
+                                    "0 0 0")))
                     .notes.empty());
 }
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace frustumscreen::testing {
 namespace {
@@ -28,13 +27,7 @@ constexpr std::string_view accessors =
     R"({"bufferView":4,"componentType":5126,"type":"VEC3","count":2}])";
 
 bake::SourceMesh mesh_of(const std::string& text) {
-    Result<bake::SourceMesh> mesh = load_text("model.gltf", text);
-    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    if (!mesh) {
-        return {};
-    }
-    expect_sound(*mesh);
-    return *std::move(mesh);
+    return sound(load_text("model.gltf", text));
 }
 
 /// One triangle with one material; picture 0 is `picture`.
@@ -60,12 +53,6 @@ bake::SourceMesh with_nodes(std::string_view nodes, std::string_view more = "") 
 
 const bake::SourceMaterial& material_of(const bake::SourceMesh& mesh) {
     return mesh.materials[mesh.triangle_materials[0]];
-}
-
-bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words) {
-    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const bake::SourceNote& note) {
-        return note.kind == kind && note.text.find(words) != std::string::npos;
-    });
 }
 
 TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {

@@ -21,13 +21,7 @@ std::string triangle_with(std::string_view members) {
 }
 
 bake::SourceMesh mesh_of(const std::string& text) {
-    Result<bake::SourceMesh> mesh = load_text("model.gltf", text);
-    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    if (!mesh) {
-        return {};
-    }
-    expect_sound(*mesh);
-    return *std::move(mesh);
+    return sound(load_text("model.gltf", text));
 }
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {

@@ -8,29 +8,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 
 namespace frustumscreen::testing {
-
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "loaders_test_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string& name, std::string_view text) const {
-    const std::filesystem::path path = path_ / name;
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-}
 
 Result<bake::SourceMesh> load_text(const std::string& name, std::string_view text) {
     return bake::load_mesh_bytes(as_bytes(text), std::filesystem::path("nowhere") / name);
@@ -128,6 +112,21 @@ void expect_sound(const bake::SourceMesh& mesh) {
         ASSERT_TRUE(material.texture < 0 ||
                     mesh.textures[static_cast<std::size_t>(material.texture)].image != nullptr);
     }
+}
+
+bake::SourceMesh sound(const Result<bake::SourceMesh>& mesh) {
+    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
+    if (!mesh) {
+        return {};
+    }
+    expect_sound(*mesh);
+    return *mesh;
+}
+
+bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words) {
+    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const bake::SourceNote& note) {
+        return note.kind == kind && note.text.find(words) != std::string::npos;
+    });
 }
 
 std::filesystem::path shared_data() {

@@ -1,8 +1,9 @@
-/// Helpers of the loaders' tests: temporary files, simple measures of a mesh, the index of the shared models.
+/// Helpers of the loaders' tests: simple measures of a mesh, the index of the shared models.
 #pragma once
 
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <filesystem>
 #include <string>
@@ -10,21 +11,6 @@
 #include <vector>
 
 namespace frustumscreen::testing {
-
-/// A new folder for each run of a test program; removed at the end.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder();
-
-    std::filesystem::path write(const std::string& name, std::string_view text) const;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// Loads `text` as a file of that name, without other files next to it.
 Result<bake::SourceMesh> load_text(const std::string& name, std::string_view text);
@@ -50,6 +36,10 @@ double area_of(const bake::SourceMesh& mesh);
 double volume_of(const bake::SourceMesh& mesh);
 /// Checks the promises of load_mesh.
 void expect_sound(const bake::SourceMesh& mesh);
+/// The mesh of a load that must succeed, checked; an empty one and a test failure if it does not.
+bake::SourceMesh sound(const Result<bake::SourceMesh>& mesh);
+/// True if the mesh has a note of this kind with these words.
+bool notes(const bake::SourceMesh& mesh, bake::SourceNote::Kind kind, std::string_view words);
 
 struct IndexRow {
     std::string path;

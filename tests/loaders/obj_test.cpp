@@ -11,13 +11,7 @@ namespace {
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 bake::SourceMesh mesh_of(const std::string& text) {
-    Result<bake::SourceMesh> mesh = load_text("model.obj", text);
-    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
-    if (!mesh) {
-        return {};
-    }
-    expect_sound(*mesh);
-    return *std::move(mesh);
+    return sound(load_text("model.obj", text));
 }
 
 TEST(Obj, NegativeIndicesCountBackFromTheLastVertex) {

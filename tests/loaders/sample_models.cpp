@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include <cmath>
-
 namespace frustumscreen::testing {
 
 std::vector<float> grid_positions(int n) {

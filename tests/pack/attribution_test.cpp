@@ -1,7 +1,6 @@
 // Visitors' attribution lines for an artifact and its scan, and the statements that a pack should have.
 #include "app/pack/attribution.h"
 #include "app/pack/pack_file.h"
-#include "firmware_host/base/json.h"
 #include "tests/pack/samples.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // frustumscreen-pack from outside: its output and its exit status.
+#include "tests/base/text_of.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
 
@@ -6,20 +7,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 using namespace frustumscreen;
 using namespace frustumscreen::pack;
 
 namespace {
-
-std::string text_of(const std::string& file) {
-    std::ifstream stream(file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 struct Outcome {
     int status = -1;

@@ -1,4 +1,5 @@
 #include "firmware_host/panel/button_panel.h"
+#include "tests/base/comes_true.h"
 
 #include <gtest/gtest.h>
 
@@ -74,17 +75,12 @@ void let_levels_count(const FakeChip& chip) {
     }
 }
 
-/// Polls until `done` or for a minute; asserts no duration.
+/// Polls until `done`.
 template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>& events, const Done& done) {
-    const auto give_up = std::chrono::steady_clock::now() + seconds(60);
-    while (!done()) {
-        if (std::chrono::steady_clock::now() > give_up) {
-            return false;
-        }
+    return comes_true([&] {
         EXPECT_TRUE(panel.poll(monotonic_now(), events));
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return true;
+        return done();
+    });
 }
 
 TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {

@@ -3,6 +3,7 @@
 
 #include "firmware_host/panel/button_lines.h"
 #include "firmware_host/panel/button_panel.h"
+#include "tests/base/comes_true.h"
 #include "tests/panel/fake_gpio_chip.h"
 
 #include <gtest/gtest.h>
@@ -186,13 +187,11 @@ TEST_F(GpioLines, APanelOverThemHearsAPressAndFindsThePluggedChipAgain) {
     times.debounce = std::chrono::milliseconds(5);
     ButtonPanel panel([] { return open_gpio_lines(three_buttons()); }, 3, times);
     std::vector<PanelEvent> events;
-    const auto until = [&](const auto& done) { // asserts no duration
-        const auto give_up = monotonic_now() + std::chrono::seconds(60);
-        while (!done() && monotonic_now() < give_up) {
+    const auto until = [&](const auto& done) {
+        return comes_true([&] {
             EXPECT_TRUE(panel.poll(monotonic_now(), events));
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return done();
+            return done();
+        });
     };
     const auto press = [&](int button) {
         events.clear();

@@ -9,7 +9,6 @@
 #include <linux/hidraw.h>
 #include <linux/input.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>

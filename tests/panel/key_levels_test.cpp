@@ -1,6 +1,7 @@
 #include "firmware_host/panel/button_panel.h"
 #include "firmware_host/panel/key_levels.h"
 #include "firmware_host/panel/key_lines.h"
+#include "tests/base/comes_true.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -168,12 +169,10 @@ TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged
         2, times);
     std::vector<PanelEvent> events;
     const auto until = [&](const auto& done) {
-        const auto give_up = monotonic_now() + seconds(10);
-        while (!done() && monotonic_now() < give_up) {
+        return comes_true([&] {
             EXPECT_TRUE(panel.poll(monotonic_now(), events));
-            std::this_thread::sleep_for(milliseconds(1));
-        }
-        return done();
+            return done();
+        });
     };
     for (int plugged = 1; plugged <= 2; ++plugged) {
         ASSERT_TRUE(until([&] { return opened == plugged; }));

@@ -16,7 +16,6 @@ constexpr const char* hostile = "</title><script>alert(\"1\")</script><img src=h
 class PreviewPage : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         pack.title = hostile;
         pack.id = "jug";
         pack.languages = {"en", "ar"};
@@ -57,7 +56,7 @@ protected:
         media.languages[1].labels = {text};
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
-        EXPECT_TRUE(write_file(folder / "page.html", as_bytes(page)));
+        put("page.html", page);
         return std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/page.html' {}", source_dir(),
                                        folder.string(), options)
                                .c_str());

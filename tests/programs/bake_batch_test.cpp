@@ -12,7 +12,6 @@ constexpr const char* spoken = "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\nd
 class BakeBatch : public CuratorFolder {
 protected:
     void SetUp() override {
-        CuratorFolder::SetUp();
         for (const char* name : {"a", "b"}) {
             put_jug(std::string("objects/") + name, spoken);
         }
@@ -44,10 +43,10 @@ TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
                     ": >spoken_once\ncat voice.wav\n");
     const pid_t killed =
         start("frustumscreen-bake --batch objects --size 16 --speech 'sh voice.sh' -o parts -j 1");
-    ASSERT_TRUE(comes([&] { return count("held", "\n") == 1; })) << text("log.txt");
+    ASSERT_TRUE(comes_true([&] { return count("held", "\n") == 1; })) << text("log.txt");
     ASSERT_EQ(::kill(killed, SIGKILL), 0);
     const auto voice = static_cast<pid_t>(std::stol(text("held")));
-    EXPECT_TRUE(comes([&] { return !runs(voice); })) << "what it had started ends with it";
+    EXPECT_TRUE(comes_true([&] { return !runs(voice); })) << "what it had started ends with it";
     EXPECT_TRUE(fs::exists(folder / "parts/a.fspack"));
     EXPECT_FALSE(fs::exists(folder / "parts/b.fspack"));
     EXPECT_FALSE(fs::exists(folder / "parts/report.csv"));

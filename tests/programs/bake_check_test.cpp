@@ -16,7 +16,6 @@ using Json = nlohmann::json;
 class BakeCheck : public CuratorFolder {
 protected:
     void SetUp() override {
-        CuratorFolder::SetUp();
         fs::create_directory(folder / "scans");
         put("scans/box.obj", "mtllib box.mtl\n"
                              "v 0 0 0\nv 120 0 0\nv 0 0 80\nv 0 300 0\n"

@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 class BakeCommand : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         put("scan.obj", "mtllib scan.mtl\n"
                         "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\n"
                         "vt 0 0\nvt 1 0\nvt 0 1\n"
@@ -37,9 +36,6 @@ protected:
         ASSERT_TRUE(write_file(folder / "skin.png", picture));
         ASSERT_TRUE(write_file(folder / "shine.png", picture));
         put("notes.txt", "what the curator wrote down");
-    }
-    void put(const std::string& file, const std::string& content) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
     [[nodiscard]] int bake_to(const std::string& output, const std::string& more = "") const {
         return run(fmt::format("frustumscreen-bake scan.obj --size 32 -o '{}' {}", output, more));
@@ -256,7 +252,7 @@ TEST_F(BakeCommand, KeepsARelief) {
         ASSERT_EQ(run("frustumscreen-pack verify " + name + ".fspack"), 0) << text("err.txt");
     }
     const auto holds_relief = [this](const char* pack) {
-        return as_text(*read_file(folder / pack)).find("relief_blocks/") != std::string_view::npos;
+        return text(pack).find("relief_blocks/") != std::string::npos;
     };
     EXPECT_TRUE(holds_relief("with.fspack"));
     EXPECT_FALSE(holds_relief("without.fspack"));

@@ -14,12 +14,8 @@ namespace fs = std::filesystem;
 class BakeFolder : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         fs::create_directory(folder / "jug");
         put("jug/jug.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-    }
-    void put(const std::string& file, const std::string& content) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
     /// Exit status of a bake with these lines in the artifact.toml.
     [[nodiscard]] int bake(const std::string& lines, const std::string& more = "") const {

@@ -36,7 +36,6 @@ std::string root_in_chromium(const fs::path& folder, const std::string& page) {
 class BakePreview : public CuratorFolder {
 protected:
     void SetUp() override {
-        CuratorFolder::SetUp();
         put_jug("jug", texts);
         put_recording("jug/jug.wav");
     }
@@ -97,20 +96,21 @@ TEST_F(BakePreview, WithoutOpenGlOneSentenceSaysSo) {
 
 TEST_F(BakePreview, AWatchedFolderIsDrawnAgainAndKeepsItsPageWhileItIsBroken) {
     const pid_t watch = start("frustumscreen-bake --watch jug --preview jug.html --speech none --size 16");
-    ASSERT_TRUE(comes([&] { return count("log.txt", "jug.html: new after ") == 1; })) << text("log.txt");
+    ASSERT_TRUE(comes_true([&] { return count("log.txt", "jug.html: new after ") == 1; })) << text("log.txt");
     const std::string first = text("jug.html");
     const std::string file = text("jug/artifact.toml");
     put("jug/artifact.toml", "tilte = \"Jar\"\n" + file);
-    ASSERT_TRUE(comes([&] { return count("log.txt", "the page stays as it was") == 1; })) << text("log.txt");
+    ASSERT_TRUE(comes_true([&] { return count("log.txt", "the page stays as it was") == 1; }))
+        << text("log.txt");
     EXPECT_EQ(count("log.txt", "jug/artifact.toml:1: tilte"), 1U) << text("log.txt");
     EXPECT_EQ(text("jug.html"), first);
     put(".written_apart", file + "[placement]\nscale = 0.5\n");
     fs::rename(folder / ".written_apart", folder / "jug/artifact.toml");
-    ASSERT_TRUE(comes([&] { return count("log.txt", "jug.html: new after ") == 2; })) << text("log.txt");
+    ASSERT_TRUE(comes_true([&] { return count("log.txt", "jug.html: new after ") == 2; })) << text("log.txt");
     EXPECT_NE(text("jug.html"), first);
     EXPECT_EQ(check("--reloads"), 0);
     ASSERT_EQ(::kill(watch, SIGINT), 0);
-    ASSERT_TRUE(comes([&] { return !runs(watch); })) << text("log.txt");
+    ASSERT_TRUE(comes_true([&] { return !runs(watch); })) << text("log.txt");
     EXPECT_EQ(check(""), 0) << "nobody draws it again, so it no longer looks for that";
     EXPECT_EQ(count("log.txt", "\n"), 4U) << text("log.txt");
 }

@@ -15,7 +15,6 @@ namespace {
 class BenchCounts : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         write_star();
         ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --unlit --no-relief --size 64"), 0)
             << text("err.txt");
@@ -28,7 +27,7 @@ protected:
     template <class Change> void write_reference(Change change) const {
         nlohmann::json counts = nlohmann::json::parse(text("out/counts.json"));
         change(counts.at("mean_of_a_frame"));
-        ASSERT_TRUE(write_file(folder / "reference.json", as_bytes(counts.dump())));
+        put("reference.json", counts.dump());
     }
 };
 
@@ -106,19 +105,15 @@ TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) 
 class BenchReport : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         std::filesystem::create_directories(folder / "from/ladder");
-        write("page.md", page("old\n"));
+        put("page.md", page("old\n"));
         write_ladder("0.00019");
     }
-    void write(const std::string& file, const std::string& text) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(text)));
-    }
     void write_ladder(const std::string& dark) const {
-        write("from/ladder/ladder_policies.csv",
-              "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n"
-              "ladder,0.9856,0.009,0.0052," +
-                  dark + ",120,47,0\n");
+        put("from/ladder/ladder_policies.csv",
+            "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n"
+            "ladder,0.9856,0.009,0.0052," +
+                dark + ",120,47,0\n");
     }
     [[nodiscard]] static std::string page(const std::string& table) {
         return "# A page\n<!-- table: ladder -->\n" + table + "<!-- end -->\nprose\n";

@@ -12,9 +12,7 @@ namespace {
 
 class CameraCommand : public ProgramFolder {
 protected:
-    void settings(const std::string& camera) const {
-        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[camera]\n" + camera)));
-    }
+    void settings(const std::string& camera) const { put("kiosk.toml", "[camera]\n" + camera); }
     [[nodiscard]] std::size_t files() const {
         return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
     }

@@ -15,7 +15,7 @@ class ConfigCommand : public ProgramFolder {
 protected:
     /// The page for these settings.
     [[nodiscard]] std::string page(const std::string& settings) const {
-        EXPECT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
+        put("kiosk.toml", settings);
         EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 0) << text("err.txt");
         return text("out.txt");
     }
@@ -105,7 +105,7 @@ TEST_F(ConfigCommand, SaysWhichFilesAreMissingAndPrintsTheSettings) {
 }
 
 TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
-    ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[projector]\ncx = -1280\n")));
+    put("kiosk.toml", "[projector]\ncx = -1280\n");
     EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 1);
     expect_words(text("err.txt"),
                  {"frustumscreen: kiosk.toml: projector.position_m throws its picture beside the table"});

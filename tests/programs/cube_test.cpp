@@ -1,6 +1,5 @@
 // A cube from its mesh to its pictures and its measured error, made only by the programs.
 
-#include "app/pack/pack_file.h"
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"
 #include "tests/programs/program_folder.h"
@@ -18,7 +17,6 @@ namespace {
 class CubeProgram : public ProgramFolder {
 protected:
     void SetUp() override {
-        ProgramFolder::SetUp();
         write_star();
         ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --prop cube --up z --unlit --size 64"), 0)
             << text("err.txt");

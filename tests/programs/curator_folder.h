@@ -1,26 +1,19 @@
 // Folders of artifacts for tests of the curators' commands: a tetrahedron with a spoken text.
 #pragma once
 
+#include "tests/base/comes_true.h"
 #include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
 #include <signal.h>
 
-#include <chrono>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <thread>
 
 namespace frustumscreen::programs {
 
 class CuratorFolder : public ProgramFolder {
 protected:
-    void put(const std::string& file, const std::string& content) const {
-        std::filesystem::create_directories((folder / file).parent_path());
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
-    }
     /// Writes a folder that bakes in a second.
     void put_jug(const std::string& name, const std::string& more = "") const {
         put(name + "/jug.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
@@ -30,28 +23,15 @@ protected:
         std::filesystem::create_directories((folder / file).parent_path());
         ASSERT_TRUE(write_file(folder / file, testing::wav16(testing::sine(0.5, 0.3))));
     }
-    /// Tests `holds` repeatedly until it is true; false after a minute.
-    template <typename Holds> [[nodiscard]] static bool comes(const Holds& holds) {
-        for (int look = 0; look < 1200; ++look) {
-            if (holds()) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-        return false;
-    }
     /// Starts one of the programs in the background, with its output in log.txt; returns its process.
     [[nodiscard]] pid_t start(const std::string& command) const {
         const int status =
-            std::system(fmt::format("cd '{}' && {{ '{}'/{} >log.txt 2>&1 & echo $! >pid.txt; }}",
-                                    folder.string(), bin_dir(), command)
-                            .c_str());
+            shell(fmt::format("{{ '{}'/{} >log.txt 2>&1 & echo $! >pid.txt; }}", bin_dir(), command));
         return status == 0 ? static_cast<pid_t>(std::stol(text("pid.txt"))) : 0;
     }
     /// True if the process runs; a zombie does not.
     [[nodiscard]] static bool runs(pid_t process) {
-        std::ifstream file(fmt::format("/proc/{}/stat", process));
-        const std::string stat(std::istreambuf_iterator<char>(file), {});
+        const std::string stat = frustumscreen::text_of(fmt::format("/proc/{}/stat", process));
         return !stat.empty() && stat.find(") Z ") == std::string::npos;
     }
     [[nodiscard]] std::size_t count(const std::string& file, const std::string& part) const {

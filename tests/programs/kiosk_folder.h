@@ -2,22 +2,18 @@
 #pragma once
 
 #include "app/pack/pack_file.h"
+#include "tests/programs/program_folder.h"
 #include "tests/render/synthetic_pack.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 namespace frustumscreen::synthetic {
 
-class KioskFolder : public ::testing::Test {
+class KioskFolder : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
         pack::Pack pack = rings();
         pack.title = "Rings";
         pack.languages = {"en"};
@@ -34,22 +30,15 @@ protected:
         const Result<Bytes> bytes = pack::write_pack(pack);
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(write_file(folder / "rings.fspack", *bytes));
-        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
-                                                              "0,1,0.02,0,0,1,0,0,0,1\n")));
+        put("poses.csv", "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                         "0,1,0.02,0,0,1,0,0,0,1\n");
         write_settings("replay", "");
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     void write_settings(const std::string& tracker, const std::string& more) const {
-        const std::string text = "[projector]\nwidth = 320\nheight = 200\nrefresh_hz = 20.0\n"
-                                 "[tracker]\nkind = \"" +
-                                 tracker +
-                                 "\"\nposes = \"poses.csv\"\n"
-                                 "[exhibit]\npacks = [\"rings.fspack\"]\n" +
-                                 more;
-        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes(text)));
+        put("kiosk.toml", "[projector]\nwidth = 320\nheight = 200\nrefresh_hz = 20.0\n[tracker]\nkind = \"" +
+                              tracker + "\"\nposes = \"poses.csv\"\n[exhibit]\npacks = [\"rings.fspack\"]\n" +
+                              more);
     }
-
-    std::filesystem::path folder;
 };
 
 } // namespace frustumscreen::synthetic

@@ -67,7 +67,6 @@ std::size_t programs_that_exist() {
 class PlanAgainstShow : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         file = folder / "full.fspack";
         const Result<Bytes> bytes = pack::write_pack(full_pack());
         ASSERT_TRUE(bytes) << bytes.error().message;

@@ -46,9 +46,7 @@ Bytes recording() {
 
 class RecordCommand : public ProgramFolder {
 protected:
-    void settings(const std::string& tracker) const {
-        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes("[tracker]\n" + tracker)));
-    }
+    void settings(const std::string& tracker) const { put("kiosk.toml", "[tracker]\n" + tracker); }
     [[nodiscard]] std::vector<tracker::PoseSample> poses(const std::string& file) const {
         const auto parsed = tracker::parse_poses(text(file), file, tracker::PoseOrder::PropAscends);
         EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);

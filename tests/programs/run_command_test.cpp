@@ -11,7 +11,6 @@
 #include <sys/wait.h>
 
 #include <chrono>
-#include <cstdlib>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -19,27 +18,24 @@ namespace {
 class RunCommand : public KioskFolder {
 protected:
     int exit_status(const std::string& more) const {
-        const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml "
-                                                "--headless --fast --json {} >out.json 2>err.txt",
-                                                folder.string(), bin_dir(), more);
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return shell(fmt::format("'{}/frustumscreen' run --config kiosk.toml --headless --fast --json {} "
+                                 ">out.json 2>err.txt",
+                                 bin_dir(), more));
     }
     nlohmann::json run(const std::string& more) const {
-        EXPECT_EQ(exit_status(more), 0) << as_text(*read_file(folder / "err.txt"));
-        return nlohmann::json::parse(as_text(*read_file(folder / "out.json")), nullptr, false);
+        EXPECT_EQ(exit_status(more), 0) << text("err.txt");
+        return nlohmann::json::parse(text("out.json"), nullptr, false);
     }
 };
 
 TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
     const auto say = [&](const std::string& more) {
-        return std::system(fmt::format("cd '{}' && '{}/frustumscreen' plan --config kiosk.toml --pack "
-                                       "rings.fspack {} >plan.txt 2>err.txt",
-                                       folder.string(), bin_dir(), more)
-                               .c_str());
+        return shell(fmt::format("'{}/frustumscreen' plan --config kiosk.toml --pack rings.fspack {} "
+                                 ">plan.txt 2>err.txt",
+                                 bin_dir(), more));
     };
-    ASSERT_EQ(say("--json"), 0) << as_text(*read_file(folder / "err.txt"));
-    const nlohmann::json plan = nlohmann::json::parse(as_text(*read_file(folder / "plan.txt")));
+    ASSERT_EQ(say("--json"), 0) << text("err.txt");
+    const nlohmann::json plan = nlohmann::json::parse(text("plan.txt"));
     const nlohmann::json& in = plan.at("in");
     EXPECT_EQ(in.at("levels").size(), 1U);
     EXPECT_EQ(in.at("planned_programs"), in.at("programs"));
@@ -59,14 +55,13 @@ TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
     EXPECT_EQ(measured.at("planned").at("gpu_bytes"), in.at("gpu_bytes"));
     EXPECT_GT(measured.at("planned").at("frame_us"), 0.0);
     ASSERT_EQ(say(""), 0);
-    const std::string text(as_text(*read_file(folder / "plan.txt")));
+    const std::string page = text("plan.txt");
     for (const char* words :
          {"The exhibit needs", "It leaves out", "No button panel is opened", "Measured at"}) {
-        EXPECT_NE(text.find(words), std::string::npos) << words;
+        EXPECT_NE(page.find(words), std::string::npos) << words;
     }
     EXPECT_NE(say("--technique level7"), 0);
-    EXPECT_NE(std::string(as_text(*read_file(folder / "err.txt"))).find("auto, finest and level0\n"),
-              std::string::npos);
+    EXPECT_NE(text("err.txt").find("auto, finest and level0\n"), std::string::npos);
 }
 
 TEST_F(RunCommand, AtRestPresentsOneProbeASecondAndDrawsNothing) {
@@ -103,7 +98,7 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_LE(status.at("missed_deadlines"), status.at("frames"));
     EXPECT_EQ(status.at("level_switches"), 0); // there is only one level
     EXPECT_EQ(status.at("ignored_times"), 0);
-    const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
+    const nlohmann::json file = nlohmann::json::parse(text("status.json"));
     EXPECT_EQ(file.at("level"), "level0");
     EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
 }
@@ -112,9 +107,7 @@ TEST_F(RunCommand, AShortRunLeavesItsLastPictureAndAFolderThatIsNotThereIsSaid) 
     run("--seconds 0.1 --out pictures --stills 1");
     EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00000.png"));
     EXPECT_EQ(exit_status("--seconds 1 --status-file nowhere/status.json"), 1);
-    EXPECT_NE(
-        std::string(as_text(*read_file(folder / "err.txt"))).find("nowhere: the folder of --status-file"),
-        std::string::npos);
+    EXPECT_NE(text("err.txt").find("nowhere: the folder of --status-file"), std::string::npos);
 }
 
 TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
@@ -130,7 +123,7 @@ TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
 TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
     const nlohmann::json status =
         run("--seconds 1 --status-file status.json --packs cat.fspack rings.fspack");
-    const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
+    const nlohmann::json file = nlohmann::json::parse(text("status.json"));
     for (const nlohmann::json& each : {status, file}) {
         EXPECT_EQ(each.at("left_out"),
                   nlohmann::json::array({{{"pack", "cat.fspack"}, {"reason", "there is no such file"}}}));
@@ -139,12 +132,11 @@ TEST_F(RunCommand, ListsThePacksThatItCannotShow) {
 
 TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
     const auto errors = [&](const std::string& packs) {
-        const std::string command =
-            fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 "
-                        "--packs {} >out.txt 2>err.txt",
-                        folder.string(), bin_dir(), packs);
-        EXPECT_NE(std::system(command.c_str()), 0);
-        return std::string(as_text(*read_file(folder / "err.txt")));
+        EXPECT_NE(shell(fmt::format("'{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 "
+                                    "--packs {} >out.txt 2>err.txt",
+                                    bin_dir(), packs)),
+                  0);
+        return text("err.txt");
     };
     EXPECT_TRUE(test::tells(errors("cat.fspack"),
                             {"frustumscreen: left out: cat.fspack: ",
@@ -157,7 +149,7 @@ TEST_F(RunCommand, SaysWhichSettingNamesAMissingPack) {
     std::filesystem::remove(folder / "rings.fspack");
     EXPECT_EQ(exit_status("--seconds 1"), 1);
     EXPECT_TRUE(
-        test::tells(as_text(*read_file(folder / "err.txt")),
+        test::tells(text("err.txt"),
                     {"frustumscreen: kiosk.toml:9: exhibit.packs: left out: rings.fspack: ",
                      "frustumscreen: kiosk.toml:9: exhibit.packs: the pack cannot be shown: rings.fspack: ",
                      "[show.no_pack_shown]\n"}));
@@ -165,13 +157,12 @@ TEST_F(RunCommand, SaysWhichSettingNamesAMissingPack) {
 
 TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
     std::filesystem::remove(folder / "poses.csv");
-    const std::string command = fmt::format(
-        "cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 >out.txt 2>err.txt",
-        folder.string(), bin_dir());
-    EXPECT_NE(std::system(command.c_str()), 0);
-    EXPECT_TRUE(
-        test::tells(as_text(*read_file(folder / "err.txt")),
-                    {"frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: ", "[file.not_opened]\n"}));
+    EXPECT_NE(shell(fmt::format(
+                  "'{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 >out.txt 2>err.txt",
+                  bin_dir())),
+              0);
+    EXPECT_TRUE(test::tells(
+        text("err.txt"), {"frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: ", "[file.not_opened]\n"}));
 }
 
 TEST_F(RunCommand, SaysThatAPackWasBakedForAnotherProp) {

@@ -19,18 +19,11 @@ protected:
         }
         std::filesystem::copy_file(folder / "rings.fspack", folder / "shipped/built_in.fspack");
     }
-    void write(const char* file, const std::string& text) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(text)));
-    }
-    std::string text(const char* file) const { return std::string(as_text(*read_file(folder / file))); }
     int run() const {
-        const int status =
-            std::system(fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --mode-file mode "
-                                    "--shipped shipped --cache cache --headless --fast --json --seconds 1 "
-                                    ">out.json 2>err.txt",
-                                    folder.string(), bin_dir())
-                            .c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return shell(fmt::format("'{}/frustumscreen' run --config kiosk.toml --mode-file mode "
+                                 "--shipped shipped --cache cache --headless --fast --json --seconds 1 "
+                                 ">out.json 2>err.txt",
+                                 bin_dir()));
     }
     nlohmann::json status() const {
         EXPECT_EQ(run(), 0) << text("err.txt");
@@ -41,12 +34,12 @@ protected:
 TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
     EXPECT_EQ(status().at("mode"), "normal");
     EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
-    write("mode", "sideways\n");
+    put("mode", "sideways\n");
     EXPECT_EQ(status().at("mode"), "normal");
     EXPECT_NE(text("err.txt").find(
                   "unknown mode 'sideways'; allowed are normal, last_good_set, plain and built_in"),
               std::string::npos);
-    write("mode", "normal\n");
+    put("mode", "normal\n");
     EXPECT_EQ(status().at("mode"), "normal");
     EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
 }
@@ -54,7 +47,7 @@ TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
 TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
     std::filesystem::remove(folder / "rings.fspack");
     EXPECT_NE(run(), 0);
-    write("mode", "built_in\n");
+    put("mode", "built_in\n");
     const nlohmann::json said = status();
     EXPECT_EQ(said.at("mode"), "built_in");
     EXPECT_EQ(said.at("artifact"), "Rings");
@@ -63,7 +56,7 @@ TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
 }
 
 TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
-    write("mode", "plain\n");
+    put("mode", "plain\n");
     const nlohmann::json said = status();
     EXPECT_EQ(said.at("mode"), "plain");
     EXPECT_EQ(said.at("artifact"), "Rings");
@@ -73,23 +66,23 @@ TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
 
 TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {
     const std::string good = text("kiosk.toml");
-    write("kiosk.toml", "[projector]\nwidth = \"wide\"\n");
+    put("kiosk.toml", "[projector]\nwidth = \"wide\"\n");
     EXPECT_EQ(run(), 1);
     EXPECT_NE(text("err.txt").find("kiosk.toml:2"), std::string::npos) << text("err.txt");
 
-    write("mode", "built_in\n");
+    put("mode", "built_in\n");
     EXPECT_EQ(run(), 1); // there are no fallback settings
-    write("shipped/kiosk.toml", "[projector]\nwidth = 640\nheight = 400\n[tracker]\nkind = \"none\"\n");
+    put("shipped/kiosk.toml", "[projector]\nwidth = 640\nheight = 400\n[tracker]\nkind = \"none\"\n");
     std::string why = status().at("settings");
     EXPECT_EQ(why.find("the settings as shipped, shipped/kiosk.toml, are used in their place: "), 0U) << why;
 
-    write("cache/settings_last_good.toml", good);
+    put("cache/settings_last_good.toml", good);
     why = status().at("settings");
     EXPECT_EQ(why.find("the last good settings, cache/settings_last_good.toml, are used in their place: "),
               0U)
         << why;
 
-    write("cache/settings_last_good.toml", "spoilt as well");
+    put("cache/settings_last_good.toml", "spoilt as well");
     why = status().at("settings");
     EXPECT_EQ(why.find("the settings as shipped"), 0U) << why;
 }

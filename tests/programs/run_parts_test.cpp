@@ -133,7 +133,6 @@ TEST_F(RunShow, WithoutAPackThatCanBeShownThereIsAnError) {
 class RunOutput : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         for (int k = 0; k < 2; ++k) {
             show::Still still;
             still.picture = image::Image8(4, 3);

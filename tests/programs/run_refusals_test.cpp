@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
-
 namespace frustumscreen::synthetic {
 namespace {
 
@@ -16,12 +14,11 @@ class RunRefusals : public KioskFolder {
 protected:
     /// `service`: a service manager is named, but does not listen.
     [[nodiscard]] int run(const std::string& options, bool service = false) {
-        const std::string command =
-            fmt::format("cd '{}' && {} '{}/frustumscreen' run {} >out.txt 2>err.txt", folder.string(),
-                        service ? "NOTIFY_SOCKET=$PWD/nobody" : "env -u NOTIFY_SOCKET", bin_dir(), options);
-        const int status = std::system(command.c_str());
-        said = as_text(*read_file(folder / "err.txt"));
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        const int status = shell(fmt::format("{} '{}/frustumscreen' run {} >out.txt 2>err.txt",
+                                             service ? "NOTIFY_SOCKET=$PWD/nobody" : "env -u NOTIFY_SOCKET",
+                                             bin_dir(), options));
+        said = text("err.txt");
+        return status;
     }
     [[nodiscard]] bool says(const std::string& words) const { return said.find(words) != std::string::npos; }
 
@@ -80,7 +77,7 @@ TEST_F(RunRefusals, PicturesThatCannotBeWrittenAreNamed) {
     std::filesystem::create_directories(folder / "out/poses.csv/in the way");
     EXPECT_EQ(run(std::string(usual) + "--out out"), 1);
     EXPECT_TRUE(says("out/poses.csv")) << said;
-    EXPECT_TRUE(as_text(*read_file(folder / "out.txt")).empty()) << "it reports no success";
+    EXPECT_TRUE(text("out.txt").empty()) << "it reports no success";
 }
 
 } // namespace

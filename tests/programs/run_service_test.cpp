@@ -1,5 +1,6 @@
 // `frustumscreen run` as seen by a service manager: ready, fed, starved, stopped.
 
+#include "tests/base/comes_true.h"
 #include "tests/folders.h"
 #include "tests/programs/hung_thread.h"
 #include "tests/programs/kiosk_folder.h"
@@ -10,7 +11,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -85,20 +85,10 @@ protected:
         }
         return false;
     }
-    std::string text_of(const char* name) const {
-        std::ifstream file(folder / name);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    std::string errors() const { return text_of("err.txt"); }
+    std::string errors() const { return text("err.txt"); }
     /// Waits until a file in the folder contains the words.
     bool comes(const char* name, const std::string& words) const {
-        for (const auto give_up = Clock::now() + seconds(60); Clock::now() < give_up;) {
-            if (text_of(name).find(words) != std::string::npos) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        return false;
+        return comes_true([&] { return text(name).find(words) != std::string::npos; });
     }
     /// Waits for the end and returns the exit status; -1: a signal ended it.
     int ending() {
@@ -215,7 +205,7 @@ TEST_F(RunService, ARecordingThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
 TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
     start("", "replay", {"--headless", "--status-file", folder / "status.json"});
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
-    ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text_of("status.json");
+    ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text("status.json");
     if (!programs::hang(process)) {
         GTEST_SKIP() << "this machine allows no tracing";
     }
@@ -232,18 +222,15 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
 
 TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
     const auto run = [this](const std::string& arguments) {
-        const int status = std::system(fmt::format("cd '{}' && '{}/frustumscreen' {} 2>>program.txt",
-                                                   folder.string(), bin_dir(), arguments)
-                                           .c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return shell(fmt::format("'{}/frustumscreen' {} 2>>program.txt", bin_dir(), arguments));
     };
     ASSERT_EQ(run("run --config kiosk.toml --headless --fast --seconds 20 --stills 20 --out out >said.txt"),
               0)
-        << text_of("program.txt");
+        << text("program.txt");
     std::vector<std::string> stills;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / "out")) {
         if (entry.path().extension() == ".png") {
-            stills.push_back(text_of(("out" / entry.path().filename()).c_str()));
+            stills.push_back(text("out" / entry.path().filename()));
         }
     }
     start("", "replay",
@@ -253,18 +240,18 @@ TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
                             "--screenshot shot.png >said.txt";
     bool same = false;
     for (int shot = 0; shot < 20 && !same; ++shot) { // the first ones may show a fade
-        ASSERT_EQ(run(ask), 0) << text_of("program.txt") << text_of("said.txt");
-        same = std::find(stills.begin(), stills.end(), text_of("shot.png")) != stills.end();
+        ASSERT_EQ(run(ask), 0) << text("program.txt") << text("said.txt");
+        same = std::find(stills.begin(), stills.end(), text("shot.png")) != stills.end();
     }
     EXPECT_TRUE(same) << stills.size();
-    const std::string text = text_of("said.txt");
-    EXPECT_TRUE(text.starts_with("The exhibit runs and is well.\n")) << text;
-    EXPECT_NE(text.find("on the screen  \"Rings\" (en), for "), std::string::npos) << text;
-    EXPECT_NE(text.find("tracker        poses come from a file"), std::string::npos) << text;
+    const std::string said = text("said.txt");
+    EXPECT_TRUE(said.starts_with("The exhibit runs and is well.\n")) << said;
+    EXPECT_NE(said.find("on the screen  \"Rings\" (en), for "), std::string::npos) << said;
+    EXPECT_NE(said.find("tracker        poses come from a file"), std::string::npos) << said;
     ::kill(process, SIGTERM);
     EXPECT_EQ(ending(), 0) << errors();
     EXPECT_EQ(run(ask), 1);
-    EXPECT_NE(text_of("program.txt").find("no exhibit listens there"), std::string::npos);
+    EXPECT_NE(text("program.txt").find("no exhibit listens there"), std::string::npos);
 }
 
 TEST_F(RunService, AStaffSocketThatCannotBeMadeEndsNothing) {

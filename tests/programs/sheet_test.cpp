@@ -4,6 +4,7 @@
 #include "app/programs/sheet/sheet_frames.h"
 #include "app/programs/sheet/sheet_picture.h"
 #include "app/programs/sheet/sheet_table.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,12 +15,10 @@
 namespace frustumscreen::programs {
 namespace {
 
-class Sheet : public testing::Test {
+class Sheet : public WithTemporaryFolder {
 protected:
     /// Writes four frames of the prop sliding to the right under a white picture.
     void SetUp() override {
-        folder = std::filesystem::temp_directory_path() / ("sheet_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder);
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 4; ++k) {
             poses += std::to_string(k * 100000) + ",1," + std::to_string(0.03 * k) + ",0,0,1,0,0,0,1\n";
@@ -27,7 +26,7 @@ protected:
             ASSERT_TRUE(
                 write_file(folder / ("frame_0000" + std::to_string(k) + ".png"), image::encode_png(picture)));
         }
-        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
+        put("poses.csv", poses);
         ASSERT_TRUE(write_file(folder / "frames.csv",
                                as_bytes("frame,t_us,ms,technique,estimated_error_mm,drawn,artifact\n"
                                         "0,0,90,level1,0.05,1,\"Bowl, blue\"\n"
@@ -36,9 +35,7 @@ protected:
                                         "3,300000,6,level1,0.05,1,\"Bowl, blue\"\n")));
         settings.emplace(*settings::parse_settings("", "kiosk.toml"));
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
 
-    std::filesystem::path folder;
     std::optional<settings::CheckedSettings> settings;
 };
 
@@ -76,7 +73,7 @@ TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
     for (int k = 0; k < 4; ++k) {
         poses += std::to_string(k * 100000) + ",1,0,0,0,1,0,0,0,1\n";
     }
-    ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
+    put("poses.csv", poses);
     ASSERT_TRUE(write_file(folder / "frames.csv", as_bytes("t_us,ms,artifact,state,language,told\n"
                                                            "0,1,Bowl,view,en,\n"
                                                            "100000,1,Bowl,describe,en,description.0\n"
@@ -92,7 +89,7 @@ TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
 }
 
 TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
-    ASSERT_TRUE(write_file(folder / "frames.csv", as_bytes("t_us,ms\n0,fast\n")));
+    put("frames.csv", "t_us,ms\n0,fast\n");
     const Result<FrameFolder> damaged = read_frame_folder(folder, {}, "", {});
     ASSERT_FALSE(damaged);
     EXPECT_NE(damaged.error().message.find("frames.csv:2"), std::string::npos);

@@ -7,7 +7,6 @@
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <fstream>
 #include <future>
 
@@ -27,7 +26,6 @@ std::size_t open_descriptors() {
 class StaffService : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         path = folder / "s";
         ::unsetenv("JOURNAL_STREAM");
     }

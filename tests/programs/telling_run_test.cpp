@@ -11,7 +11,6 @@
 #include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 namespace frustumscreen::synthetic {
@@ -30,7 +29,7 @@ protected:
             poses +=
                 fmt::format("{},1,0,0.08,0,1,0,0,0,1\n{},2,0,-0.55,0.5,1,0,0,0,1\n", 50'000 * k, 50'000 * k);
         }
-        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
+        put("poses.csv", poses);
     }
     /// `opus`: recording of the description; none: it is silent.
     void put_pack(const std::string& description, const Bytes& opus) const {
@@ -53,15 +52,14 @@ protected:
                         "[panel]\nscript = [{{ at_s = {}, button = 4 }}]\n"
                         "[exhibit]\npacks = [\"told.fspack\"]\nguidance = false\nzone_frame = false\n",
                         asked_at_s);
-        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
-        const std::string command =
-            fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --fast "
-                        "--seconds {} --stills {} --out pictures >out.txt 2>err.txt",
-                        folder.string(), bin_dir(), seconds_run, seconds_run);
-        const int status = std::system(command.c_str());
-        ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << error();
+        put("kiosk.toml", settings);
+        ASSERT_EQ(
+            shell(fmt::format("'{}/frustumscreen' run --config kiosk.toml --headless --fast --seconds {} "
+                              "--stills {} --out pictures >out.txt 2>err.txt",
+                              bin_dir(), seconds_run, seconds_run)),
+            0)
+            << text("err.txt");
     }
-    [[nodiscard]] std::string error() const { return std::string(as_text(*read_file(folder / "err.txt"))); }
     [[nodiscard]] std::vector<std::int16_t> heard() const {
         constexpr std::size_t header = 44;
         const Bytes wav = read_file(folder / "pictures/sound.wav").value_or(Bytes(header));
@@ -121,7 +119,7 @@ TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     const long described = light_in(3);
     EXPECT_GT(described, 3 * light_in(2));
     EXPECT_LT(light_in(9), described / 2) << "the short text again";
-    const std::string frames(as_text(*read_file(folder / "pictures/frames.csv")));
+    const std::string frames(text("pictures/frames.csv"));
     EXPECT_NE(frames.find(",describe,en,description.0,"), std::string::npos);
 }
 
@@ -130,7 +128,8 @@ TEST_F(NarrationRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
     damaged.resize(60);
     put_pack(long_text, damaged);
     run();
-    EXPECT_NE(error().find("the description in 'en' is silent: "), std::string::npos) << error();
+    EXPECT_NE(text("err.txt").find("the description in 'en' is silent: "), std::string::npos)
+        << text("err.txt");
     EXPECT_GT(light_in(4), 3 * light_in(2));
     const std::vector<std::int16_t> sound = heard();
     EXPECT_TRUE(std::all_of(sound.begin(), sound.end(), [](std::int16_t s) { return s == 0; }));

@@ -14,7 +14,6 @@ constexpr const char* box =
 class Turn : public CuratorFolder {
 protected:
     void SetUp() override {
-        CuratorFolder::SetUp();
         put("box/box.obj", box);
         put("box/box.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     }

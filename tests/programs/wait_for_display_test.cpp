@@ -1,6 +1,7 @@
 // The wait of a run for its display, on a clock that advances only during the wait.
 
 #include "app/programs/frustumscreen/wait_for_display.h"
+#include "tests/display/no_display.h"
 #include "tests/service/notify_socket.h"
 
 #include <gtest/gtest.h>
@@ -14,16 +15,6 @@ namespace frustumscreen::programs {
 namespace {
 
 using std::chrono::seconds;
-
-class NoDisplay final : public display::Display {
-public:
-    [[nodiscard]] int width() const override { return 64; }
-    [[nodiscard]] int height() const override { return 40; }
-    [[nodiscard]] unsigned framebuffer() const override { return 0; }
-    [[nodiscard]] int buffer_age() const override { return 1; }
-    [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override { return now; }
-    [[nodiscard]] std::string name() const override { return "none"; }
-};
 
 /// A machine whose display responds as the test specifies.
 struct Machine {
@@ -54,7 +45,7 @@ struct Machine {
                     if (const std::optional<Error> error = trouble(time - start)) {
                         return tl::unexpected<Error>(*error);
                     }
-                    return std::make_unique<NoDisplay>();
+                    return std::make_unique<display::NoDisplay>();
                 },
                 [this] {
                     ++hotplugs;

@@ -4,7 +4,6 @@
 #include "tests/render/synthetic_pack.h"
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace frustumscreen::synthetic {

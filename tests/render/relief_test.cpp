@@ -7,7 +7,6 @@
 #include "tests/render/relief_rig.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace frustumscreen::synthetic {

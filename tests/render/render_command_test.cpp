@@ -22,22 +22,15 @@ class RenderCommand : public KioskFolder {
 protected:
     void SetUp() override {
         KioskFolder::SetUp();
-        ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
-                                                              "3000,1,0.02,0,0,1,0,0,0,1\n"
-                                                              "1000,1,0,0,0,1,0,0,0,1\n"
-                                                              "1000,2,0.3,-0.4,0.5,1,0,0,0,1\n"
-                                                              "2000,1,0,0,0,1,0,0,0,0\n"
-                                                              "3000,1,0.5,0,0,1,0,0,0,1\n")));
+        put("poses.csv", "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                         "3000,1,0.02,0,0,1,0,0,0,1\n"
+                         "1000,1,0,0,0,1,0,0,0,1\n"
+                         "1000,2,0.3,-0.4,0.5,1,0,0,0,1\n"
+                         "2000,1,0,0,0,1,0,0,0,0\n"
+                         "3000,1,0.5,0,0,1,0,0,0,1\n");
     }
     int run(const std::string& arguments) const {
-        const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' {} >out.txt 2>err.txt",
-                                                folder.string(), bin_dir(), arguments);
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    std::string text(const std::string& name) const {
-        const Result<Bytes> bytes = read_file(folder / name);
-        return bytes ? std::string(as_text(*bytes)) : std::string();
+        return shell(fmt::format("'{}/frustumscreen' {} >out.txt 2>err.txt", bin_dir(), arguments));
     }
     image::Image8 picture(const std::string& name) const {
         return image::decode_png8(read_file(folder / name).value()).value();
@@ -136,10 +129,10 @@ TEST_F(RenderCommand, ShowsTheVisitorsView) {
 TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
     const auto sheet = [&](const std::string& arguments) {
         const std::string command =
-            fmt::format("cd '{}' && '{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
+            fmt::format("'{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
                         ">out.txt 2>err.txt",
-                        folder.string(), bin_dir(), source_dir(), arguments);
-        return std::system(command.c_str()) == 0 ? std::string() : text("err.txt");
+                        bin_dir(), source_dir(), arguments);
+        return shell(command) == 0 ? std::string() : text("err.txt");
     };
     EXPECT_TRUE(
         test::tells(sheet("--frames nowhere"), {"frustumscreen-sheet: nowhere: ", "[sheet.no_folder]\n"}));

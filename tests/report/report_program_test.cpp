@@ -19,7 +19,6 @@ const std::string settings =
 class ReportProgram : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        programs::ProgramFolder::SetUp();
         for (const char* name : {"bin", "stick", "report"}) {
             std::filesystem::create_directories(folder / name);
         }
@@ -32,13 +31,7 @@ protected:
         path_ = std::getenv("PATH");
         ASSERT_EQ(::setenv("PATH", (folder / "bin").string().append(":").append(path_).c_str(), 1), 0);
     }
-    void TearDown() override {
-        ::setenv("PATH", path_.c_str(), 1);
-        programs::ProgramFolder::TearDown();
-    }
-    void put(const std::string& file, std::string_view content) const {
-        ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
-    }
+    void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
     void put_journalctl(std::string_view script) const {
         put("bin/journalctl", script);
         ASSERT_EQ(::chmod((folder / "bin/journalctl").c_str(), 0755), 0);

@@ -1,6 +1,7 @@
 // `frustumscreen-safe` from outside: its linked libraries, its pictures, its messages to a service manager.
 #include "app/image/image.h"
 #include "firmware_host/base/run_program.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 #include "tests/service/notify_socket.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 #include <sstream>
 
 namespace frustumscreen::safe {
@@ -20,18 +20,8 @@ namespace fs = std::filesystem;
 
 const std::string program = bin_dir() + "/frustumscreen-safe";
 
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class SafeCommand : public ::testing::Test {
+class SafeCommand : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
     ProgramEnd run(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), program);
         ProgramLimits limits;
@@ -52,11 +42,9 @@ protected:
         return read.value_or(image::Image8(1, 1));
     }
     std::string write(const std::string& name, const std::string& text) {
-        std::ofstream(folder / name, std::ios::binary) << text;
+        put(name, text);
         return folder / name;
     }
-
-    fs::path folder = fs::temp_directory_path() / ("frustumscreen_safe_" + std::to_string(::getpid()));
 };
 
 TEST_F(SafeCommand, IsLinkedWithNothingThatMayBeWhatFailed) {

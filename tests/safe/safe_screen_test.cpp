@@ -24,10 +24,7 @@ std::size_t open_descriptors() {
 
 class SafeScreenTest : public WithTemporaryFolder {
 protected:
-    void TearDown() override {
-        EXPECT_EQ(open_descriptors(), descriptors);
-        WithTemporaryFolder::TearDown();
-    }
+    void TearDown() override { EXPECT_EQ(open_descriptors(), descriptors); }
     std::size_t descriptors = open_descriptors();
 };
 

@@ -2,6 +2,7 @@
 #include "firmware_host/base/crash_file.h"
 #include "firmware_host/base/this_boot.h"
 #include "firmware_host/service/crash_record.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -12,9 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <thread>
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -35,15 +34,8 @@ extern "C" {
 }
 }
 
-class CrashRecord : public testing::Test {
+class CrashRecord : public WithTemporaryFolder {
 protected:
-    CrashRecord() {
-        std::string pattern = (fs::temp_directory_path() / "crashes.XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-        records_ = folder_;
-    }
-    ~CrashRecord() override { fs::remove_all(folder_); }
-
     /// Runs `work` in a child that records crashes; returns the signal that ends it. Its standard error is in
     /// `said_`.
     int signal_that_ends(const std::function<void()>& work) {
@@ -60,11 +52,7 @@ protected:
         said_ = ::testing::internal::GetCapturedStderr();
         return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     }
-    [[nodiscard]] std::string record(int number = 1) const {
-        std::ostringstream text;
-        text << std::ifstream(folder_ / crash_file_name(number)).rdbuf();
-        return text.str();
-    }
+    [[nodiscard]] std::string record(int number = 1) const { return text(crash_file_name(number)); }
     [[nodiscard]] static std::string value(const std::string& text, const std::string& key) {
         const std::size_t at = text.find("\n" + key + " ");
         const std::size_t begin = at + key.size() + 2;
@@ -87,8 +75,7 @@ protected:
         return std::string(line, std::strcspn(line, "\n"));
     }
 
-    fs::path folder_;
-    fs::path records_; ///< for the child's records
+    fs::path records_ = folder; ///< for the child's records
     std::string said_;
 };
 
@@ -176,8 +163,8 @@ TEST_F(CrashRecord, TheLastThreeStay) {
     EXPECT_EQ(value(record(1), "thread"), "thread-4");
     EXPECT_EQ(value(record(2), "thread"), "thread-5");
     EXPECT_EQ(value(record(3), "thread"), "thread-3");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 3);
-    EXPECT_LE(fs::file_size(folder_ / crash_file_name(1)), 8192U);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 3);
+    EXPECT_LE(fs::file_size(folder / crash_file_name(1)), 8192U);
 }
 
 TEST_F(CrashRecord, AFolderThatCannotBeWrittenCostsOnlyTheFile) {

@@ -2,10 +2,10 @@
 #include "firmware_host/base/latest.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/service/hang_watch.h"
+#include "tests/base/comes_true.h"
 
 #include <gtest/gtest.h>
 
-#include <string>
 #include <vector>
 
 namespace frustumscreen::service {
@@ -60,12 +60,10 @@ TEST(HangWatch, SaysWhatTheThreadWasDoingAndThatItIsHeardAgain) {
     });
     const auto wait_for = [&told](std::string_view what) {
         Sentence now;
-        for (const MonotonicTime end = monotonic_now() + seconds(60);
-             now.view() != what && monotonic_now() < end;) {
-            std::this_thread::sleep_for(milliseconds(1));
+        EXPECT_TRUE(comes_true([&] {
             static_cast<void>(told.take(now));
-        }
-        EXPECT_EQ(now.view(), what);
+            return now.view() == what;
+        })) << now.view();
     };
     watch.enters("it draws");
     wait_for("it draws");

@@ -2,6 +2,7 @@
 // questions.
 #include "firmware_host/service/staff_socket.h"
 #include "firmware_host/service/unix_address.h"
+#include "tests/base/temporary_folder.h"
 
 #include <grp.h>
 #include <gtest/gtest.h>
@@ -23,18 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::seconds;
 
-class StaffSocketTest : public ::testing::Test {
+class StaffSocketTest : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = fs::temp_directory_path() / "staff_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-        path = folder / "s";
-    }
-    void TearDown() override {
-        server.reset();
-        fs::remove_all(folder);
-    }
     void open() {
         Result<std::unique_ptr<StaffSocket>> opened = StaffSocket::open(
             path, [this](std::string_view question, const std::stop_token&) -> Result<Bytes> {
@@ -70,8 +61,7 @@ protected:
     }
     [[nodiscard]] bool still_answers() const { return answer_to("hello\n") == "ok 1\n*"; }
 
-    fs::path folder;
-    fs::path path;
+    fs::path path = folder / "s";
     std::unique_ptr<StaffSocket> server;
     std::atomic<int> questions{0};
 };

@@ -199,12 +199,8 @@ TEST_F(Kept, AFullDiskKeepsWhatWasThereAndSaysSo) {
 class Calibrated : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         std::filesystem::create_directory(folder / "kept");
-        write("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [0.0, 0.0, 2.0]\n");
-    }
-    void write(const std::string& name, std::string_view text) {
-        ASSERT_TRUE(write_file(folder / name, as_bytes(text)));
+        put("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [0.0, 0.0, 2.0]\n");
     }
     void keep(const Calibration& calibration) {
         const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder / "kept");
@@ -236,10 +232,10 @@ TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
 
 TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
     keep(calibration(1));
-    write("kept/calibration-0002.toml", "version = 1\nmade = ");
+    put("kept/calibration-0002.toml", "version = 1\nmade = ");
     Calibration beside = calibration(3);
     beside.table_from_projector.translation.x = 9.0; // the picture misses the table
-    write("kept/calibration-0003.toml", calibration_text(beside));
+    put("kept/calibration-0003.toml", calibration_text(beside));
     const Settings settings = loaded();
     ASSERT_TRUE(settings.calibration.used);
     EXPECT_EQ(settings.calibration.used->places, 1);
@@ -254,7 +250,7 @@ TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
 
 /// A calibration corrects a projector that the settings describe wrongly; without it, the settings are refused.
 TEST_F(Calibrated, MendsAProjectorThatIsDescribedWrongly) {
-    write("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [8.0, 0.0, 2.0]\n");
+    put("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [8.0, 0.0, 2.0]\n");
     EXPECT_FALSE(load_settings(folder / "kiosk.toml"));
     keep(calibration(1));
     EXPECT_TRUE(loaded().calibration.used);

@@ -1,4 +1,5 @@
 #include "app/settings/settings_page.h"
+#include "tests/base/text_of.h"
 #include "tests/folders.h"
 #include "tests/settings/settings_text.h"
 
@@ -11,8 +12,7 @@ namespace frustumscreen::settings {
 namespace {
 
 std::string committed_page() {
-    std::ifstream file(source_dir() + "/docs/settings.md", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return frustumscreen::text_of(source_dir() + "/docs/settings.md");
 }
 
 TEST(SettingsPage, IsTheOneInTheDocuments) {

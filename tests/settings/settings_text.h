@@ -2,20 +2,18 @@
 #pragma once
 
 #include "app/settings/settings.h"
+#include "tests/base/text_of.h"
 #include "tests/base/told.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace frustumscreen::settings {
 
 inline std::string shipped_text() {
-    std::ifstream file(source_dir() + "/config/kiosk.toml", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return frustumscreen::text_of(source_dir() + "/config/kiosk.toml");
 }
 
 inline Settings parsed(const std::string& text) {

@@ -20,10 +20,7 @@ protected:
         status.artifact = artifact;
         return status;
     }
-    [[nodiscard]] std::string kept() const {
-        const Result<Bytes> bytes = read_file(folder / "kept.toml", 1000);
-        return bytes ? std::string(as_text(*bytes)) : "";
-    }
+    [[nodiscard]] std::string kept() const { return text("kept.toml"); }
 };
 
 TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {
@@ -51,7 +48,7 @@ TEST_F(LastGoodSettings, ASilenceBeginsTheHalfMinuteAnew) {
 }
 
 TEST_F(LastGoodSettings, TheSameOnesAreNotWrittenAgain) {
-    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes("a = 1\n")));
+    put("kept.toml", "a = 1\n");
     const auto before = std::filesystem::last_write_time(folder / "kept.toml") - std::chrono::hours(1);
     std::filesystem::last_write_time(folder / "kept.toml", before);
     const auto show_with = [&](const char* text) {
@@ -68,8 +65,8 @@ TEST_F(LastGoodSettings, TheSameOnesAreNotWrittenAgain) {
 
 TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
     std::filesystem::create_directory(folder / "etc");
-    ASSERT_TRUE(write_file(folder / "etc/kiosk.toml", as_bytes("not TOML")));
-    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes("[exhibit]\npacks = [\"a.fspack\"]\n")));
+    put("etc/kiosk.toml", "not TOML");
+    put("kept.toml", "[exhibit]\npacks = [\"a.fspack\"]\n");
     EXPECT_FALSE(use_settings(folder / "etc/kiosk.toml", std::nullopt));
     const Result<UsedSettings> used =
         use_settings(folder / "etc/kiosk.toml", SettingsFallback{folder / "kept.toml", {}});
@@ -91,9 +88,9 @@ TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCoun
     ASSERT_TRUE(write_file(folder / "measured/calibration-0001.toml",
                            as_bytes(settings::calibration_text(measured))));
     const std::string text = "[calibration]\nfolder = \"measured\"\n";
-    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes(text)));
+    put("kept.toml", text);
     for (const std::string& own : {text, std::string("not TOML")}) {
-        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes(own)));
+        put("kiosk.toml", own);
         const Result<UsedSettings> used =
             use_settings(folder / "kiosk.toml", SettingsFallback{folder / "kept.toml", {}});
         ASSERT_TRUE(used) << used.error().message;

@@ -10,6 +10,8 @@
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/base/comes_true.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/exhibit/block_words.h"
 #include "tests/folders.h"
 #include "tests/render/counted_new.h"
@@ -22,7 +24,6 @@
 #include <array>
 #include <fstream>
 #include <set>
-#include <thread>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -51,22 +52,19 @@ library::ImportReport done_with(std::size_t packs) {
     }
     return report;
 }
-void put(const fs::path& file, const library::ImportReport& report) {
+void put_report(const fs::path& file, const library::ImportReport& report) {
     ASSERT_TRUE(write_file(file, as_bytes(library::write_import_report(report))));
 }
 
-class Notice : public ::testing::Test {
+class Notice : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        folder = fs::temp_directory_path() / fmt::format("frustumscreen_notice_{}", ::getpid());
-        fs::create_directories(folder);
         report = folder / "report.json";
         pack::LanguageWords words = block_words("en", pack::TextDirection::LeftToRight);
         words.sounds["stick.take_out"] = tone();
         ASSERT_TRUE(write_file(folder / "own.fswords", *pack::write_words(std::array{words})));
         start(true);
     }
-    void TearDown() override { fs::remove_all(folder); }
     static Bytes tone() { return *read_file(source_dir() + "/tests/sound/fixtures/tone.opus"); }
 
     void start(bool with_words) {
@@ -137,7 +135,6 @@ protected:
     }
 
     ShownPacks packs{3};
-    fs::path folder;
     fs::path report;
     settings::Settings settings;
     std::unique_ptr<display::SurfacelessDisplay> display =
@@ -168,7 +165,7 @@ TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
 TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
     const image::Image8 without = picture();
     for (const std::uint64_t done : {150U, 400U, 800U}) {
-        put(report, report_of(library::ImportStage::Copying, done));
+        put_report(report, report_of(library::ImportStage::Copying, done));
         wait(seconds(2));
         const image::Image<std::uint8_t> light = difference(without, picture());
         const double px_per_m =
@@ -192,7 +189,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
 TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
     const image::Image8 without = picture();
     const std::string_view shown = show->state().artifact;
-    put(report, done_with(1));
+    put_report(report, done_with(1));
     wait(seconds(2));
     const long one = lit(difference(without, picture()));
     EXPECT_GT(one, 100);
@@ -203,7 +200,7 @@ TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
 
     library::ImportReport second = done_with(3);
     second.import_id = "second";
-    put(report, second);
+    put_report(report, second);
     wait(seconds(2));
     EXPECT_GT(lit(difference(without, picture())), one + 100);
     wait(seconds(2), std::array{settings::Command::NextArtifact});
@@ -214,13 +211,13 @@ TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
 }
 
 TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
-    put(report, report_of(library::ImportStage::Copying, 100));
+    put_report(report, report_of(library::ImportStage::Copying, 100));
     wait(seconds(2));
     const std::string first(show->state().artifact);
     wait(seconds(2), std::array{settings::Command::PreviousArtifact});
     const std::string chosen(show->state().artifact);
     EXPECT_NE(chosen, first);
-    put(report, done_with(1));
+    put_report(report, done_with(1));
     wait(seconds(2));
     wait(seconds(1), std::array{settings::Command::PreviousArtifact}); // ends the lines
     wait(seconds(1), std::array{settings::Command::StaffMode});
@@ -233,10 +230,10 @@ TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
 TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     const image::Image8 without = picture();
     const std::string shown(show->state().artifact);
-    put(report, report_of(library::ImportStage::MayTakeOut, 1000));
+    put_report(report, report_of(library::ImportStage::MayTakeOut, 1000));
     wait(seconds(2));
     EXPECT_NE(picture().texels, without.texels);
-    put(report, done_with(1));
+    put_report(report, done_with(1));
     for (int k = 0; k < 100 && picture().texels != without.texels; ++k) {
         wait(milliseconds(20));
     }
@@ -253,15 +250,15 @@ TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
     const auto is_loud = [&] {
         return std::count_if(heard.begin(), heard.end(), [](std::int16_t s) { return std::abs(s) > 300; });
     };
-    put(report, report_of(library::ImportStage::Copying, 500));
+    put_report(report, report_of(library::ImportStage::Copying, 500));
     wait(seconds(2));
     EXPECT_EQ(is_loud(), 0);
-    put(report, report_of(library::ImportStage::MayTakeOut, 1000));
+    put_report(report, report_of(library::ImportStage::MayTakeOut, 1000));
     wait(seconds(10));
     const auto spoken = std::search(heard.begin(), heard.end(), truth.begin() + 1000, truth.begin() + 3000);
     EXPECT_NE(spoken, heard.end()) << "the words are not there";
     const auto loud = is_loud();
-    put(report, done_with(2));
+    put_report(report, done_with(2));
     wait(seconds(20));
     EXPECT_EQ(is_loud(), loud) << "it is said once";
 }
@@ -279,14 +276,14 @@ TEST_F(Notice, BytesThatAreNoReportSayNothing) {
     wait(seconds(1));
     EXPECT_EQ(picture().texels, without.texels);
     fs::remove(report);
-    put(report, done_with(1));
+    put_report(report, done_with(1));
     wait(seconds(1));
     EXPECT_NE(picture().texels, without.texels);
 }
 
 TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
     const image::Image8 without = picture();
-    put(report, done_with(3));
+    put_report(report, done_with(3));
     fs::last_write_time(report, fs::file_time_type::clock::now() - seconds(125));
     start(true);
     EXPECT_EQ(picture().texels, without.texels);
@@ -301,7 +298,7 @@ TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
 TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
     const image::Image8 without = picture();
     for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall clock may have been set
-        put(report, done_with(3));
+        put_report(report, done_with(3));
         fs::last_write_time(report, fs::file_time_type::clock::now() - age);
         start(true);
         EXPECT_NE(picture().texels, without.texels) << age.count();
@@ -336,14 +333,8 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
         show::ImportWatch::Answer::WhenReady);
     EXPECT_EQ(watch.latest({}), nullptr);
     const auto wait_for = [&](const library::ImportReport& report) {
-        put(file, report);
-        for (int k = 0; k < 1000; ++k) {
-            if (watch.latest({}) && watch.latest({})->report == report) {
-                return true;
-            }
-            std::this_thread::sleep_for(milliseconds(10));
-        }
-        return false;
+        put_report(file, report);
+        return comes_true([&] { return watch.latest({}) && watch.latest({})->report == report; });
     };
     for (std::uint64_t done = 0; done < 4; ++done) {
         ASSERT_TRUE(wait_for(report_of(library::ImportStage::Copying, done)));

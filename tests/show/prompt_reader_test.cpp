@@ -3,9 +3,9 @@
 #include "app/pack/pack_texts.h"
 #include "app/residency/prompt_reader.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/base/comes_true.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
-#include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
 
@@ -165,9 +165,5 @@ TEST_F(PromptReading, ends_in_the_middle_of_its_work) {
         reader.want(residency::SpokenUse::Word, in_memory("word", fixture("tone.opus")));
     }
     // The kernel drops a thread from its list just after it was waited for.
-    const MonotonicTime end = monotonic_now() + std::chrono::seconds(60);
-    while (threads() > before && monotonic_now() < end) {
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    EXPECT_EQ(threads(), before);
+    EXPECT_TRUE(comes_true([&] { return threads() == before; })) << threads();
 }

@@ -4,11 +4,12 @@
 #include "app/counts/visit_book.h"
 #include "app/show/run_loop.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/temporary_folder.h"
+#include "tests/display/no_display.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,18 +19,8 @@ namespace {
 
 using std::chrono::seconds;
 
-class NoDisplay final : public display::Display {
-public:
-    [[nodiscard]] int width() const override { return 64; }
-    [[nodiscard]] int height() const override { return 40; }
-    [[nodiscard]] unsigned framebuffer() const override { return 0; }
-    [[nodiscard]] int buffer_age() const override { return 1; }
-    [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override { return now; }
-    [[nodiscard]] std::string name() const override { return "none"; }
-};
-
-/// Stays in State::Fault from `fault_from` to `fault_until`.
-class FaultyShow final : public Show {
+/// Draws nothing.
+class DarkShow : public Show {
 public:
     void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
               const tracking::TrackedState& /*on_table*/) override {
@@ -40,15 +31,20 @@ public:
                                           render::Redraw /*redraw*/) override {
         return {};
     }
+
+protected:
+    MonotonicTime now_;
+};
+
+/// Stays in State::Fault from `fault_from` to `fault_until`.
+class FaultyShow final : public DarkShow {
+public:
     [[nodiscard]] ShowState state() const override {
         ShowState state;
         state.state = now_ >= fault_from && now_ < fault_until ? exhibit::State::Fault : exhibit::State::View;
         return state;
     }
     MonotonicTime fault_from, fault_until;
-
-private:
-    MonotonicTime now_;
 };
 
 /// Runs on a clock that advances by one frame.
@@ -58,7 +54,7 @@ Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, Mono
     options.visits = visits;
     options.length = length;
     options.fast = true;
-    NoDisplay display;
+    display::NoDisplay display;
     StatusFile no_file{{.status_file = {}}};
     service::ServiceManager manager;
     const service::Journal journal("test");
@@ -76,18 +72,9 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
 }
 
 /// In use from the 10th second to the 30th; at rest from the 50th on.
-class UsedShow final : public Show {
+class UsedShow final : public DarkShow {
 public:
     explicit UsedShow(MonotonicTime start) : start_(start) {}
-    void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
-              const tracking::TrackedState& /*on_table*/) override {
-        now_ = now;
-    }
-    [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
-                                          const render::RenderTarget& /*target*/,
-                                          render::Redraw /*redraw*/) override {
-        return {};
-    }
     [[nodiscard]] ShowState state() const override {
         const Nanoseconds run = now_ - start_;
         ShowState state;
@@ -102,24 +89,15 @@ public:
     }
 
 private:
-    MonotonicTime start_, now_;
+    MonotonicTime start_;
 };
 
 /// No visitor until `comes`; records the drift marks.
-class QuietShow final : public Show {
+class QuietShow final : public DarkShow {
 public:
     void set_mark(const std::optional<drift::ShownMark>& mark) override {
         while_quiet += mark && now_ < comes ? 1 : 0;
         while_used += mark && now_ > comes ? 1 : 0;
-    }
-    void step(MonotonicTime now, std::span<const settings::Command> /*commands*/,
-              const tracking::TrackedState& /*on_table*/) override {
-        now_ = now;
-    }
-    [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
-                                          const render::RenderTarget& /*target*/,
-                                          render::Redraw /*redraw*/) override {
-        return {};
     }
     [[nodiscard]] ShowState state() const override {
         ShowState state;
@@ -128,9 +106,6 @@ public:
     }
     MonotonicTime comes;
     int while_quiet = 0, while_used = 0;
-
-private:
-    MonotonicTime now_;
 };
 
 TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
@@ -200,10 +175,10 @@ TEST(RunLoop, GoesOnWhereSomethingComesBack) {
     EXPECT_NEAR(run->status.uptime_s.value_or(0.0), 200.0, 0.1);
 }
 
+class CountedRun : public WithTemporaryFolder {};
+
 /// The picture's time is simulated, that of the visit book's thread is not.
-TEST(RunLoop, CountsVisits) {
-    std::string folder = (std::filesystem::temp_directory_path() / "visits.XXXXXX").string();
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+TEST_F(CountedRun, CountsVisits) {
     {
         counts::VisitBook visits(folder, [](std::chrono::sys_seconds) { return seconds(0); });
         const MonotonicTime start = monotonic_now();
@@ -223,7 +198,6 @@ TEST(RunLoop, CountsVisits) {
         count += day->all().visits;
         length_s += 1e-3 * static_cast<double>(day->artifacts.at("Amphora").ms);
     }
-    std::filesystem::remove_all(folder);
     EXPECT_EQ(count, 1U);
     EXPECT_NEAR(length_s, 40.0, 0.2) << "from the first touch until it rests";
 }

@@ -1,6 +1,7 @@
 #include "app/show/run_report.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
+#include "tests/base/comes_true.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -151,13 +152,10 @@ TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("hang_" + std::to_string(::getpid()) + ".json");
     const auto comes = [&file](std::string_view health) {
-        for (const MonotonicTime end = monotonic_now() + std::chrono::seconds(60); monotonic_now() < end;) {
+        return comes_true([&] {
             const Result<Bytes> bytes = read_file(file);
-            if (bytes && nlohmann::json::parse(as_text(*bytes)).at("health") == health) {
-                return true;
-            }
-        }
-        return false;
+            return bytes && nlohmann::json::parse(as_text(*bytes)).at("health") == health;
+        });
     };
     {
         StatusFile status_file({.status_file = file});

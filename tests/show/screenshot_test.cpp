@@ -6,7 +6,6 @@
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <atomic>
 #include <future>
 

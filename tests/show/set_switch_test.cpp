@@ -10,6 +10,8 @@
 #include "app/show/installed_show.h"
 #include "app/show/set_switch.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/comes_true.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/show/shown_packs.h"
 
 #include <gtest/gtest.h>
@@ -33,11 +35,9 @@ Bytes pack_of(std::size_t number) {
     return pack::write_pack(pack).value();
 }
 
-class SetSwitching : public ::testing::Test {
+class SetSwitching : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        folder = fs::temp_directory_path() / fmt::format("frustumscreen_sets_{}", ::getpid());
-        fs::remove_all(folder);
         fs::create_directories(folder / "packs");
         settings.exhibit.library = folder;
         settings.exhibit.captions = false;
@@ -50,7 +50,6 @@ protected:
     void TearDown() override {
         sets.reset(); // before the show, which it uses
         show.reset();
-        fs::remove_all(folder);
     }
 
     /// A set of packs, by their numbers; `spoiled` is an index of a pack whose levels are damaged, but not its
@@ -125,23 +124,14 @@ protected:
     static constexpr Nanoseconds only_a_hang =
         seconds(300); ///< reached only in a hang, even on a busy machine under a sanitizer
     bool await(const std::function<bool()>& is_so) {
-        const MonotonicTime begin = monotonic_now();
-        while (!is_so() && monotonic_now() - begin < only_a_hang) {
-            step();
-            std::this_thread::sleep_for(milliseconds(1));
-        }
-        return is_so();
-    }
-    /// Waits as `await`, without steps.
-    static bool await_there(const std::function<bool()>& is_so, Nanoseconds longest = only_a_hang) {
-        const MonotonicTime begin = monotonic_now();
-        while (monotonic_now() - begin < longest) {
-            if (is_so()) {
-                return true;
-            }
-            std::this_thread::sleep_for(milliseconds(1));
-        }
-        return false;
+        return comes_true(
+            [&] {
+                if (!is_so()) {
+                    step();
+                }
+                return is_so();
+            },
+            only_a_hang);
     }
     bool await_switches(std::uint64_t number) {
         return await([&] { return switches >= number; });
@@ -173,7 +163,6 @@ protected:
         return show::read_verdict(folder).value_or(library::SetVerdict{});
     }
 
-    fs::path folder;
     settings::Settings settings = settings::steep_table();
     show::ArtifactShowOptions options;
     scene::DevicePlan devices;
@@ -412,12 +401,12 @@ TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
     ::testing::internal::CaptureStderr();
     install(put(2, {3}), one);
     std::unique_ptr<show::ShownSet> coming;
-    ASSERT_TRUE(await_there([&] { return (coming = library.take()) != nullptr; }));
+    ASSERT_TRUE(comes_true([&] { return (coming = library.take()) != nullptr; }, only_a_hang));
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("signs without words"), std::string::npos);
     coming->trouble = "the driver has no memory";
     ASSERT_TRUE(library.give_back(coming));
-    ASSERT_TRUE(await_there([&] { return verdict().state == library::TrialState::Bad; }));
-    EXPECT_FALSE(await_there([&] { return library.take() != nullptr; }, milliseconds(300)));
+    ASSERT_TRUE(comes_true([&] { return verdict().state == library::TrialState::Bad; }, only_a_hang));
+    EXPECT_FALSE(comes_true([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 
 TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {

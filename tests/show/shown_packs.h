@@ -3,14 +3,13 @@
 
 #include "app/pack/pack_file.h"
 #include "app/residency/prepared_artifact.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/render/synthetic_pack.h"
 #include "tests/settings/steep_table.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace frustumscreen::synthetic {
@@ -32,19 +31,11 @@ inline pack::Pack numbered_pack(std::size_t number) {
 class ShownPacks {
 public:
     explicit ShownPacks(std::size_t count) {
-        folder_ = std::filesystem::temp_directory_path() / fmt::format("frustumscreen_packs_{}", ::getpid());
-        std::filesystem::create_directories(folder_);
         for (std::size_t k = 0; k < count; ++k) {
-            files_.push_back(folder_ / fmt::format("{}.fspack", k));
+            files_.push_back(folder_.path() / fmt::format("{}.fspack", k));
             static_cast<void>(write_file(files_.back(), pack::write_pack(numbered_pack(k)).value()));
         }
     }
-    ~ShownPacks() {
-        std::error_code none;
-        std::filesystem::remove_all(folder_, none);
-    }
-    ShownPacks(const ShownPacks&) = delete;
-    ShownPacks& operator=(const ShownPacks&) = delete;
 
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
     /// Damages the colours, which every level needs; the manifest stays intact.
@@ -61,7 +52,7 @@ public:
     }
 
 private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
     std::vector<std::filesystem::path> files_;
 };
 

@@ -62,7 +62,6 @@ image::Image8 photographed(const image::Image8& picture, double turn_deg) {
 class StaffPicture : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         typesetter.emplace(*typography::Typesetter::open());
         facts.lines = {"The exhibit runs and is well", "tracker: the tracker is running"};
         facts.card = example_card;

@@ -14,8 +14,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstring>
 #include <fstream>
 #include <future>
 #include <numbers>

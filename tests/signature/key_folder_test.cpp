@@ -1,5 +1,6 @@
 // Public keys as files in a folder.
 #include "app/pack/signature/key_folder.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/signature/signature_testing.h"
 #include "tests/signature/vectors.h"
 
@@ -10,33 +11,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class KeyFolder : public ::testing::Test {
+class KeyFolder : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        fs::remove_all(folder_);
-        fs::create_directory(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    void put(const std::string& name, std::string_view text) const {
-        ASSERT_TRUE(write_file(folder_ / name, as_bytes(text)));
-    }
     void expect_refused(const std::string& words) const {
-        const auto keys = read_key_folder(folder_);
+        const auto keys = read_key_folder(folder);
         ASSERT_FALSE(keys) << words;
         EXPECT_TRUE(samples::is_one_line(keys.error().message));
         EXPECT_NE(keys.error().message.find(words), std::string::npos) << keys.error().message;
     }
-    fs::path folder_ = "a_key_folder";
 };
 
 TEST_F(KeyFolder, GivesKeysByTheirFilesNames) {
-    EXPECT_TRUE(read_key_folder(folder_)->empty());
+    EXPECT_TRUE(read_key_folder(folder)->empty());
     put("b.pub", vectors::open_public);
     put("a museum.pub", vectors::encrypted_public);
     put("b.key", vectors::open_key);
     put(".hidden.pub", "nothing");
     put("notes.txt", "nothing");
-    const auto keys = read_key_folder(folder_);
+    const auto keys = read_key_folder(folder);
     ASSERT_TRUE(keys) << keys.error().message;
     ASSERT_EQ(keys->size(), 2U);
     EXPECT_EQ((*keys)[0],
@@ -47,18 +39,18 @@ TEST_F(KeyFolder, GivesKeysByTheirFilesNames) {
 TEST_F(KeyFolder, RefusesWhatItCannotRead) {
     put("bad.pub", "hello\n");
     expect_refused("bad.pub: this is not a minisign public key");
-    fs::remove(folder_ / "bad.pub");
-    fs::create_directory(folder_ / "folder.pub");
+    fs::remove(folder / "bad.pub");
+    fs::create_directory(folder / "folder.pub");
     expect_refused("folder.pub: ");
-    fs::remove_all(folder_);
-    expect_refused("a_key_folder: the folder of public keys cannot be read");
+    fs::remove_all(folder);
+    expect_refused(folder.string() + ": the folder of public keys cannot be read");
 }
 
 TEST_F(KeyFolder, HasNoMoreKeysThanTheSettings) {
     for (std::size_t k = 0; k < max_trusted_keys; ++k) {
         put(fmt::format("{:02}.pub", k), vectors::open_public);
     }
-    EXPECT_EQ(read_key_folder(folder_)->size(), max_trusted_keys);
+    EXPECT_EQ(read_key_folder(folder)->size(), max_trusted_keys);
     put("more.pub", vectors::open_public);
     expect_refused("more than 32 public keys");
 }

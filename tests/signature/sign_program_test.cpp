@@ -1,5 +1,6 @@
 // frustumscreen-pack keygen, sign and verify from outside, together with Debian's minisign: each accepts the
 // other's output.
+#include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 #include "tests/signature/signature_testing.h"
 
@@ -10,7 +11,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace frustumscreen::pack {
@@ -18,15 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 /// A separate folder for each test, in which commands run.
-class SignProgram : public ::testing::Test {
+class SignProgram : public WithTemporaryFolder {
 protected:
     struct Outcome {
         int status = -1;
@@ -35,21 +28,13 @@ protected:
     };
 
     void SetUp() override {
-        folder_ = fs::absolute(std::string("sign_program_") +
-                               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(folder_);
-        fs::create_directory(folder_);
-        ASSERT_TRUE(write_file(folder_ / "vase.fspack", samples::bytes_of(samples::full_pack())));
+        ASSERT_TRUE(write_file(folder / "vase.fspack", samples::bytes_of(samples::full_pack())));
     }
-    void TearDown() override { fs::remove_all(folder_); }
 
     /// Runs a command without a terminal: standard input is empty unless the command redirects it.
     [[nodiscard]] Outcome run(const std::string& command) const {
-        const std::string all =
-            fmt::format("cd '{}' && exec 0</dev/null >out.txt 2>error.txt && {}", folder_.string(), command);
-        const int ended = std::system(all.c_str());
-        return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text_of(folder_ / "out.txt"),
-                text_of(folder_ / "error.txt")};
+        const int status = shell("exec 0</dev/null >out.txt 2>error.txt && " + command);
+        return {status, text("out.txt"), text("error.txt")};
     }
     [[nodiscard]] Outcome pack(const std::string& arguments, const std::string& before = {}) const {
         return run(before + bin_dir() + "/frustumscreen-pack " + arguments);
@@ -74,7 +59,7 @@ protected:
     /// Runs on a new terminal and types these lines. Returns the terminal's output.
     std::pair<int, std::string> on_terminal(const std::string& arguments, const std::string& typed) const {
         const std::string command =
-            fmt::format("cd '{}' && exec {}/frustumscreen-pack {}", folder_.string(), bin_dir(), arguments);
+            fmt::format("cd '{}' && exec {}/frustumscreen-pack {}", folder.string(), bin_dir(), arguments);
         int terminal = -1;
         const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
         if (child == 0) {
@@ -111,8 +96,6 @@ protected:
     [[nodiscard]] nlohmann::json verified(const std::string& arguments) const {
         return nlohmann::json::parse(pack("verify --json " + arguments).out);
     }
-
-    fs::path folder_;
 };
 
 TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
@@ -120,17 +103,16 @@ TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
     expect_done(made);
     EXPECT_NE(made.out.find("WITHOUT A PASSWORD"), std::string::npos) << made.out;
     struct stat status {};
-    ASSERT_EQ(::stat((folder_ / "house.key").c_str(), &status), 0);
+    ASSERT_EQ(::stat((folder / "house.key").c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777U, 0600U);
-    EXPECT_NE(made.out.find(public_key_line(parse_public_key(text_of(folder_ / "house.pub")).value())),
-              std::string::npos)
+    EXPECT_NE(made.out.find(public_key_line(parse_public_key(text("house.pub")).value())), std::string::npos)
         << "the settings' line is said";
-    const std::string before = text_of(folder_ / "house.key");
+    const std::string before = text("house.key");
     expect_failed(pack("keygen -o house"), "house.key: this key exists");
-    EXPECT_EQ(text_of(folder_ / "house.key"), before);
-    fs::remove(folder_ / "house.key");
+    EXPECT_EQ(text("house.key"), before);
+    fs::remove(folder / "house.key");
     expect_failed(pack("keygen -o house"), "house.pub: this key exists");
-    EXPECT_FALSE(fs::exists(folder_ / "house.key"));
+    EXPECT_FALSE(fs::exists(folder / "house.key"));
     expect_failed(pack("keygen -o nowhere/house"), "nowhere/house.key: cannot be written");
 }
 
@@ -150,11 +132,11 @@ TEST_F(SignProgram, WhatWeSignMinisignVerifies) {
 TEST_F(SignProgram, WhatMinisignSignsIsVerifiedHere) {
     expect_done(run("minisign -G -W -p curator.pub -s curator.key"));
     const Bytes plain = samples::bytes_of(samples::pack());
-    ASSERT_TRUE(write_file(folder_ / "m", testing::manifest_of(plain)));
+    ASSERT_TRUE(write_file(folder / "m", testing::manifest_of(plain)));
     for (const std::string options : {"", "-l", "-t 'serial:5 of today'"}) {
         expect_done(run("minisign -S -s curator.key -m m " + options));
-        const Bytes with = with_signature(plain, text_of(folder_ / "m.minisig")).value();
-        ASSERT_TRUE(write_file(folder_ / "theirs.fspack", with));
+        const Bytes with = with_signature(plain, text("m.minisig")).value();
+        ASSERT_TRUE(write_file(folder / "theirs.fspack", with));
         const nlohmann::json json = verified("theirs.fspack --key curator.pub");
         EXPECT_EQ(json[0]["signed"], true) << json;
         EXPECT_EQ(json[0]["key"], "curator");
@@ -177,7 +159,7 @@ TEST_F(SignProgram, APasswordIsAskedUnseenAndTwice) {
     EXPECT_EQ(twice_different, 1) << shown;
     EXPECT_NE(shown.find("[password.different]"), std::string::npos) << shown;
     EXPECT_EQ(shown.find("another"), std::string::npos) << "the password is on the screen: " << shown;
-    EXPECT_FALSE(fs::exists(folder_ / "secret.key"));
+    EXPECT_FALSE(fs::exists(folder / "secret.key"));
 
     const auto [made, said] = on_terminal("keygen -o secret", "sesame\nsesame\n");
     ASSERT_EQ(made, 0) << said;
@@ -225,10 +207,10 @@ TEST_F(SignProgram, ASerialDoesNotGoBackUnlessItIsSaid) {
     EXPECT_LE(serial, now);
     EXPECT_GT(serial + 600, now);
     expect_done(pack("sign vase.fspack --key house.key --serial 99999999999"));
-    const std::string before = text_of(folder_ / "vase.fspack");
+    const std::string before = text("vase.fspack");
     expect_failed(pack("sign vase.fspack --key house.key"),
                   "vase.fspack: its signature has the serial 99999999999 already");
-    EXPECT_EQ(text_of(folder_ / "vase.fspack"), before);
+    EXPECT_EQ(text("vase.fspack"), before);
     expect_done(pack("sign vase.fspack --key house.key --serial 12"));
     EXPECT_EQ(verified("vase.fspack --key house.pub")[0]["serial"], 12);
     for (const char* wrong : {"0", "-1", "x", "9007199254740992"}) {
@@ -242,8 +224,8 @@ TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     entries.parts[0].second[0] ^= std::byte{1};
     const Bytes broken = samples::put_together(entries);
-    ASSERT_TRUE(write_file(folder_ / "broken.fspack", broken));
-    fs::copy_file(folder_ / "vase.fspack", folder_ / "bowl.fspack");
+    ASSERT_TRUE(write_file(folder / "broken.fspack", broken));
+    fs::copy_file(folder / "vase.fspack", folder / "bowl.fspack");
     const Outcome outcome = pack("sign vase.fspack broken.fspack bowl.fspack --key house.key --json");
     expect_failed(outcome, "broken.fspack: ");
     const nlohmann::json json = nlohmann::json::parse(outcome.out);
@@ -251,16 +233,16 @@ TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
     EXPECT_EQ(json[1]["signed"], false);
     EXPECT_EQ(json[2]["file"], "bowl.fspack");
     expect_done(pack("verify vase.fspack bowl.fspack --key house.pub"));
-    EXPECT_EQ(text_of(folder_ / "broken.fspack"), as_text(broken));
+    EXPECT_EQ(text("broken.fspack"), as_text(broken));
     expect_failed(pack("sign vase.fspack --key house.pub"), "house.pub: this is not a minisign secret key");
     expect_failed(pack("sign house.pub --key house.key"), "house.pub: this is not a pack");
 }
 
 TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
     make_keys();
-    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("order = [\"vase\"]\n")));
+    put("exhibit.toml", "order = [\"vase\"]\n");
     expect_done(pack("sign exhibit.toml --key house.key --serial 8"));
-    EXPECT_EQ(text_of(folder_ / "exhibit.toml"), "order = [\"vase\"]\n");
+    EXPECT_EQ(text("exhibit.toml"), "order = [\"vase\"]\n");
     const Outcome verified = run("minisign -V -m exhibit.toml -p house.pub");
     expect_done(verified);
     EXPECT_NE(verified.out.find("serial:8\tfile:exhibit.toml"), std::string::npos) << verified.out;
@@ -271,15 +253,15 @@ TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
 
 TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
     make_keys();
-    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes("order = [\"vase\"]\nonyl = true\n")));
+    put("exhibit.toml", "order = [\"vase\"]\nonyl = true\n");
     expect_failed(pack("sign exhibit.toml --key house.key"), "frustumscreen-pack: exhibit.toml:2: ");
-    fs::create_directories(folder_ / "more");
-    fs::copy_file(folder_ / "exhibit.toml", folder_ / "more/exhibit.toml");
+    fs::create_directories(folder / "more");
+    fs::copy_file(folder / "exhibit.toml", folder / "more/exhibit.toml");
     expect_failed(pack("sign more/exhibit.toml --key house.key"),
                   "frustumscreen-pack: more/exhibit.toml:2: ");
-    ASSERT_TRUE(write_file(folder_ / "exhibit.toml", as_bytes(std::string(70000, '#'))));
+    put("exhibit.toml", std::string(70000, '#'));
     expect_failed(pack("sign exhibit.toml --key house.key"), "65536");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "exhibit.toml.minisig"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "exhibit.toml.minisig"));
 }
 
 TEST_F(SignProgram, AMistypedCommandIsToldWithThoseThatThereAre) {

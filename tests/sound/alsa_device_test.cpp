@@ -2,6 +2,7 @@
 // plugin acts as a card with faults.
 #include "firmware_host/base/file.h"
 #include "firmware_host/sound/device_sound.h"
+#include "tests/base/comes_true.h"
 #include "tests/sound/faulty_card.h"
 #include "tests/sound/sound_samples.h"
 
@@ -55,18 +56,14 @@ pcm.mono_44100 {
         return samples;
     }
 
-    /// Plays the prompt and waits until it is over, at most twenty seconds.
+    /// Plays the prompt and waits until it is over.
     static bool say(const std::string& device, const SharedPrompt& prompt) {
         DeviceSound sound([device] { return open_alsa(device); });
         SoundRequest wish;
         const std::uint64_t number = wish.say(prompt);
-        const auto give_up = std::chrono::steady_clock::now() + seconds(20);
-        for (SoundReport report; report.over < number; report = sound.poll(monotonic_now(), wish)) {
-            if (std::chrono::steady_clock::now() > give_up) {
-                ADD_FAILURE() << sound.state();
-                return false;
-            }
-            std::this_thread::sleep_for(milliseconds(1));
+        if (!comes_true([&] { return sound.poll(monotonic_now(), wish).over >= number; })) {
+            ADD_FAILURE() << sound.state();
+            return false;
         }
         std::this_thread::sleep_for(milliseconds(30));
         EXPECT_EQ(sound.state(), "its sound goes to " + device);
@@ -101,17 +98,11 @@ TEST_F(AlsaDevice, ACardThatIsMonoAndOfAnotherRateIsConvertedFor) {
     EXPECT_NEAR(length_s, 0.5, 0.002);
 }
 
-/// Polls until `done(report)` or for twenty seconds; asserts no duration.
+/// Polls until `done(report)`.
 template <typename Done> bool until(Sound& sound, const SoundRequest& wish, const Done& done) {
-    const auto give_up = std::chrono::steady_clock::now() + seconds(20);
-    while (!done(sound.poll(monotonic_now(), wish))) {
-        if (std::chrono::steady_clock::now() > give_up) {
-            ADD_FAILURE() << sound.state();
-            return false;
-        }
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return true;
+    const bool is_done = comes_true([&] { return done(sound.poll(monotonic_now(), wish)); });
+    EXPECT_TRUE(is_done) << sound.state();
+    return is_done;
 }
 
 TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {

@@ -1,4 +1,5 @@
 #include "firmware_host/sound/device_sound.h"
+#include "tests/base/comes_true.h"
 #include "tests/render/counted_new.h"
 #include "tests/sound/sound_samples.h"
 
@@ -88,16 +89,9 @@ OpenPcm opener(FakeCard& card) {
     };
 }
 
-/// Polls until `done(report)` or for twenty seconds; asserts no duration.
+/// Polls until `done(report)`.
 template <typename Done> bool until(Sound& sound, const SoundRequest& wish, const Done& done) {
-    const auto give_up = std::chrono::steady_clock::now() + seconds(20);
-    while (!done(sound.poll(monotonic_now(), wish))) {
-        if (std::chrono::steady_clock::now() > give_up) {
-            return false;
-        }
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return true;
+    return comes_true([&] { return done(sound.poll(monotonic_now(), wish)); });
 }
 
 TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {

@@ -78,9 +78,7 @@ def watchdog(**changes):
 
 class Status(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def write(self, name, content):
         data = content if isinstance(content, bytes) else json.dumps(content).encode()

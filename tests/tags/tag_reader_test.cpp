@@ -2,6 +2,7 @@
 #include "app/settings/settings.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/pose_math.h"
+#include "tests/base/text_of.h"
 #include "tests/folders.h"
 #include "tests/simulators/tags/skirt.h"
 #include "tests/simulators/tags/tag_scene.h"
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <thread>
 
@@ -185,8 +185,7 @@ TEST(TagSettings, PlaceATagAsASkirtDoes) {
 
 /// The example that the page gives to technicians is accepted and equals the measured skirt.
 TEST(TagSettings, ThePagesExampleIsTheSkirt) {
-    std::ifstream file(source_dir() + "/docs/tags.md");
-    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::string page = text_of(source_dir() + "/docs/tags.md");
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<settings::CheckedSettings> settings =
         settings::parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");

@@ -159,7 +159,7 @@ TEST_F(SpeakArtifact, a_recording_is_heard_in_whatever_case_its_names_are) {
 
 TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {
     SpeechSources sources;
-    ASSERT_TRUE(write_file(folder / "noise.wav", as_bytes("this is no recording")));
+    put("noise.wav", "this is no recording");
     sources.recordings = {{"en", folder / "noise.wav"}};
     const std::vector captions{caption("en", "A jug.")};
     const Result<SpokenArtifact> bad = speak_artifact(captions, sources);

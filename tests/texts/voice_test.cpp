@@ -2,6 +2,7 @@
 #include "assets_baked/texts/speak_words.h"
 #include "assets_baked/texts/voice.h"
 #include "assets_baked/texts/words.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/texts/wav_bytes.h"
 
 #include <gtest/gtest.h>
@@ -21,16 +22,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-class Voices : public ::testing::Test {
+class Voices : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        std::string name = std::filesystem::temp_directory_path() / "frustumscreen_XXXXXX";
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
-        ASSERT_TRUE(write_file(folder / "good.wav", wav16(sine(0.2, 0.5))));
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
+    void SetUp() override { ASSERT_TRUE(write_file(folder / "good.wav", wav16(sine(0.2, 0.5)))); }
     /// A program of these shell commands that runs in the test's folder.
     [[nodiscard]] std::string program(const std::string& commands) const {
         const std::filesystem::path file = folder / "voice.sh";
@@ -42,12 +36,6 @@ protected:
         const Result<Spoken> spoken = Voice(program(commands), limits).speak("A text.", "en");
         return spoken ? spoken->why_silent : spoken.error().message;
     }
-    [[nodiscard]] std::string text(const std::string& file) const {
-        const Result<Bytes> bytes = read_file(folder / file);
-        return bytes ? std::string(as_text(*bytes)) : std::string();
-    }
-
-    std::filesystem::path folder;
 };
 
 bool contains(const std::string& text, const std::string& part) {
@@ -165,7 +153,7 @@ TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
 
 TEST_F(Voices, a_bad_recording_is_named) {
     std::filesystem::create_directories(folder / "de");
-    ASSERT_TRUE(write_file(folder / "de" / "help.wav", as_bytes("no sound")));
+    put("de/help.wav", "no sound");
     std::vector<pack::LanguageWords> languages(1);
     languages[0].language = "de";
     languages[0].words = {{"help", "Hilfe", "de"}};

@@ -2,6 +2,7 @@
 #include "app/pack/words_file.h"
 #include "assets_baked/texts/fonts.h"
 #include "assets_baked/texts/words.h"
+#include "tests/base/comes_true.h"
 #include "tests/base/told.h"
 #include "tests/folders.h"
 #include "tests/programs/program_folder.h"
@@ -21,7 +22,6 @@ namespace {
 class WordsCommand : public programs::ProgramFolder {
 protected:
     void SetUp() override {
-        programs::ProgramFolder::SetUp();
         const Result<Fonts> fonts = Fonts::open();
         ASSERT_TRUE(fonts) << fonts.error().message;
         if (const Result<void> there = fonts->check("de"); !there) {
@@ -30,16 +30,10 @@ protected:
     }
     /// An ended process may remain as a zombie until its parent collects it.
     [[nodiscard]] static bool ends(int process) {
-        for (int tries = 0; tries < 1000; ++tries) {
-            std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-            std::string words;
-            std::getline(stat, words);
-            if (words.empty() || words.find(") Z ") != std::string::npos) {
-                return true;
-            }
-            ::usleep(10000);
-        }
-        return false;
+        return comes_true([process] {
+            const std::string stat = text_of("/proc/" + std::to_string(process) + "/stat");
+            return stat.empty() || stat.find(") Z ") != std::string::npos;
+        });
     }
     [[nodiscard]] Result<pack::LanguageWords> baked(const std::string& language) const {
         const Result<Bytes> bytes = read_file(folder / "out.fswords");
@@ -114,8 +108,8 @@ TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
 
 TEST_F(WordsCommand, only_words_are_replaced_by_words) {
     std::filesystem::create_directories(folder / "mine" / "de");
-    ASSERT_TRUE(write_file(folder / "notes.txt", as_bytes("what the curator wrote down")));
-    ASSERT_TRUE(write_file(folder / "mine" / "de.toml", as_bytes("attract_line = \"Hilfe\"")));
+    put("notes.txt", "what the curator wrote down");
+    put("mine/de.toml", "attract_line = \"Hilfe\"");
     ASSERT_TRUE(write_file(folder / "mine" / "de" / "attract_line.wav", wav16(sine(0.2, 0.4))));
     const std::string command = "frustumscreen-bake --words mine --languages de --speech none ";
     const auto refused = [&](const std::string& more, const std::string& file, const std::string& words) {
@@ -157,16 +151,16 @@ TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
 }
 
 TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
-    ASSERT_TRUE(write_file(folder / "voice.sh", as_bytes("sleep 1000 & echo $$ $! >>voices.txt; wait")));
+    put("voice.sh", "sleep 1000 & echo $$ $! >>voices.txt; wait");
     for (const char* signal : {"TERM", "KILL"}) {
         std::filesystem::remove(folder / "voices.txt");
         const std::string commands = fmt::format(
-            "cd '{}' || exit 4; '{}'/frustumscreen-bake --words --languages de -o out.fswords --speech 'sh "
+            "'{}'/frustumscreen-bake --words --languages de -o out.fswords --speech 'sh "
             "voice.sh' "
             "2>err.txt & baker=$!; until test -s voices.txt; do kill -0 $baker || exit 5; sleep 0.02; done; "
             "kill -{} $baker; wait $baker 2>wait.txt; true",
-            folder.string(), bin_dir(), signal);
-        ASSERT_EQ(std::system(commands.c_str()), 0) << text("err.txt");
+            bin_dir(), signal);
+        ASSERT_EQ(shell(commands), 0) << text("err.txt");
         std::istringstream voices(text("voices.txt"));
         for (int process = 0; voices >> process;) {
             EXPECT_TRUE(ends(process)) << signal << ": process " << process << " still runs";

@@ -7,8 +7,6 @@
 #include "tests/base/told.h"
 #include "tests/texts/languages.h"
 
-#include <filesystem>
-
 using namespace frustumscreen;
 using namespace frustumscreen::texts;
 using frustumscreen::testing::Shaping;
@@ -22,9 +20,6 @@ std::string refusal(std::string_view toml) {
 
 class WordsFolder : public WithTemporaryFolder {
 protected:
-    void write(const std::string& name, std::string_view text) const {
-        ASSERT_TRUE(write_file(folder / name, as_bytes(text)));
-    }
     [[nodiscard]] Result<std::vector<CollectedWords>>
     collect(const std::vector<std::string>& languages) const {
         return collect_words(folder, languages);
@@ -84,7 +79,7 @@ TEST(ParseWords, messages_name_file_line_and_key) {
 }
 
 TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
-    write("de.toml", "attract_line = \"Kommen Sie näher.\"\n");
+    put("de.toml", "attract_line = \"Kommen Sie näher.\"\n");
     const auto collected = collect({"en", "de"});
     ASSERT_TRUE(collected) << collected.error().message;
     EXPECT_EQ(word_of((*collected)[1], "attract_line").text, "Kommen Sie näher.");
@@ -93,7 +88,7 @@ TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
 }
 
 TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so) {
-    write("nl.toml", "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n");
+    put("nl.toml", "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n");
     const auto collected = collect({"de", "nl"});
     ASSERT_TRUE(collected) << collected.error().message;
     const Word& word = word_of((*collected)[1], "advice.set_down");
@@ -111,7 +106,7 @@ TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so
 }
 
 TEST_F(WordsFolder, a_line_of_an_earlier_version_is_read_and_said_to_be_no_longer_shown) {
-    write("de.toml", "help = \"Hilfe\"\n[advice]\nlower = \"Tiefer.\"\n[fault]\nrepairing = \"Gleich.\"\n");
+    put("de.toml", "help = \"Hilfe\"\n[advice]\nlower = \"Tiefer.\"\n[fault]\nrepairing = \"Gleich.\"\n");
     const auto collected = collect({"de"});
     ASSERT_TRUE(collected) << collected.error().message;
     EXPECT_EQ(word_of((*collected)[0], "advice.lower").text, "Tiefer.");

@@ -1,4 +1,5 @@
 #include "firmware_host/tracker/convert_recording.h"
+#include "tests/base/text_of.h"
 #include "tests/base/told.h"
 #include "tests/folders.h"
 
@@ -6,7 +7,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 namespace frustumscreen::tracker {
@@ -113,9 +113,8 @@ TEST(ConvertRecording, TheRecordingsInTheSharedFolderBecomePoses) {
                                       {"camera_target_handheld_1.csv", 1533, 0},
                                       {"tum_fr1_xyz_groundtruth.txt", 3000, 0},
                                       {"tum_fr1_xyz_rgbdslam.txt", 788, 0}}) {
-        std::ifstream file(folder / expected.name, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-        const ConvertedRecording recording = converted(text, {prop_station, true, {0.17, 0.13}});
+        const ConvertedRecording recording =
+            converted(text_of(folder / expected.name), {prop_station, true, {0.17, 0.13}});
         EXPECT_EQ(recording.samples.size() + static_cast<std::size_t>(recording.dropped_rows), expected.rows)
             << expected.name;
         EXPECT_EQ(recording.dropped_rows, expected.dropped) << expected.name;

@@ -1,6 +1,7 @@
 #include "firmware_host/tracker/packet_recorder.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/usb_tracker.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <fcntl.h>
@@ -30,17 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-class RecorderTest : public ::testing::Test {
+class RecorderTest : public WithTemporaryFolder {
 protected:
-    void SetUp() override {
-        folder = fs::temp_directory_path() / ("frustumscreen_recorder_test" + std::to_string(::getpid()));
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-    }
-    void TearDown() override {
-        disk_error = 0;
-        fs::remove_all(folder);
-    }
+    void TearDown() override { disk_error = 0; }
 
     struct Contents {
         std::vector<std::uint64_t> numbers; ///< of the received packets
@@ -71,7 +64,6 @@ protected:
         std::memcpy(payload.data(), &number, sizeof(number));
         recorder.packet(PacketKind::Received, from_microseconds(static_cast<std::int64_t>(number)), payload);
     }
-    fs::path folder;
 };
 
 TEST_F(RecorderTest, KeepsEveryPacketInOrder) {
@@ -106,10 +98,10 @@ TEST_F(RecorderTest, WhatWasRecordedIsInTheFileWhileItGoesOn) {
 }
 
 TEST_F(RecorderTest, AFileThatIsThereIsNeverWrittenOver) {
-    ASSERT_TRUE(write_file(folder / "a", as_bytes("precious")));
+    WithTemporaryFolder::put("a", "precious");
     EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.2");
     EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.3");
-    EXPECT_EQ(as_text(*read_file(folder / "a")), "precious");
+    EXPECT_EQ(text("a"), "precious");
     const Result<GrowingFile> nowhere = GrowingFile::create(folder / "no" / "a");
     ASSERT_FALSE(nowhere);
     EXPECT_EQ(nowhere.error().id, "file.not_made") << nowhere.error().message;

@@ -1,11 +1,11 @@
 #include "app/settings/settings.h"
 #include "app/visitor/visitor_tracker.h"
+#include "tests/base/text_of.h"
 #include "tests/folders.h"
 #include "tests/simulators/visitor/visitor_run.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iterator>
 #include <thread>
 
@@ -153,8 +153,7 @@ TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
 
 /// The example that the page gives to technicians is accepted and equals the measured camera.
 TEST(VisitorSettings, ThePagesExampleIsTheCamera) {
-    std::ifstream file(source_dir() + "/docs/visitor_eye.md");
-    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::string page = text_of(source_dir() + "/docs/visitor_eye.md");
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<settings::CheckedSettings> settings =
         settings::parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");

@@ -1,10 +1,8 @@
 #include "app/watch/crash.h"
 #include "firmware_host/base/crash_file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
 
 namespace frustumscreen::watch {
 namespace {
@@ -62,15 +60,14 @@ TEST(Crash, OtherBytesAreNone) {
     EXPECT_EQ(odd->unix_s, 0);
 }
 
-TEST(Crash, TheLatestIsTheFirst) {
-    std::string folder = (std::filesystem::temp_directory_path() / "crashes.XXXXXX").string();
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+class CrashFolder : public WithTemporaryFolder {};
+
+TEST_F(CrashFolder, TheLatestIsTheFirst) {
     for (const auto& [number, at] : {std::pair(1, 30), std::pair(2, 50), std::pair(3, 40)}) {
-        std::ofstream(std::filesystem::path(folder) / crash_file_name(number))
-            << "frustumscreen-crash-1\nunix_s " << at << "\nsignal SIGBUS\nend\n";
+        put(crash_file_name(number),
+            "frustumscreen-crash-1\nunix_s " + std::to_string(at) + "\nsignal SIGBUS\nend\n");
     }
     const std::vector<Crash> crashes = read_crashes(folder);
-    std::filesystem::remove_all(folder);
     ASSERT_EQ(crashes.size(), 3U);
     EXPECT_EQ(crashes[0].unix_s, 50);
     EXPECT_EQ(crashes[1].unix_s, 40);

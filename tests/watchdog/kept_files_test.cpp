@@ -2,10 +2,10 @@
 #include "app/programs/watchdog/fault_book.h"
 #include "app/programs/watchdog/memory_file.h"
 #include "app/programs/watchdog/orders.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -18,19 +18,8 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-class KeptFiles : public testing::Test {
+class KeptFiles : public WithTemporaryFolder {
 protected:
-    KeptFiles() {
-        std::string pattern = (fs::temp_directory_path() / "kept.XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~KeptFiles() override { fs::remove_all(folder_); }
-    [[nodiscard]] std::string content(const fs::path& file) const {
-        std::ostringstream text;
-        text << std::ifstream(folder_ / file).rdbuf();
-        return text.str();
-    }
-    fs::path folder_;
     MonotonicTime start_{seconds(50)};
 };
 
@@ -39,22 +28,22 @@ TEST_F(KeptFiles, MemoryIsRememberedInAnotherBoot) {
     memory.awake = hours(5);
     memory.mode = watch::Mode::BuiltIn;
     {
-        MemoryFile file(folder_ / "memory", 1);
+        MemoryFile file(folder / "memory", 1);
         EXPECT_FALSE(file.is_of_this_boot());
         EXPECT_TRUE(file.can_write_now(start_));
         EXPECT_TRUE(file.keep(start_, minutes(3), memory, false));
     }
-    const MemoryFile same(folder_ / "memory", 1);
+    const MemoryFile same(folder / "memory", 1);
     EXPECT_TRUE(same.is_of_this_boot());
     EXPECT_EQ(same.remembered(minutes(4)).awake, hours(5) + minutes(1));
-    const MemoryFile other(folder_ / "memory", 2);
+    const MemoryFile other(folder / "memory", 2);
     EXPECT_FALSE(other.is_of_this_boot());
     EXPECT_EQ(other.remembered(minutes(4)).awake, hours(5) + minutes(4));
     EXPECT_EQ(other.remembered(minutes(4)).mode, watch::Mode::BuiltIn);
 }
 
 TEST_F(KeptFiles, MemoryIsWrittenAtMostOnceAMinute) {
-    MemoryFile file(folder_ / "memory", 1);
+    MemoryFile file(folder / "memory", 1);
     watch::LadderMemory memory;
     int writes = 0;
     for (int second = 0; second < 3600; ++second) {
@@ -69,11 +58,11 @@ TEST_F(KeptFiles, MemoryIsWrittenAtMostOnceAMinute) {
         writes += file.keep(start_ + seconds(second), seconds(second), memory, false) ? 1 : 0;
     }
     EXPECT_LE(writes, 7);
-    EXPECT_EQ(fs::file_size(folder_ / "memory"), watch::slot_count * watch::slot_bytes);
+    EXPECT_EQ(fs::file_size(folder / "memory"), watch::slot_count * watch::slot_bytes);
 }
 
 TEST_F(KeptFiles, AMemoryThatCannotBeWrittenAllowsNoReboot) {
-    MemoryFile nowhere(folder_ / "missing" / "memory", 1);
+    MemoryFile nowhere(folder / "missing" / "memory", 1);
     EXPECT_FALSE(nowhere.can_write_now(start_));
     EXPECT_FALSE(nowhere.keep(start_, seconds(1), {}, true));
     EXPECT_EQ(nowhere.remembered(minutes(4)).awake, minutes(4));
@@ -83,11 +72,11 @@ TEST_F(KeptFiles, AMemoryThatCannotBeWrittenAllowsNoReboot) {
 }
 
 TEST_F(KeptFiles, RubbishIsAKioskWithoutAPast) {
-    std::ofstream(folder_ / "memory") << std::string(10'000, 'x');
-    MemoryFile file(folder_ / "memory", 1);
+    std::ofstream(folder / "memory") << std::string(10'000, 'x');
+    MemoryFile file(folder / "memory", 1);
     EXPECT_EQ(file.remembered(minutes(4)).awake, minutes(4));
     EXPECT_TRUE(file.keep(start_, seconds(1), {}, false));
-    EXPECT_TRUE(MemoryFile(folder_ / "memory", 1).is_of_this_boot());
+    EXPECT_TRUE(MemoryFile(folder / "memory", 1).is_of_this_boot());
 }
 
 Fault fault(const std::string& detail) {
@@ -98,15 +87,15 @@ Fault fault(const std::string& detail) {
 TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
     MonotonicTime now = start_;
     for (int round = 0; round < 100; ++round) {
-        FaultBook book(folder_ / "faults"); // the program starts again, and goes on behind the latest line
+        FaultBook book(folder / "faults"); // the program starts again, and goes on behind the latest line
         for (int k = 0; k < 60; ++k) {
             book.enter(fault("number " + std::to_string(60 * round + k)));
         }
         book.keep(now += minutes(1), false);
         EXPECT_EQ(book.latest().size(), FaultBook::max_latest);
     }
-    EXPECT_EQ(fs::file_size(folder_ / "faults"), FaultBook::max_lines * FaultBook::line_bytes);
-    std::istringstream lines(content("faults"));
+    EXPECT_EQ(fs::file_size(folder / "faults"), FaultBook::max_lines * FaultBook::line_bytes);
+    std::istringstream lines(text("faults"));
     std::set<int> numbers;
     for (std::string line; std::getline(lines, line);) {
         ASSERT_EQ(line.size() + 1, FaultBook::line_bytes);
@@ -120,23 +109,23 @@ TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
 }
 
 TEST_F(KeptFiles, FaultsAreWrittenAtMostOnceAMinute) {
-    FaultBook book(folder_ / "faults");
+    FaultBook book(folder / "faults");
     book.enter(fault("a"));
     book.keep(start_, false);
-    const std::string first = content("faults");
+    const std::string first = text("faults");
     EXPECT_NE(first.find("; a"), std::string::npos);
     book.enter(fault("b\nc"));
     book.keep(start_ + seconds(59), false);
-    EXPECT_EQ(content("faults"), first);
+    EXPECT_EQ(text("faults"), first);
     book.keep(start_ + seconds(60), false);
-    EXPECT_NE(content("faults").find("; b c"), std::string::npos) << "one line a fault";
+    EXPECT_NE(text("faults").find("; b c"), std::string::npos) << "one line a fault";
     book.enter(fault("d"));
     book.keep(start_ + seconds(61), true);
-    EXPECT_NE(content("faults").find("; d"), std::string::npos) << "at once, before a reboot";
+    EXPECT_NE(text("faults").find("; d"), std::string::npos) << "at once, before a reboot";
 }
 
 TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
-    FaultBook book(folder_ / "faults");
+    FaultBook book(folder / "faults");
     book.enter(fault("a"));
     EXPECT_FALSE(book.latest()[0].helped.has_value());
     book.enter(fault("b"));
@@ -150,18 +139,18 @@ TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
 }
 
 TEST_F(KeptFiles, OrdersAreFiles) {
-    const Orders orders(folder_);
+    const Orders orders(folder);
     ASSERT_TRUE(orders.begin(watch::Mode::Normal));
-    EXPECT_EQ(content("mode"), "normal\n");
+    EXPECT_EQ(text("mode"), "normal\n");
     ASSERT_TRUE(orders.give(watch::Step::BuiltIn, watch::Mode::BuiltIn, "a reason"));
-    EXPECT_EQ(content("mode"), "built_in\n");
-    EXPECT_EQ(content("reason"), "a reason\n");
-    EXPECT_TRUE(fs::exists(folder_ / "steps/restart-exhibit"));
+    EXPECT_EQ(text("mode"), "built_in\n");
+    EXPECT_EQ(text("reason"), "a reason\n");
+    EXPECT_TRUE(fs::exists(folder / "steps/restart-exhibit"));
     ASSERT_TRUE(orders.give(watch::Step::Reboot, watch::Mode::Normal, "another"));
-    EXPECT_TRUE(fs::exists(folder_ / "steps/reboot"));
+    EXPECT_TRUE(fs::exists(folder / "steps/reboot"));
     ASSERT_TRUE(orders.begin(watch::Mode::Normal));
-    EXPECT_FALSE(fs::exists(folder_ / "steps/reboot")) << "an old order counts no more";
-    EXPECT_FALSE(Orders(folder_ / "missing").give(watch::Step::Reboot, watch::Mode::Normal, ""));
+    EXPECT_FALSE(fs::exists(folder / "steps/reboot")) << "an old order counts no more";
+    EXPECT_FALSE(Orders(folder / "missing").give(watch::Step::Reboot, watch::Mode::Normal, ""));
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // A kiosk made of files in a folder: what the watchdog sees of it.
 #include "app/programs/watchdog/kiosk_view.h"
 #include "firmware_host/base/this_boot.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 namespace frustumscreen::programs {
@@ -13,47 +13,38 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::seconds;
 
-class KioskOfFiles : public testing::Test {
+class KioskOfFiles : public WithTemporaryFolder {
 protected:
     KioskOfFiles() {
-        std::string pattern = (fs::temp_directory_path() / "kiosk.XXXXXX").string();
-        root_ = ::mkdtemp(pattern.data());
-        places_.root = root_;
-        write("proc/sys/kernel/random/boot_id", "b1\n");
-        write("proc/meminfo", "MemTotal:       1000 kB\nMemFree:          10 kB\nMemAvailable:    250 kB\n");
-        write("sys/fs/cgroup/system.slice/frustumscreen.service/cgroup.procs", "512\n498\n600\n");
-        write("sys/fs/cgroup/system.slice/frustumscreen.service/memory.max", "2000\n");
-        write("sys/fs/cgroup/system.slice/frustumscreen.service/memory.stat", "anon 500\nfile 1400\n");
-        write("sys/class/drm/card0-HDMI-A-1/status", "disconnected\n");
-        write("sys/class/drm/card0-DP-1/status", "connected\n");
-        write("sys/class/thermal/thermal_zone0/temp", "45000\n");
-        write("sys/class/thermal/thermal_zone1/temp", "71500\n");
-        write("sys/block/mmcblk0/device/life_time", "0x02 0x09\n");
+        places_.root = folder;
+        put("proc/sys/kernel/random/boot_id", "b1\n");
+        put("proc/meminfo", "MemTotal:       1000 kB\nMemFree:          10 kB\nMemAvailable:    250 kB\n");
+        put("sys/fs/cgroup/system.slice/frustumscreen.service/cgroup.procs", "512\n498\n600\n");
+        put("sys/fs/cgroup/system.slice/frustumscreen.service/memory.max", "2000\n");
+        put("sys/fs/cgroup/system.slice/frustumscreen.service/memory.stat", "anon 500\nfile 1400\n");
+        put("sys/class/drm/card0-HDMI-A-1/status", "disconnected\n");
+        put("sys/class/drm/card0-DP-1/status", "connected\n");
+        put("sys/class/thermal/thermal_zone0/temp", "45000\n");
+        put("sys/class/thermal/thermal_zone1/temp", "71500\n");
+        put("sys/block/mmcblk0/device/life_time", "0x02 0x09\n");
         status("b1", 100);
-        fs::create_directories(root_ / "var/lib/frustumscreen-watchdog");
-    }
-    ~KioskOfFiles() override { fs::remove_all(root_); }
-
-    void write(const fs::path& file, const std::string& text) const {
-        fs::create_directories((root_ / file).parent_path());
-        std::ofstream(root_ / file) << text;
+        fs::create_directories(folder / "var/lib/frustumscreen-watchdog");
     }
     void status(const std::string& boot, int written_s) const {
-        write(places_.status,
-              "{\"boot_id\": \"" + boot + "\", \"monotonic_ns\": " + std::to_string(written_s) +
-                  "000000000, \"health\": \"well\", \"artifact\": \"A\", \"drawn\": 4, \"probes\": 1}");
+        put(places_.status,
+            "{\"boot_id\": \"" + boot + "\", \"monotonic_ns\": " + std::to_string(written_s) +
+                "000000000, \"health\": \"well\", \"artifact\": \"A\", \"drawn\": 4, \"probes\": 1}");
     }
     [[nodiscard]] watch::Outcome look(KioskView& view, int now_s = 102) const {
         return view.look(MonotonicTime(seconds(now_s)),
                          std::chrono::sys_days(std::chrono::year{2027} / 1 / 1));
     }
 
-    fs::path root_;
     KioskPlaces places_;
 };
 
 TEST_F(KioskOfFiles, IsSeen) {
-    KioskView view(places_, boot_id(root_));
+    KioskView view(places_, boot_id(folder));
     const watch::Outcome outcome = look(view);
     EXPECT_EQ(outcome.process, 498);
     EXPECT_EQ(outcome.failures, 0U);
@@ -71,8 +62,8 @@ TEST_F(KioskOfFiles, IsSeen) {
 }
 
 TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
-    fs::remove_all(root_);
-    KioskView view(places_, boot_id(root_));
+    fs::remove_all(folder);
+    KioskView view(places_, boot_id(folder));
     const watch::Outcome outcome = look(view);
     EXPECT_EQ(outcome.process, 0);
     EXPECT_FALSE(outcome.exhibit);
@@ -85,7 +76,7 @@ TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
 }
 
 TEST_F(KioskOfFiles, AStatusOfAnotherBootCountsForNothing) {
-    KioskView view(places_, boot_id(root_));
+    KioskView view(places_, boot_id(folder));
     status("b0", 100);
     EXPECT_FALSE(look(view).exhibit);
     status("b1", 300); // after now: a clock that is read twice
@@ -93,9 +84,9 @@ TEST_F(KioskOfFiles, AStatusOfAnotherBootCountsForNothing) {
 }
 
 TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
-    KioskView view(places_, boot_id(root_));
-    const auto end = [&](const char* text) { std::ofstream(root_ / places_.ends, std::ios::app) << text; };
-    fs::create_directories((root_ / places_.ends).parent_path());
+    KioskView view(places_, boot_id(folder));
+    const auto end = [&](const char* text) { std::ofstream(folder / places_.ends, std::ios::app) << text; };
+    fs::create_directories((folder / places_.ends).parent_path());
     end("12.5 exit-code exited 1\n13.1 success exited 0\n");
     EXPECT_EQ(look(view).failures, 1U);
     EXPECT_EQ(view.last_end(), "exit-code exited 1");
@@ -105,7 +96,7 @@ TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
     EXPECT_EQ(look(view).failures, 2U);
     EXPECT_EQ(view.last_end(), "watchdog killed KILL");
     EXPECT_EQ(look(view).failures, 2U);
-    std::ofstream(root_ / places_.ends) << "1.0 signal killed SEGV\n"; // a new file
+    std::ofstream(folder / places_.ends) << "1.0 signal killed SEGV\n"; // a new file
     EXPECT_EQ(look(view).failures, 3U);
     std::string many;
     for (int k = 0; k < 5000; ++k) {
@@ -120,14 +111,14 @@ TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
 }
 
 TEST_F(KioskOfFiles, CapabilitiesAreWhatIsThere) {
-    KioskView view(places_, boot_id(root_));
+    KioskView view(places_, boot_id(folder));
     EXPECT_FALSE(view.capabilities().device);
     EXPECT_FALSE(view.capabilities().last_good_set);
-    write(places_.device, "");
-    write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": null}");
+    put(places_.device, "");
+    put(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": null}");
     EXPECT_TRUE(view.capabilities().device);
     EXPECT_FALSE(view.capabilities().last_good_set);
-    write(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": {\"number\": 2}}");
+    put(places_.last_good, "frustumscreen-set 1 00\n{\"set\": {}, \"last_good\": {\"number\": 2}}");
     EXPECT_TRUE(view.capabilities().last_good_set);
 }
 
@@ -146,19 +137,19 @@ TEST_F(KioskOfFiles, NotesAreForStaff) {
 TEST_F(KioskOfFiles, SaysWhyTheExhibitEnded) {
     KioskView view(places_, "b1");
     EXPECT_EQ(view.why_it_ended(), "");
-    write("run/frustumscreen/ends", "57.90 exit-code exited 1\n");
+    put("run/frustumscreen/ends", "57.90 exit-code exited 1\n");
     static_cast<void>(view.look(MonotonicTime(seconds(100)), {}));
     EXPECT_EQ(view.why_it_ended(), "it ended with an error (exited 1)");
     const std::string crash =
         "frustumscreen-crash-1\nunix_s 1\nmonotonic_ms 90000\nboot b1\nsignal SIGSEGV\nthread "
         "llvmpipe-0\nframe swrast_dri.so+0x12\nend\n";
-    write("var/cache/frustumscreen/crashes/crash_2", crash);
+    put("var/cache/frustumscreen/crashes/crash_2", crash);
     EXPECT_EQ(view.why_it_ended(), "it ended with an error (exited 1)") << "that crash came later";
-    write("run/frustumscreen/ends", "57.90 exit-code exited 1\n90.40 core-dump dumped SEGV\n");
+    put("run/frustumscreen/ends", "57.90 exit-code exited 1\n90.40 core-dump dumped SEGV\n");
     static_cast<void>(view.look(MonotonicTime(seconds(101)), {}));
     EXPECT_EQ(view.why_it_ended(), "SIGSEGV in swrast_dri.so+0x12, thread llvmpipe-0");
-    write("var/cache/frustumscreen/crashes/crash_2",
-          "frustumscreen-crash-1\nmonotonic_ms 90000\nboot b0\nsignal SIGBUS\n");
+    put("var/cache/frustumscreen/crashes/crash_2",
+        "frustumscreen-crash-1\nmonotonic_ms 90000\nboot b0\nsignal SIGBUS\n");
     EXPECT_EQ(view.why_it_ended(), "it crashed (dumped SEGV)") << "of another boot";
 }
 

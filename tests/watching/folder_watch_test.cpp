@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -19,7 +18,6 @@ namespace fs = std::filesystem;
 class WatchedFolder : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        WithTemporaryFolder::SetUp();
         fs::create_directories(folder / "recordings" / "en");
         put("artifact.toml");
     }

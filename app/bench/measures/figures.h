@@ -9,7 +9,6 @@
 #pragma once
 
 #include "app/bench/measures/verdicts.h"
-#include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/result.h"

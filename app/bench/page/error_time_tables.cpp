@@ -2,7 +2,6 @@
 #include "app/bench/page/table_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace frustumscreen::bench {

@@ -3,7 +3,6 @@
 #include "firmware_host/base/words_of_time.h"
 
 #include <array>
-#include <optional>
 #include <set>
 
 namespace frustumscreen::bench {

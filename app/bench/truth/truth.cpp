@@ -10,7 +10,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace frustumscreen::bench {
 

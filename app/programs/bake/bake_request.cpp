@@ -2,7 +2,6 @@
 
 #include "app/pack/pack_text.h"
 #include "app/programs/bake/captions_of.h"
-#include "app/programs/bake/label_notes.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "assets_baked/names/find_entry.h"
 #include "firmware_host/base/printable.h"
@@ -15,6 +14,40 @@
 namespace frustumscreen::programs {
 
 namespace {
+
+/// Returns a sentence for each label that is missing in a language of `captions`, and for each label in a language
+/// without texts. `left_out`: languages that were left out on purpose; their labels give no sentence.
+std::vector<std::string> label_notes(std::span<const folder::ArtifactHotspot> hotspots,
+                                     std::span<const pack::PackCaption> captions,
+                                     std::span<const std::string> left_out) {
+    const auto is_in = [](const std::string& language) {
+        return [&](const auto& each) { return each.language == language; };
+    };
+    std::vector<std::string> notes;
+    for (std::size_t k = 0; k < hotspots.size(); ++k) {
+        const std::vector<pack::PackLabel>& labels = hotspots[k].labels;
+        for (const pack::PackCaption& caption : captions) {
+            if (std::none_of(labels.begin(), labels.end(), is_in(caption.language))) {
+                notes.push_back(fmt::format("hotspots[{}] has no label in '{}', so its visitors read another "
+                                            "language there; write {} = "
+                                            "\"...\" under labels",
+                                            k, caption.language, caption.language));
+            }
+        }
+        for (const pack::PackLabel& label : labels) {
+            const bool has_texts =
+                std::any_of(captions.begin(), captions.end(), is_in(label.language)) ||
+                std::find(left_out.begin(), left_out.end(), label.language) != left_out.end();
+            if (!has_texts) {
+                notes.push_back(
+                    fmt::format("hotspots[{}] has the label \"{}\" in '{}', and the artifact has "
+                                "no [[texts]] in that language; write them, or take the label away",
+                                k, printable(label.text, 60), label.language));
+            }
+        }
+    }
+    return notes;
+}
 
 /// The path of an artifact.toml stands for its folder.
 BakeArguments with_folder(BakeArguments arguments) {

@@ -4,7 +4,6 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
-#include "app/programs/bake/check_hotspots.h"
 #include "app/programs/bake/check_scan.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
@@ -13,6 +12,9 @@
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
+#include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/hotspots.h"
+#include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
@@ -30,6 +32,25 @@
 namespace frustumscreen::programs {
 
 namespace {
+
+/// Checks a scan's hotspots before texts and levels are made, with the bake's options, so that hotspots which pass here
+/// pass the bake.
+Result<void> check_hotspots(const bake::SourceMesh& mesh, const bake::BakeOptions& options) {
+    if (options.hotspots.empty()) {
+        return {};
+    }
+    const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
+    const Result<bake::BoxFrame> frame = bake::make_box_frame(mesh, {up, options.turn_deg, options.lift});
+    if (!frame) {
+        return {}; // the bake reports the scan's error
+    }
+    const std::vector<glm::dvec3> points = bake::in_box(mesh, *frame);
+    const bake::SourceScene scene(mesh, points);
+    for (const bake::GivenHotspot& given : options.hotspots) {
+        TRY_VOID(without_value(bake::put_on_surface(given, scene, *frame, options.prop.zone)));
+    }
+    return {};
+}
 
 Result<void> describe(pack::Pack& pack, const BakeRequest& request) {
     pack.id = request.id;

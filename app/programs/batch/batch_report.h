@@ -7,7 +7,6 @@
 
 #include "app/programs/batch/stamp.h"
 
-#include <array>
 #include <span>
 #include <string>
 

@@ -2,7 +2,6 @@
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 
-#include <algorithm>
 #include <memory>
 
 namespace frustumscreen::programs {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 
 namespace frustumscreen::programs {
 namespace {

@@ -5,7 +5,6 @@
 #include "firmware_host/base/standard_error.h"
 #include "tests/simulators/tags/tag_figures.h"
 
-#include <cmath>
 #include <memory>
 
 namespace frustumscreen::programs {

@@ -32,7 +32,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 namespace frustumscreen::programs {

@@ -4,8 +4,6 @@
 /// Threads  one caller.
 #pragma once
 
-#include "firmware_host/base/result.h"
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>

@@ -3,7 +3,6 @@
 #include "app/geometry/table_plane.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace frustumscreen::programs {

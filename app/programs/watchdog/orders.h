@@ -12,7 +12,6 @@
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 namespace frustumscreen::programs {

@@ -49,9 +49,7 @@ def write_table(path, rows):
 
 class Plots(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def error_time(self, name="", set_ups=("near",), title="Cat"):
         folder = self.folder / name

@@ -7,8 +7,6 @@
 #include "app/calibration/gray_code.h"
 #include "tests/simulators/table/simulated_table.h"
 
-#include <span>
-
 namespace frustumscreen::simulators {
 
 struct CaptureFaults {

@@ -1,7 +1,6 @@
 #include "tests/simulators/table/simulated_camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

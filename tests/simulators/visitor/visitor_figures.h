@@ -6,7 +6,6 @@
 
 #include "tests/simulators/visitor/visitor_run.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace frustumscreen::programs {
