@@ -33,8 +33,10 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
            "--lift", arguments.lift,
            "raises the artifact above the prop's bottom, in heights of the artifact, 0 to 1 (default: 0)")
         .within(0.0, 1.0);
-    app.add_flag("--clean", arguments.clean,
-                 "leave out few triangles that lie far from the rest and make the artifact small");
+    app.add_flag(
+        "--clean", arguments.clean,
+        "leave out few triangles that lie far from the rest and make the artifact small; turn closed "
+        "parts that are inside out");
     app.add_flag("--strict", arguments.strict,
                  "refuse a file of which something would be lost; nothing is written");
     app.add_option(
