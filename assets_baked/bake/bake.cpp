@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -30,6 +31,10 @@ namespace {
 constexpr std::size_t max_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
+
+void begin_stage(const BakeOptions& options, const BakeStage& stage) {
+    options.progress(stage.name, stage.begin);
+}
 
 /// The axis closest to each face's normal.
 std::vector<pack::ReliefDirection> directions_of(const geometry::PropShape& prop) {
@@ -73,7 +78,7 @@ public:
     std::vector<Surface> surfaces() {
         finest_ =
             welded_.triangle_count() > max_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
-        options_.progress("what visitors can see", 0.1);
+        begin_stage(options_, stages::seen);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
             visible_ = finest_; // no part is visible from the zone: a sheet flat on the table
@@ -85,8 +90,9 @@ public:
         const SourceScene seen(seen_mesh, seen_points);
         std::size_t last = finest_.triangle_count();
         for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
-            options_.progress("simplified levels",
-                              0.22 + 0.12 * static_cast<double>(k) / mesh_tolerances.size());
+            const double share = static_cast<double>(k) / mesh_tolerances.size();
+            options_.progress(stages::levels.name,
+                              std::lerp(stages::levels.begin, stages::colours.begin, share));
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.triangle_count() * 20 > last * 19) {
                 continue; // less than 5 % fewer than the last: not worth a level
@@ -102,7 +108,7 @@ public:
 
     /// `surfaces` from fine to coarse.
     TexturedLevels mesh_levels(const std::vector<Surface>& surfaces) {
-        options_.progress("colours", 0.34);
+        begin_stage(options_, stages::colours);
         SharedCharts charts(texel_box_, 4 * options_.size);
         for (auto surface = surfaces.rbegin(); surface != surfaces.rend(); ++surface) {
             const auto coarser = surface == surfaces.rbegin() ? surface : std::prev(surface);
@@ -131,7 +137,8 @@ public:
     /// The pack's reliefs, in addition to the levels.
     [[nodiscard]] std::vector<pack::MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
         const auto progress = [this](double done) {
-            options_.progress("relief to be cast", 0.55 + 0.38 * done);
+            options_.progress(stages::relief.name,
+                              std::lerp(stages::relief.begin, stages::choice.begin, done));
         };
         std::vector<pack::MeasuredRelief> made =
             bake_reliefs({.finest = meshes.levels.front(),
@@ -178,7 +185,7 @@ private:
     image::Image8 lit(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
                       image::ImageFloat colour, float reach, const image::Image<float>& coverage) {
         if (!options_.unlit) {
-            options_.progress("light", 0.42);
+            begin_stage(options_, stages::light);
             multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
         }
         return finish(colour, texels, coverage);
@@ -324,7 +331,7 @@ std::int64_t useful_picture_texels(int size) {
 Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
-    options.progress("reading the surface", 0.0);
+    begin_stage(options, stages::surface);
     Bakery bakery(mesh, frame, options);
     TRY_VOID(bakery.check());
     pack::Pack pack;
@@ -358,7 +365,7 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     }
     pack.extremes = profile_extremes(used);
     keep(pack, std::move(meshes));
-    options.progress("choice of the level", 0.93);
+    begin_stage(options, stages::choice);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
     pack::SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);

@@ -16,6 +16,7 @@
 #include "assets_baked/bake/visibility.h"
 #include "firmware_host/base/result.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -34,6 +35,23 @@ struct BakedProp {
 [[nodiscard]] BakedProp baked_frustum();
 /// Held in the hand: seen from all around, also from below.
 [[nodiscard]] BakedProp baked_cube();
+
+/// A step of a bake that `progress` names, and the share of the whole work that is done when it begins, as measured with the
+/// amphora of a million triangles.
+struct BakeStage {
+    std::string_view name;
+    double begin = 0.0;
+};
+namespace stages {
+inline constexpr BakeStage surface{"reading the surface", 0.0};
+inline constexpr BakeStage seen{"what visitors can see", 0.07};
+inline constexpr BakeStage levels{"simplified levels", 0.19};
+inline constexpr BakeStage colours{"colours", 0.31};
+inline constexpr BakeStage light{"light", 0.44};
+inline constexpr BakeStage relief{"relief to be cast", 0.55};
+inline constexpr BakeStage choice{"choice of the level", 0.92};
+inline constexpr std::array all{surface, seen, levels, colours, light, relief, choice};
+} // namespace stages
 
 struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096

@@ -61,13 +61,13 @@ void CellClusters::add_vertex(std::uint32_t vertex, std::uint32_t chart) {
     const glm::dvec3 at = in_cells(vertex);
     const glm::i64vec3 cell =
         glm::clamp(glm::i64vec3(at), std::int64_t{0}, max_cells_along - std::int64_t{1});
-    const std::uint32_t cluster = cells_.number_of(key_of(cell));
+    const std::uint32_t cluster = cells_.number_of(key_of(cell)).number;
     if (cluster == clusters_.size()) {
         clusters_.emplace_back();
         cell_of_cluster_.emplace_back(cell);
     }
     clusters_[cluster].add_vertex(glm::vec3(at - glm::dvec3(cell) - 0.5));
-    const std::uint32_t part = part_numbers_.number_of(std::uint64_t{cluster} << 32U | chart);
+    const std::uint32_t part = part_numbers_.number_of({cluster, chart}).number;
     if (part == parts_.size()) {
         parts_.push_back({cluster, 0.0F});
         uv_sums_.resize(mesh_.uvs.empty() ? 0 : parts_.size(), glm::vec2(0.0F));

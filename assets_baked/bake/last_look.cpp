@@ -135,8 +135,9 @@ std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps, 
     if (const double share = inside_out_share(mesh); share > min_inside_out) {
         guesses.push_back(fmt::format(
             "about {:.0f} % of its surface is turned inside out, beside parts that are not: light has seams "
-            "between them, and the levels need more triangles: turn them alike before it is exported (in "
-            "MeshLab: Re-Orient all faces coherently)",
+            "between them, and the levels need more triangles: --clean turns them in closed parts; turn "
+            "those of "
+            "open parts alike before it is exported (in MeshLab: Re-Orient all faces coherently)",
             100.0 * share));
     }
     for (const std::optional<std::string>& look :

@@ -77,7 +77,7 @@ private:
             const glm::i64vec3 own = cell_of(local_[k]);
             for (int n = 0; n < 27; ++n) {
                 const glm::i64vec3 cell = own + glm::i64vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-                pairs.emplace_back(cells_.number_of(key_of(cell)), k);
+                pairs.emplace_back(cells_.number_of(key_of(cell)).number, k);
             }
         }
         std::sort(pairs.begin(), pairs.end());

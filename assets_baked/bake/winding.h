@@ -8,6 +8,7 @@
 
 #include "assets_baked/bake/source_mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,5 +19,10 @@ namespace frustumscreen::bake {
 
 /// The share of the area, 0 to 0.5: in each connected part, the triangles on the side with less area.
 [[nodiscard]] double inside_out_share(const SourceMesh& mesh);
+
+/// Turns the triangles of closed parts so that their fronts are outside; returns how many it turned. A part is closed if each
+/// edge has two triangles and it has two sides; open parts stay as they are. In a closed part within the extents of another,
+/// which may be the wall of a hollow, the side with more area decides, and in one without volume too.
+std::size_t turn_outward(SourceMesh& mesh);
 
 } // namespace frustumscreen::bake

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace frustumscreen::bake {
 namespace {
@@ -167,6 +168,68 @@ TEST(LastLook, AllOfAPartOrBothSidesOfASheetAreNotInsideOut) {
         strip.triangles.push_back({v + 1, d, c});
     }
     EXPECT_LT(inside_out_share(strip), 0.02);
+}
+
+/// The volume that the triangles enclose; negative if they are inside out.
+double volume_of(const SourceMesh& mesh) {
+    double volume = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        volume += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c])) / 6.0;
+    }
+    return volume;
+}
+
+TEST(LastLook, ClosedPartsAreTurnedOutward) {
+    SourceMesh sound = sphere();
+    test::add_box(sound, {2, 2, 2}, {3, 3, 3}); // 12 triangles
+    const std::vector<std::array<std::uint32_t, 3>> truth = sound.triangles;
+    EXPECT_EQ(turn_outward(sound), 0U);
+    EXPECT_EQ(sound.triangles, truth);
+    SourceMesh box = sound;
+    for (std::size_t t = truth.size() - 12; t < truth.size(); ++t) {
+        turn_over(box, t);
+    }
+    EXPECT_EQ(turn_outward(box), 12U);
+    EXPECT_NEAR(volume_of(box), volume_of(sound), 1e-12);
+    SourceMesh mixed =
+        sound; // both parts, with triangles of both kinds; more than half of them are inside out
+    std::mt19937 random(5);
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+        if (random() % 5 < 3) {
+            turn_over(mixed, t);
+        }
+    }
+    EXPECT_LT(volume_of(mixed), 0.0);
+    EXPECT_GT(turn_outward(mixed), truth.size() / 2);
+    EXPECT_NEAR(volume_of(mixed), volume_of(sound), 1e-12);
+    EXPECT_EQ(inside_out_share(mixed), 0.0);
+    EXPECT_EQ(turn_outward(mixed), 0U);
+}
+
+TEST(LastLook, WhatHasNoOutsideIsNotTurned) {
+    SourceMesh open;
+    add_square(open, 10, {0, 0, 0});
+    turn_over(open, 7);
+    const auto square = open.triangles;
+    EXPECT_EQ(turn_outward(open), 0U) << "a sheet is open";
+    EXPECT_EQ(open.triangles, square);
+    SourceMesh bowl = sphere(); // one triangle is missing
+    for (std::size_t t = 0; t < bowl.triangles.size(); ++t) {
+        turn_over(bowl, t);
+    }
+    bowl.triangles.erase(bowl.triangles.begin() + 1000);
+    EXPECT_EQ(turn_outward(bowl), 0U);
+    SourceMesh hollow; // the wall of a hollow looks inward
+    hollow.materials.resize(1);
+    test::add_box(hollow, {-2, -2, -2}, {2, 2, 2});
+    test::add_box(hollow, {-1, -1, -1}, {1, 1, 1});
+    for (std::size_t t = 12; t < 24; ++t) {
+        turn_over(hollow, t);
+    }
+    EXPECT_EQ(turn_outward(hollow), 0U);
+    turn_over(hollow, 13);
+    EXPECT_EQ(turn_outward(hollow), 1U);
+    EXPECT_NEAR(volume_of(hollow), 64.0 - 8.0, 1e-12);
 }
 
 /// A square with texture coordinates and a picture.

@@ -45,7 +45,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     check(image::decode_png16(bytes, max_texels));
     check(image::decode_webp8(bytes, max_texels));
     check(bake::decode_image(bytes, max_texels));
-    const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(bytes, max_texels / 16, max_texels);
+    const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(
+        bytes, [](const glm::ivec2& size) { return bake::halvings_within(size, max_texels / 16); },
+        max_texels);
     check(shrunk ? Result<image::Image8>(shrunk->image) : tl::unexpected<Error>(shrunk.error()));
     fuzz::require(!shrunk || shrunk->image.texels.size() <= max_texels / 16, "a shrunk picture is small");
     return 0;

@@ -1,6 +1,7 @@
 #include "assets_baked/bake/loaders/decode_image.h"
 #include "firmware_host/base/file.h"
 #include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/picture_forms.h"
 #include "tests/loaders/sample_pictures.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,11 @@ int largest_difference(const image::Image8& a, const image::Image8& b) {
         }
     }
     return largest;
+}
+
+/// Halves until at most `kept_texels` are left.
+bake::Halvings within(std::int64_t kept_texels) {
+    return [kept_texels](const glm::ivec2& size) { return bake::halvings_within(size, kept_texels); };
 }
 
 TEST(DecodeImage, PngJpegAndWebpGiveTheSamePicture) {
@@ -132,27 +138,103 @@ TEST(DecodeImage, ALargePictureIsHalvedUntilItFits) {
     const image::Image8 quarter = image::half_size(image::half_size(truth));
     for (const std::string& whole :
          {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth), bmp_of(truth), tga_of(truth)}) {
-        const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(as_bytes(whole), 16 * 8);
+        const Result<bake::ShrunkImage> shrunk = bake::decode_shrunk(as_bytes(whole), within(16 * 8));
         ASSERT_TRUE(shrunk) << shrunk.error().message;
         EXPECT_EQ(shrunk->file_size, glm::ivec2(64, 32));
         ASSERT_EQ(glm::ivec2(shrunk->image.width, shrunk->image.height), glm::ivec2(16, 8));
         EXPECT_LE(largest_difference(shrunk->image, quarter), whole.starts_with("\xff\xd8") ? 8 : 1);
-        const Result<bake::ShrunkImage> least = bake::decode_shrunk(as_bytes(whole), 1);
+        const Result<bake::ShrunkImage> least = bake::decode_shrunk(as_bytes(whole), within(1));
         ASSERT_TRUE(least) << least.error().message;
         EXPECT_EQ(least->image.texels.size(), 1U);
-        const Result<bake::ShrunkImage> kept = bake::decode_shrunk(as_bytes(whole), 64 * 32);
+        const Result<bake::ShrunkImage> kept = bake::decode_shrunk(as_bytes(whole), within(64 * 32));
         ASSERT_TRUE(kept) << kept.error().message;
         EXPECT_EQ(kept->image.texels, bake::decode_image(as_bytes(whole))->texels);
     }
 }
 
-TEST(DecodeImage, AJpegIsShrunkWhileItIsDecoded) {
-    const image::Image8 truth = smooth_picture(64, 32);
-    const std::int64_t memory = 16 * 8; // of the whole picture there is no room
-    EXPECT_TRUE(bake::decode_shrunk(as_bytes(jpeg_of(truth)), 16 * 8, memory));
-    const Result<bake::ShrunkImage> png = bake::decode_shrunk(as_bytes(png_of(truth)), 16 * 8, memory);
-    ASSERT_FALSE(png);
-    EXPECT_EQ(png.error().id, "picture.too_large");
+TEST(DecodeImage, PicturesAreShrunkWhileTheyAreDecoded) {
+    const PictureForm rgb{.channels = Channels::Rgb};
+    const image::Image8 truth = random_picture_for(rgb, 512, 512, 1);
+    constexpr std::int64_t memory = 512 * 64; // of the whole picture there is no room
+    for (const std::string& whole : {jpeg_of(truth), png_of(truth), tiff_in_form(truth, rgb)}) {
+        EXPECT_TRUE(bake::decode_shrunk(as_bytes(whole), within(64 * 64), memory));
+        const Result<bake::ShrunkImage> larger =
+            bake::decode_shrunk(as_bytes(whole), within(256 * 256), memory);
+        ASSERT_FALSE(larger);
+        EXPECT_EQ(larger.error().id, "picture.too_large");
+    }
+    const PictureForm interlaced{.channels = Channels::Rgb, .interlaced = true};
+    const PictureForm from_below{.channels = Channels::Rgb, .orientation = 4};
+    const PictureForm one_strip{.channels = Channels::Rgb, .rows_a_strip = 512};
+    for (const std::string& whole :
+         {webp_of(truth), bmp_of(truth), tga_of(truth), png_in_form(truth, interlaced),
+          tiff_in_form(truth, from_below), tiff_in_form(truth, one_strip)}) {
+        const Result<bake::ShrunkImage> shrunk =
+            bake::decode_shrunk(as_bytes(whole), within(64 * 64), memory);
+        ASSERT_FALSE(shrunk);
+        EXPECT_EQ(shrunk.error().id, "picture.too_large");
+    }
+}
+
+/// Decodes and shrinks `file`, and compares it with its texels, halved as a whole picture.
+void expect_texels(const std::string& file, const image::Image8& truth, const std::string& form) {
+    image::Image8 expected = truth;
+    for (int halvings = 0; halvings <= 3; ++halvings) {
+        const Result<bake::ShrunkImage> shrunk =
+            bake::decode_shrunk(as_bytes(file), [&](const glm::ivec2&) { return halvings; });
+        ASSERT_TRUE(shrunk) << form << ": " << shrunk.error().message;
+        EXPECT_EQ(shrunk->file_size, glm::ivec2(truth.width, truth.height));
+        ASSERT_EQ(shrunk->image.width, expected.width) << form;
+        ASSERT_EQ(shrunk->image.height, expected.height) << form;
+        EXPECT_LE(largest_difference(shrunk->image, expected), 1)
+            << form << ", halved " << halvings << " times";
+        expected = image::half_size(expected);
+    }
+}
+
+TEST(DecodeImage, PicturesOfEveryFormAndSizeAreHalvedAsWholeOnesAre) {
+    int refused = 0;
+    const std::vector<glm::ivec2> sizes{{37, 53}, {64, 130}, {1, 9}, {101, 1}};
+    for (const glm::ivec2& size : sizes) {
+        for (const Channels channels :
+             {Channels::Grey, Channels::GreyAlpha, Channels::Palette, Channels::Rgb, Channels::Rgba}) {
+            for (const int depth : {8, 16}) {
+                if (channels == Channels::Palette && depth == 16) {
+                    continue;
+                }
+                PictureForm form{.channels = channels, .depth = depth};
+                const image::Image8 truth = random_picture_for(form, size.x, size.y, 3);
+                const std::string name = std::to_string(size.x) + " x " + std::to_string(size.y) +
+                                         ", channels " + std::to_string(static_cast<int>(channels)) + ", " +
+                                         std::to_string(depth) + " bits";
+                for (const bool interlaced : {false, true}) {
+                    form.interlaced = interlaced;
+                    expect_texels(png_in_form(truth, form), truth, "PNG, " + name);
+                }
+                image::Image8 opaque = truth;
+                for (glm::u8vec4& texel : opaque.texels) { // a TIFF's palette has no alpha
+                    texel.a = channels == Channels::Palette ? std::uint8_t{255} : texel.a;
+                }
+                for (const int rows : {1, 7, 40, 1000, 0}) {
+                    form.rows_a_strip = rows;
+                    form.packed = rows != 40;
+                    const std::string file = tiff_in_form(truth, form);
+                    const bool grey = channels == Channels::Grey || channels == Channels::GreyAlpha;
+                    const bool two_bytes = depth == 16 || channels == Channels::GreyAlpha;
+                    if ((depth == 16 && channels == Channels::GreyAlpha) ||
+                        (grey && two_bytes && rows == 0 &&
+                         size.x % 32 != 0)) { // libtiff 4.5 unpacks it wrongly
+                        EXPECT_EQ(bake::decode_image(as_bytes(file)).error().id, "picture.tiff_damaged");
+                        ++refused;
+                        continue;
+                    }
+                    expect_texels(file, opaque,
+                                  "TIFF, " + name + ", " + std::to_string(rows) + " rows a strip");
+                }
+            }
+        }
+    }
+    EXPECT_EQ(refused, 4 * 5 + 3 * 2);
 }
 
 TEST(DecodeImage, OtherFormsAreNamedAsUnreadable) {

@@ -61,6 +61,23 @@ TEST(Exporters, AKeywordOfMaterialsThatNobodyKnowsIsTold) {
     EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "glitter, map_Kdd"));
 }
 
+TEST(Exporters, EveryMtlKeywordIsReadOrToldOrOnlyShines) {
+    const bake::SourceMesh plain = obj_with("newmtl m\n", "usemtl m\n" + textured_face);
+    for (const std::string keyword : {"Ks 1 1 1", "Ka 1 0 0", "Ns 9", "Ni 1.5", "illum 2", "Pr 0.5",
+                                      "map_Pr wood.png", "map_Ks wood.png", "refl wood.png", "sharpness 9"}) {
+        const bake::SourceMesh mesh = obj_with("newmtl m\n" + keyword + "\n", "usemtl m\n" + textured_face);
+        EXPECT_TRUE(mesh.notes.empty()) << keyword;
+    }
+    for (const std::string keyword :
+         {"map_d wood.png", "map_opacity wood.png", "map_Tr wood.png", "decal wood.png", "d 0.5", "Tr 0.5",
+          "bump wood.png", "norm wood.png", "map_norm wood.png", "disp wood.png", "map_Kd -mm 0.2 1 wood.png",
+          "map_Kd -t 1 1 1 wood.png", "map_Kd -o 0.5 0 0 wood.png", "glitter 1"}) {
+        const bake::SourceMesh mesh = obj_with("newmtl m\n" + keyword + "\n", "usemtl m\n" + textured_face);
+        EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "")) << keyword;
+    }
+    EXPECT_TRUE(plain.notes.empty());
+}
+
 TEST(Exporters, AnObjWithoutUsemtlHasTheOnlyMaterial) {
     const bake::SourceMesh mesh = obj_with("newmtl m\nmap_Kd wood.png\n", textured_face);
     EXPECT_TRUE(shows_wood(mesh));

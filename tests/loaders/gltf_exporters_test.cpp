@@ -160,6 +160,10 @@ TEST(GltfExporters, AHiddenNodeHidesAllBelowIt) {
 TEST(GltfExporters, AnExtensionThatIsNotReadIsTold) {
     EXPECT_TRUE(notes(with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["ACME_twist"])"),
                       bake::SourceNote::Kind::Lost, "ACME_twist"));
+    EXPECT_TRUE(notes(with_nodes(R"({"mesh":0,"extensions":{"ACME_bend":{"by":3}}})"),
+                      bake::SourceNote::Kind::Lost, "ACME_bend"))
+        << "without a declaration";
+    EXPECT_TRUE(with_nodes(R"({"mesh":0,"extras":{"extensions":{"ACME_bend":3}}})").notes.empty());
     EXPECT_TRUE(
         with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["KHR_materials_specular","KHR_lights_punctual"])")
             .notes.empty())

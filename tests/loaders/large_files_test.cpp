@@ -40,6 +40,15 @@ TEST(LargeFiles, AnEmptyAndAMissingFileAreNoCrash) {
     EXPECT_FALSE(bake::ModelFile::read(folder.path() / "nowhere.obj"));
 }
 
+TEST(LargeFiles, AFileOfMoreThanTheLimitIsRefusedUnread) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.write("model.obj", "v 0 0 0\n");
+    std::filesystem::resize_file(path, bake::max_model_bytes + 1); // without blocks on the disk
+    const Result<bake::ModelFile> file = bake::ModelFile::read(path);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().id, "file.too_long");
+}
+
 constexpr std::uint32_t side = 520; ///< squares along each edge: the files have more than 16 MiB
 
 std::vector<std::array<std::uint32_t, 3>> sheet_triangles() {
@@ -145,7 +154,11 @@ TEST(LargeFiles, VertexNumbersAreThoseOfAMap) {
         const bake::VertexNumbers::Found found = numbers.number_of(key);
         ASSERT_EQ(found.number, number->second);
         ASSERT_EQ(found.is_new, is_new);
+        ASSERT_EQ(numbers.find(key), number->second);
     }
+    EXPECT_EQ(numbers.size(), truth.size());
+    EXPECT_GT(numbers.size(), 5000U);
+    EXPECT_EQ(numbers.find({40, 0, 0}), bake::VertexNumbers::none);
 }
 
 TEST(LargeFiles, PolygonsOfSeveralSizesStandInAnyOrder) {

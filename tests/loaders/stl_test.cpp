@@ -50,6 +50,27 @@ TEST(Stl, TheContentCountsNotTheName) {
     EXPECT_TRUE(load_text("part.ply", std::string(ascii)).has_value());
 }
 
+/// Words of the notes on losses; empty: nothing is lost.
+std::string losses_of(const Result<bake::SourceMesh>& mesh) {
+    std::string losses;
+    for (const bake::SourceNote& note : mesh ? mesh->notes : std::vector<bake::SourceNote>()) {
+        losses += note.kind == bake::SourceNote::Kind::Lost ? note.text : std::string();
+    }
+    return losses;
+}
+
+TEST(Stl, WhatIsNotReadIsTold) {
+    std::string file = binary_stl({facet, facet, facet});
+    EXPECT_EQ(losses_of(load_text("part.stl", file)), "");
+    file[84 + 2 * 50 - 1] = '\x80'; // of the second triangle
+    EXPECT_NE(losses_of(load_text("part.stl", file)).find("beside 1 triangle"), std::string::npos);
+    std::string text(ascii);
+    EXPECT_EQ(losses_of(load_text("part.stl", text)), "");
+    text.insert(text.find("endfacet"), "color 1 0 0\n ");
+    const std::string losses = losses_of(load_text("part.stl", text));
+    EXPECT_NE(losses.find("does not have: color"), std::string::npos) << losses;
+}
+
 TEST(Stl, UpperCaseWordsAndSeveralSolidsAreRead) {
     std::string text(ascii);
     for (char& c : text) {

@@ -30,8 +30,10 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
            "--lift", arguments.lift,
            "height of the artifact above the prop's bottom, as a multiple of its own height (default: 0)")
         .within(0.0, 1.0);
-    app.add_flag("--clean", arguments.clean,
-                 "remove the few triangles that lie far from the rest and make the artifact small");
+    app.add_flag(
+        "--clean", arguments.clean,
+        "remove the few triangles that lie far from the rest and make the artifact small; turn closed "
+        "parts that are inside out");
     app.add_flag("--strict", arguments.strict, "write nothing if any part of the file would be lost");
     app.add_option("--speech", arguments.speech,
                    "program that speaks descriptions without a recording: reads text from standard input, "

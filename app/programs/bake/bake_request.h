@@ -25,7 +25,7 @@ struct BakeArguments {
     bool watched = false;             ///< given by --watch: a coarse page that reloads itself
     std::filesystem::path new_folder; ///< --new: start a folder from the scan, bake nothing
     bool force = false;               ///< replace an output that is no pack
-    bool clean = false;               ///< leave out scraps (last_look.h)
+    bool clean = false;               ///< leave out scraps (last_look.h), turn what is inside out (winding.h)
     bool strict = false;              ///< losses are errors
     bool json = false;
     bool unlit = false;

@@ -10,6 +10,7 @@
 #include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/content_hash.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/common/time_left.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
 #include "assets_baked/bake/box_frame.h"
@@ -86,8 +87,15 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const bake::Bake
     return words;
 }
 
-/// The share of a whole bake that goes by until a scan of this size is read; it decides on the time left alone.
-double reading_share(const std::filesystem::path& scan) {
+/// What a bake is expected to take; it decides on the time left alone.
+struct ExpectedTime {
+    double reading_s = 0.0;
+    double bake_s = 0.0;
+    [[nodiscard]] double all_s() const { return reading_s + bake_s; }
+    [[nodiscard]] double reading_share() const { return reading_s / all_s(); }
+};
+
+ExpectedTime expected_time(const std::filesystem::path& scan) {
     constexpr double bytes_a_second = 4e7;
     constexpr double small_bake_s = 8.0;
     constexpr double large_bake_s = 60.0;
@@ -95,14 +103,24 @@ double reading_share(const std::filesystem::path& scan) {
     std::error_code unknown;
     const std::uintmax_t size = std::filesystem::file_size(scan, unknown);
     const double bytes = unknown ? 0.0 : static_cast<double>(size);
-    const double reading_s = bytes / bytes_a_second;
-    const double bake_s = std::lerp(small_bake_s, large_bake_s, std::min(1.0, bytes / large_bytes));
-    return reading_s / (reading_s + bake_s);
+    return {bytes / bytes_a_second,
+            std::lerp(small_bake_s, large_bake_s, std::min(1.0, bytes / large_bytes))};
+}
+
+/// Reading is one stage, and those of the bake follow.
+TimeLeft time_left(const ExpectedTime& expected) {
+    std::vector<double> ends;
+    for (const bake::BakeStage& stage : bake::stages::all) {
+        ends.push_back(std::lerp(expected.reading_share(), 1.0, stage.begin));
+    }
+    ends.push_back(1.0);
+    std::erase_if(ends, [&](double end) { return end <= 0.0; });
+    return {ends, expected.all_s()};
 }
 
 Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    const double read = reading_share(written.scan);
+    const double read = expected_time(written.scan).reading_share();
     const auto progress = std::exchange(options.progress, {});
     TRY(const bake::SourceMesh mesh,
         load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
@@ -166,7 +184,12 @@ Result<BakeResult> bake_pack(const BakeRequest& request) {
     TRY_VOID(check_output(request));
     ProgressLine progress("baking: ");
     bake::BakeOptions options = request.options;
-    options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
+    TimeLeft left = time_left(expected_time(request.scan));
+    options.progress = [&](std::string_view step, double done) {
+        const double now_s = progress.passed_s();
+        left.report(now_s, done);
+        progress.show_share(step, done, left.seconds(now_s));
+    };
     TRY(BakeResult result, bake_file(request, std::move(options)));
     TRY(const Bytes bytes, at(request.output.string(), pack::write_pack(result.pack)));
     TRY(result.parts, at(request.output.string(), pack::list_pack_parts(bytes)));

@@ -3,6 +3,7 @@
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/reduce_scan.h"
+#include "assets_baked/bake/winding.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,6 +48,13 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
                          scraps.triangles, mesh.triangles.size())});
         bake::remove_scraps(mesh, scraps);
         scraps = {};
+    }
+    const std::size_t turned = request.clean ? bake::turn_outward(mesh) : 0;
+    if (turned > 0) {
+        mesh.notes.push_back(
+            {bake::SourceNote::Kind::Guessed,
+             fmt::format("{} of {} triangles, which were inside out in closed parts: --clean turns them",
+                         turned, mesh.triangles.size())});
     }
     mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
     const bake::Lighting light =

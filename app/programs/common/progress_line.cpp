@@ -44,17 +44,23 @@ void ProgressLine::say(std::string_view line) {
     std::fflush(stderr);
 }
 
+double ProgressLine::passed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
 void ProgressLine::show_share(std::string_view step, double done) {
-    if (!is_due()) {
-        return;
-    }
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
     constexpr double enough_to_tell = 0.05;
-    const std::string left =
-        done >= enough_to_tell
-            ? fmt::format(", about {} left", words_of_time(passed.count() * (1.0 - done) / done))
-            : std::string();
-    say(fmt::format("{}{:.0f} %{} ({})", what_, 100.0 * done, left, step));
+    if (done >= enough_to_tell) {
+        show_share(step, done, passed_s() * (1.0 - done) / done);
+    } else if (is_due()) {
+        say(fmt::format("{}{:.0f} % ({})", what_, 100.0 * done, step));
+    }
+}
+
+void ProgressLine::show_share(std::string_view step, double done, double left_s) {
+    if (is_due()) {
+        say(fmt::format("{}{:.0f} %, about {} left ({})", what_, 100.0 * done, words_of_time(left_s), step));
+    }
 }
 
 void ProgressLine::clear() {

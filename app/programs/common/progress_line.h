@@ -18,8 +18,13 @@ public:
     void say(std::string_view line);
     /// Shows the current step, the share (0..1) of the work that is done, and the remaining time at that speed.
     void show_share(std::string_view step, double done);
+    /// As above, with a remaining time that is known better (time_left.h).
+    void show_share(std::string_view step, double done, double left_s);
     /// Clears the line, so the program can print.
     void clear();
+
+    /// Since the line was made.
+    [[nodiscard]] double passed_s() const;
 
 private:
     /// True if enough time has passed for another line.

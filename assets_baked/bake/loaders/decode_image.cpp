@@ -1,17 +1,16 @@
 #include "assets_baked/bake/loaders/decode_image.h"
 
 #include "assets_baked/bake/loaders/decode_bitmap.h"
+#include "assets_baked/bake/loaders/decode_png.h"
 #include "assets_baked/bake/loaders/decode_tiff.h"
 #include "assets_baked/bake/loaders/picture_bytes.h"
 #include "firmware_host/base/file.h"
 
-#include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
 
-#include <array>
+#include <algorithm>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 namespace frustumscreen::bake {
@@ -20,53 +19,6 @@ namespace {
 
 bool begins_with(ByteView bytes, std::string_view magic) {
     return as_text(bytes).starts_with(magic);
-}
-
-/// Keeps only the chunks that make texels: colour profiles must be ignored, and text need not be unpacked.
-Bytes essential_png_chunks(ByteView png) {
-    constexpr std::array kept = {std::string_view("IHDR"), std::string_view("PLTE"), std::string_view("tRNS"),
-                                 std::string_view("IDAT"), std::string_view("IEND")};
-    constexpr std::size_t signature = 8;
-    constexpr std::size_t frame = 12; // length, type, checksum
-    Bytes essential(png.begin(), png.begin() + signature);
-    std::size_t position = signature;
-    while (png.size() - position >= frame) {
-        const std::size_t left = png.size() - position - frame;
-        const std::size_t length = load<std::uint32_t>(png, position, std::endian::big);
-        const ByteView chunk = png.subspan(position, frame + std::min(length, left));
-        if (std::find(kept.begin(), kept.end(), as_text(chunk.subspan(4, 4))) != kept.end()) {
-            essential.insert(essential.end(), chunk.begin(), chunk.end());
-        }
-        position += chunk.size();
-    }
-    return essential;
-}
-
-struct PngReader {
-    PngReader() { image.version = PNG_IMAGE_VERSION; }
-    PngReader(const PngReader&) = delete;
-    PngReader& operator=(const PngReader&) = delete;
-    ~PngReader() { png_image_free(&image); }
-    png_image image{};
-};
-
-Result<image::Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
-    if (bytes.size() < 8) {
-        return bad_input("picture.png_truncated", "the PNG picture is truncated");
-    }
-    const Bytes essential = essential_png_chunks(bytes);
-    PngReader reader;
-    if (png_image_begin_read_from_memory(&reader.image, essential.data(), essential.size()) == 0) {
-        return bad_input("picture.png_damaged", "the PNG picture is damaged: {}", reader.image.message);
-    }
-    reader.image.format = PNG_FORMAT_RGBA;
-    reader.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-    TRY(image::Image8 picture, blank_image(reader.image.width, reader.image.height, limit_texels));
-    png_image_finish_read(&reader.image, nullptr, raw(picture), 0, nullptr);
-    if (PNG_IMAGE_FAILED(reader.image) || reader.image.warning_or_error != 0) {
-        return bad_input("picture.png_rows_damaged", "the PNG picture is damaged: {}", reader.image.message);
-    }
-    return picture;
 }
 
 struct JpegCloser {
@@ -121,27 +73,18 @@ private:
     std::unique_ptr<void, JpegCloser> handle_;
 };
 
-Result<image::Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
-    JpegReader reader(bytes);
-    TRY(const glm::ivec2 size, reader.read_size());
-    return reader.read(size, 1, limit_texels);
-}
-
 /// The decoder itself halves up to three times, so a large picture never lies in memory whole.
-Result<ShrunkImage> decode_jpeg_shrunk(ByteView bytes, std::int64_t kept_texels, std::int64_t limit_texels) {
-    constexpr std::int64_t max_coded_texels = std::int64_t{1} << 30; // bounds the time
+Result<ShrunkImage> decode_jpeg(ByteView bytes, const Halvings& halvings, std::int64_t limit_texels) {
+    constexpr int most = 3;
     JpegReader reader(bytes);
     TRY(const glm::ivec2 size, reader.read_size());
-    const std::int64_t texels = std::int64_t{size.x} * size.y;
-    if (texels > max_coded_texels) {
+    if (std::int64_t{size.x} * size.y > max_coded_texels) {
         return too_large(size.x, size.y, max_coded_texels);
     }
-    int divisor = 1;
-    while (divisor < 8 && texels > kept_texels * divisor * divisor) {
-        divisor *= 2;
-    }
-    TRY(image::Image8 image, reader.read(size, divisor, limit_texels));
-    return ShrunkImage{std::move(image), size};
+    const int times = halvings(size);
+    const int inside = std::min(times, most);
+    TRY(image::Image8 image, reader.read(size, 1 << inside, limit_texels));
+    return ShrunkImage{halved(std::move(image), times - inside), size};
 }
 
 bool is_jpeg(ByteView bytes) {
@@ -164,20 +107,10 @@ Result<image::Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
     return picture;
 }
 
-} // namespace
-
-Result<image::Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
-    if (begins_with(bytes, "\x89PNG\r\n")) {
-        return decode_png(bytes, limit_texels);
-    }
-    if (is_jpeg(bytes)) {
-        return decode_jpeg(bytes, limit_texels);
-    }
+/// Pictures of the kinds that are not shrunk while they are decoded.
+Result<image::Image8> decode_whole(ByteView bytes, std::int64_t limit_texels) {
     if (begins_with(bytes, "RIFF") && bytes.size() >= 12 && as_text(bytes.subspan(8, 4)) == "WEBP") {
         return decode_webp(bytes, limit_texels);
-    }
-    if (is_tiff(bytes)) {
-        return decode_tiff(bytes, limit_texels);
     }
     if (is_bmp(bytes)) {
         return decode_bmp(bytes, limit_texels);
@@ -189,18 +122,27 @@ Result<image::Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
                      "the picture is neither PNG, JPEG, WebP, TIFF, BMP nor TGA; save it as PNG");
 }
 
-Result<ShrunkImage> decode_shrunk(ByteView bytes, std::int64_t kept_texels, std::int64_t limit_texels) {
-    ShrunkImage shrunk;
+} // namespace
+
+Result<ShrunkImage> decode_shrunk(ByteView bytes, const Halvings& halvings, std::int64_t limit_texels) {
+    if (is_png(bytes)) {
+        return decode_png(bytes, halvings, limit_texels);
+    }
     if (is_jpeg(bytes)) {
-        TRY(shrunk, decode_jpeg_shrunk(bytes, kept_texels, limit_texels));
-    } else {
-        TRY(shrunk.image, decode_image(bytes, limit_texels));
-        shrunk.file_size = {shrunk.image.width, shrunk.image.height};
+        return decode_jpeg(bytes, halvings, limit_texels);
     }
-    while (texels_of(shrunk.image) > std::max<std::int64_t>(kept_texels, 1)) {
-        shrunk.image = image::half_size(shrunk.image);
+    if (is_tiff(bytes)) {
+        return decode_tiff(bytes, halvings, limit_texels);
     }
-    return shrunk;
+    TRY(image::Image8 whole, decode_whole(bytes, limit_texels));
+    const glm::ivec2 size(whole.width, whole.height);
+    return ShrunkImage{halved(std::move(whole), halvings(size)), size};
+}
+
+Result<image::Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
+    TRY(ShrunkImage whole, decode_shrunk(
+                               bytes, [](const glm::ivec2&) { return 0; }, limit_texels));
+    return std::move(whole.image);
 }
 
 } // namespace frustumscreen::bake

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -121,13 +122,84 @@ bool keep_alpha_apart(TIFF* tiff) {
     return multiplied;
 }
 
-void take_alpha_out(image::Image8& picture) {
-    for (glm::u8vec4& texel : picture.texels) {
+void take_alpha_out(std::span<glm::u8vec4> texels) {
+    for (glm::u8vec4& texel : texels) {
         for (int k = 0; k < 3 && texel.a > 0; ++k) {
             texel[k] = static_cast<std::uint8_t>(std::min(255, (texel[k] * 255 + texel.a / 2) / texel.a));
         }
     }
 }
+
+/// The rows that are unpacked at once: whole tiles or strips, and all rows of a picture whose first row is not at the
+/// top.
+std::uint32_t band_rows(TIFF* tiff, std::uint32_t height) {
+    constexpr std::uint32_t few = 64;
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
+    if (orientation != ORIENTATION_TOPLEFT) {
+        return height;
+    }
+    std::uint32_t rows = 0;
+    TIFFGetFieldDefaulted(tiff, TIFFIsTiled(tiff) != 0 ? TIFFTAG_TILELENGTH : TIFFTAG_ROWSPERSTRIP, &rows);
+    rows = std::clamp(rows, 1U, height);
+    return std::min(height, rows * std::max(1U, few / rows));
+}
+
+/// A kind that libtiff 4.5 unpacks wrongly; empty: none. Its readers of grey texels pass over too few bytes at the end of a
+/// tile that the picture's edge cuts, and leave out an alpha of 16 bits.
+std::string wrongly_unpacked(TIFF* tiff, std::uint32_t width) {
+    std::uint16_t meaning = PHOTOMETRIC_RGB;
+    std::uint16_t bits = 1;
+    std::uint16_t channels = 1;
+    std::uint16_t extra = 0;
+    const std::uint16_t* kinds = nullptr;
+    std::uint32_t tile = 0;
+    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &meaning);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &channels);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_EXTRASAMPLES, &extra, &kinds);
+    TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &tile);
+    if (meaning != PHOTOMETRIC_MINISBLACK && meaning != PHOTOMETRIC_MINISWHITE) {
+        return {};
+    }
+    if (bits == 16 && extra > 0 && kinds[0] != EXTRASAMPLE_UNSPECIFIED) {
+        return "grey of 16 bits with alpha";
+    }
+    return tile > 0 && width % tile != 0 && bits * channels > 8 ? "grey of more than 8 bits in tiles" : "";
+}
+
+/// libtiff's reader of RGBA texels, from the top.
+class Texels {
+public:
+    explicit Texels(TIFF* tiff) {
+        if (TIFFRGBAImageOK(tiff, reason_.data()) == 1 &&
+            TIFFRGBAImageBegin(&rgba_, tiff, 1, reason_.data()) == 1) {
+            has_begun_ = true;
+            rgba_.req_orientation = ORIENTATION_TOPLEFT;
+        }
+    }
+    Texels(const Texels&) = delete;
+    Texels& operator=(const Texels&) = delete;
+    ~Texels() {
+        if (has_begun_) {
+            TIFFRGBAImageEnd(&rgba_);
+        }
+    }
+    [[nodiscard]] bool has_begun() const { return has_begun_; }
+    [[nodiscard]] const char* reason() const { return reason_.data(); }
+
+    /// Fills whole rows from row `first` on, which begins a strip or a row of tiles.
+    [[nodiscard]] bool read(std::uint32_t first, std::span<glm::u8vec4> rows) {
+        rgba_.row_offset = static_cast<int>(first);
+        return TIFFRGBAImageGet(&rgba_, reinterpret_cast<std::uint32_t*>(rows.data()), rgba_.width,
+                                static_cast<std::uint32_t>(rows.size() / rgba_.width)) == 1;
+    }
+
+private:
+    std::array<char, 1024> reason_{}; // the length that libtiff requires
+    TIFFRGBAImage rgba_{};
+    bool has_begun_ = false;
+};
 
 } // namespace
 
@@ -137,7 +209,7 @@ bool is_tiff(ByteView bytes) {
     return text == "II\x2a\0"sv || text == "MM\0\x2a"sv || text == "II\x2b\0"sv || text == "MM\0\x2b"sv;
 }
 
-Result<image::Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
+Result<ShrunkImage> decode_tiff(ByteView bytes, const Halvings& halvings, std::int64_t limit_texels) {
     Memory memory{bytes, 0, {}};
     const auto damaged = [&] {
         return bad_input("picture.tiff_damaged",
@@ -153,22 +225,43 @@ Result<image::Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     std::uint32_t height = 0;
     TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-    TRY(image::Image8 picture, blank_image(width, height, limit_texels));
+    const std::uint32_t band = band_rows(tiff.get(), std::max(height, 1U));
+    if (width < 1 || height < 1 || std::int64_t{width} * band > limit_texels) {
+        return too_large(width, height, limit_texels);
+    }
+    if (memory.error = wrongly_unpacked(tiff.get(), width); !memory.error.empty()) {
+        return damaged();
+    }
     const bool multiplied = keep_alpha_apart(tiff.get());
-    std::array<char, 1024> reason{}; // the length that libtiff requires
-    if (TIFFRGBAImageOK(tiff.get(), reason.data()) != 1) {
-        memory.error = printable(reason.data(), 200);
+    Texels texels(tiff.get());
+    if (!texels.has_begun()) {
+        memory.error = printable(texels.reason(), 200);
         return damaged();
     }
-    auto* const texels = reinterpret_cast<std::uint32_t*>(picture.texels.data());
-    if (TIFFReadRGBAImageOriented(tiff.get(), width, height, texels, ORIENTATION_TOPLEFT, 1) != 1 ||
-        !memory.error.empty()) {
-        return damaged();
+    const auto read = [&](std::uint32_t first, std::span<glm::u8vec4> rows) {
+        const bool is_sound = texels.read(first, rows) && memory.error.empty();
+        if (multiplied) {
+            take_alpha_out(rows);
+        }
+        return is_sound;
+    };
+    const glm::ivec2 size(width, height);
+    image::Image8 rows(size.x, static_cast<int>(band));
+    if (band == height) {
+        return read(0, rows.texels) ? Result<ShrunkImage>({halved(std::move(rows), halvings(size)), size})
+                                    : damaged();
     }
-    if (multiplied) {
-        take_alpha_out(picture);
+    TRY(image::RowShrinker shrinker, row_shrinker(width, height, halvings, limit_texels));
+    for (std::uint32_t first = 0; first < height; first += band) {
+        const std::size_t count = std::min(band, height - first);
+        if (!read(first, std::span(rows.texels).first(count * width))) {
+            return damaged();
+        }
+        for (std::size_t row = 0; row < count; ++row) {
+            shrinker.add(std::span(rows.texels).subspan(row * width, width));
+        }
     }
-    return picture;
+    return ShrunkImage{shrinker.take(), size};
 }
 
 } // namespace frustumscreen::bake

@@ -2,13 +2,15 @@
 /// any packing that libtiff knows.
 ///
 /// Colour   codes as stored; alpha that was multiplied into the colours is divided out.
-/// Errors   damaged or truncated, floating point, more than `limit_texels`.
+/// Memory   the shrunk picture, and a row of tiles or 64 rows. A strip is unpacked whole, so a packed picture of one strip
+///          lies in memory whole; so does one whose first row is not at the top.
+/// Errors   damaged or truncated; floating point; more than `limit_texels` after shrinking, or at once.
 /// Threads  pure; any.
 /// Library  libtiff, with its messages caught and each of its allocations bounded.
 #pragma once
 
-#include "app/image/image.h"
 #include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/loaders/shrunk_image.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
@@ -16,6 +18,7 @@
 namespace frustumscreen::bake {
 
 [[nodiscard]] bool is_tiff(ByteView bytes);
-[[nodiscard]] Result<image::Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels);
+[[nodiscard]] Result<ShrunkImage> decode_tiff(ByteView bytes, const Halvings& halvings,
+                                              std::int64_t limit_texels);
 
 } // namespace frustumscreen::bake

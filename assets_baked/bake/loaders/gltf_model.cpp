@@ -65,11 +65,18 @@ void check_header(const JsonPlace& document) {
     }
 }
 
+/// All extensions that the file declares or, without a declaration, has.
 std::vector<std::string> unknown_extensions_of(const JsonPlace& document) {
     std::vector<std::string> unknown;
+    for (const std::string& name : document.extensions_inside()) {
+        if (!is_known(name)) {
+            unknown.push_back(name);
+        }
+    }
     const std::optional<JsonPlace> used = document.find("extensionsUsed");
     for (std::size_t i = 0; used && i < used->size(); ++i) {
-        if (std::string name = (*used)[i].text(); !is_known(name)) {
+        std::string name = (*used)[i].text();
+        if (!is_known(name) && std::find(unknown.begin(), unknown.end(), name) == unknown.end()) {
             unknown.push_back(std::move(name));
         }
     }

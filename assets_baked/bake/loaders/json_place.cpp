@@ -50,6 +50,35 @@ std::vector<std::string> JsonPlace::keys() const {
     return names;
 }
 
+std::set<std::string> JsonPlace::extensions_inside() const {
+    std::set<std::string> names;
+    std::vector<const nlohmann::json*> left{value_}; // the document may be nested too deeply for a recursion
+    while (!left.empty()) {
+        const nlohmann::json& value = *left.back();
+        left.pop_back();
+        if (value.is_array()) {
+            for (const nlohmann::json& element : value) {
+                left.push_back(&element);
+            }
+        }
+        if (!value.is_object()) {
+            continue;
+        }
+        for (const auto& [key, member] : value.items()) {
+            if (key == "extras") {
+                continue; // a program's own data
+            }
+            if (key == "extensions" && member.is_object()) {
+                for (const auto& extension : member.items()) {
+                    names.insert(extension.key());
+                }
+            }
+            left.push_back(&member);
+        }
+    }
+    return names;
+}
+
 std::size_t JsonPlace::size() const {
     if (!value_->is_array()) {
         refuse_type("an array");

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ public:
     [[nodiscard]] JsonPlace at(std::string_view key) const;
     /// Names of an object's members.
     [[nodiscard]] std::vector<std::string> keys() const;
+
+    /// Names of the members of every "extensions" object inside, in the alphabet's order.
+    [[nodiscard]] std::set<std::string> extensions_inside() const;
 
     /// Elements of an array.
     [[nodiscard]] std::size_t size() const;

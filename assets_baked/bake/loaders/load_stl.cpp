@@ -4,11 +4,16 @@
 #include "assets_baked/bake/loaders/text.h"
 #include "assets_baked/bake/loaders/vertex_numbers.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <set>
+#include <string>
 
 namespace frustumscreen::bake {
 
@@ -38,11 +43,13 @@ SourceMesh load_binary(ByteView file, ModelFiles& files) {
         refuse_cut_short("{} triangles are declared, {} are there", count,
                          (file.size() - header_size) / facet_size);
     }
-    if (as_text(file.subspan(0, header_size)).find("COLOR=") != std::string_view::npos) {
+    const bool has_colours = as_text(file.subspan(0, header_size)).find("COLOR=") != std::string_view::npos;
+    if (has_colours) {
         files.notes.lost("the colours: those of STL files are not read; export it as PLY, OBJ or glTF");
     }
     MeshAssembly mesh('z');
     mesh.expect_triangles(static_cast<std::size_t>(count));
+    std::size_t with_attribute = 0;
     VertexNumbers numbers; // an STL repeats each vertex about six times
     for (std::size_t facet = 0; facet < count; ++facet) {
         if (facet % (std::size_t{1} << 16U) == 0) {
@@ -60,6 +67,14 @@ SourceMesh load_binary(ByteView file, ModelFiles& files) {
             vertices[i] = vertex;
         }
         mesh.add_triangle(vertices[0], vertices[1], vertices[2], 0);
+        with_attribute +=
+            load_little<std::uint16_t>(file, header_size + facet * facet_size + 48) != 0 ? 1 : 0;
+    }
+    if (with_attribute > 0 && !has_colours) {
+        files.notes.lost(
+            "the numbers beside {}, which may be colours: those of STL files are not read; export it "
+            "as PLY, OBJ or glTF",
+            counted(with_attribute, "triangle", "triangles"));
     }
     return mesh.finish();
 }
@@ -76,7 +91,14 @@ double coordinate(WordReader& words) {
     return *number;
 }
 
-/// Only `vertex`, `endloop` and `endsolid` matter; other words are skipped.
+/// Words that only frame the vertices; a normal's numbers follow from them too.
+bool is_frame_word(std::string_view word) {
+    static constexpr std::array words = {"facet", "normal", "outer", "loop", "endfacet"};
+    return std::any_of(words.begin(), words.end(), [&](const char* each) { return is_word(word, each); }) ||
+           number_from(word).has_value();
+}
+
+/// Only `vertex`, `endloop` and `endsolid` matter.
 SourceMesh load_ascii(std::string_view text, ModelFiles& files) {
     WordReader words(text);
     (void)words.next();
@@ -84,6 +106,7 @@ SourceMesh load_ascii(std::string_view text, ModelFiles& files) {
     MeshAssembly mesh('z');
     std::size_t in_loop = 0;
     bool ended = false;
+    std::set<std::string> unknown;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (is_word(word, "vertex")) {
             const double x = coordinate(words);
@@ -104,7 +127,13 @@ SourceMesh load_ascii(std::string_view text, ModelFiles& files) {
         } else if (is_word(word, "endsolid") || is_word(word, "solid")) {
             ended = is_word(word, "endsolid");
             (void)words.rest_of_line();
+        } else if (!is_frame_word(word)) {
+            unknown.emplace(word.substr(0, 40));
         }
+    }
+    if (!unknown.empty()) {
+        files.notes.lost("words that the STL format does not have: {}",
+                         printable(fmt::format("{}", fmt::join(unknown, ", "))));
     }
     if (!ended || in_loop != 0) {
         refuse_cut_short("line {}: the text ends without \"endsolid\"", words.line());

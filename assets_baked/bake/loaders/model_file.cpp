@@ -14,8 +14,7 @@ void UnmapPages::operator()(std::byte* memory) const {
 }
 
 Result<ModelFile> ModelFile::read(const std::filesystem::path& path) {
-    constexpr std::uint64_t limit_bytes = std::uint64_t{4} << 30U;
-    TRY(const OpenFile file, OpenFile::open(path, limit_bytes));
+    TRY(const OpenFile file, OpenFile::open(path, max_model_bytes));
     ModelFile read;
     read.size_ = static_cast<std::size_t>(file.bytes());
     if (read.size_ == 0) {

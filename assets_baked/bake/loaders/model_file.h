@@ -9,10 +9,15 @@
 #include "firmware_host/base/result.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
 namespace frustumscreen::bake {
+
+/// Holds an OBJ of 60 million triangles, the most that a bake takes (mesh_assembly.h). The whole file lies in memory before
+/// its reader begins: a file in mapped pages would end the program if it became shorter meanwhile.
+inline constexpr std::uint64_t max_model_bytes = std::uint64_t{8} << 30U;
 
 struct UnmapPages {
     std::size_t size = 0;

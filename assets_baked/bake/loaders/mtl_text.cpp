@@ -15,27 +15,43 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-// In tinyobjloader's spelling; it ignores keywords that it does not know.
+/// What becomes of a keyword: obj_materials.cpp shows or tells what is `Read`; what is `Shine` makes no difference in the
+/// museum light; what is `Lost` is told here.
+enum class Use { Read, Shine, Lost };
+struct Keyword {
+    std::string_view name; ///< in tinyobjloader's spelling, which ignores keywords that it does not know
+    Use use;
+};
 constexpr std::array keywords = {
-    "newmtl", "Ka",      "Kd",       "Ks",     "Kt",       "Tf",        "Ke",         "Ni",     "Ns",
-    "Tr",     "d",       "illum",    "map_Ka", "map_Kd",   "map_Ks",    "map_Ke",     "map_Ns", "map_d",
-    "map_Tr", "bump",    "map_bump", "disp",   "map_disp", "norm",      "map_norm",   "refl",   "map_refl",
-    "decal",  "Pr",      "Pm",       "Ps",     "Pc",       "Pcr",       "map_Pr",     "map_Pm", "map_Ps",
-    "map_Pc", "map_Pcr", "aniso",    "anisor", "map_aat",  "sharpness", "map_opacity"};
+    Keyword{"newmtl", Use::Read},    Keyword{"Kd", Use::Read},          Keyword{"Ke", Use::Read},
+    Keyword{"Tr", Use::Read},        Keyword{"d", Use::Read},           Keyword{"map_Kd", Use::Read},
+    Keyword{"map_Ke", Use::Read},    Keyword{"map_d", Use::Read},       Keyword{"bump", Use::Read},
+    Keyword{"map_bump", Use::Read},  Keyword{"disp", Use::Read},        Keyword{"map_disp", Use::Read},
+    Keyword{"norm", Use::Read},      Keyword{"Ka", Use::Shine},         Keyword{"Ks", Use::Shine},
+    Keyword{"Kt", Use::Shine},       Keyword{"Tf", Use::Shine},         Keyword{"Ni", Use::Shine},
+    Keyword{"Ns", Use::Shine},       Keyword{"illum", Use::Shine},      Keyword{"map_Ka", Use::Shine},
+    Keyword{"map_Ks", Use::Shine},   Keyword{"map_Ns", Use::Shine},     Keyword{"refl", Use::Shine},
+    Keyword{"map_refl", Use::Shine}, Keyword{"Pr", Use::Shine},         Keyword{"Pm", Use::Shine},
+    Keyword{"Ps", Use::Shine},       Keyword{"Pc", Use::Shine},         Keyword{"Pcr", Use::Shine},
+    Keyword{"map_Pr", Use::Shine},   Keyword{"map_Pm", Use::Shine},     Keyword{"map_Ps", Use::Shine},
+    Keyword{"map_Pc", Use::Shine},   Keyword{"map_Pcr", Use::Shine},    Keyword{"aniso", Use::Shine},
+    Keyword{"anisor", Use::Shine},   Keyword{"sharpness", Use::Shine},  Keyword{"map_aat", Use::Shine},
+    Keyword{"decal", Use::Lost},     Keyword{"map_opacity", Use::Lost}, Keyword{"map_Tr", Use::Lost},
+    Keyword{"map_norm", Use::Lost}};
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
 }
 
-/// The keyword in the library's spelling; empty: unknown.
-std::string_view known_keyword(std::string_view keyword) {
-    for (const std::string_view each : keywords) {
-        if (std::equal(each.begin(), each.end(), keyword.begin(), keyword.end(),
+/// Null: unknown.
+const Keyword* known_keyword(std::string_view keyword) {
+    for (const Keyword& each : keywords) {
+        if (std::equal(each.name.begin(), each.name.end(), keyword.begin(), keyword.end(),
                        [](char x, char y) { return lower(x) == lower(y); })) {
-            return each;
+            return &each;
         }
     }
-    return {};
+    return nullptr;
 }
 
 /// The three numbers of a colour; empty for anything else, such as a spectral curve.
@@ -73,7 +89,12 @@ MtlText mtl_text_from(std::string_view file) {
         if (keyword.empty() || keyword.starts_with('#')) {
             continue;
         }
-        const std::string_view known = known_keyword(keyword);
+        const Keyword* const found = known_keyword(keyword);
+        const std::string_view known = found == nullptr ? std::string_view() : found->name;
+        if (found != nullptr && found->use == Use::Lost) {
+            read.lost.emplace(keyword.substr(0, 40));
+            continue;
+        }
         const std::string_view rest = trimmed(words.rest_of_line());
         const bool is_colour = known == "Kd" || known == "Ke";
         const std::vector<double> colour = is_colour ? colour_from(rest) : std::vector<double>();

@@ -15,7 +15,9 @@ struct MtlText {
     /// number is repeated for all three.
     std::string text;
     std::set<std::string> unknown; ///< keywords unknown to the format, as written
-    bool kd_in_codes = false;      ///< a Kd is above 1, so the file's are in 0..255
+    std::set<std::string>
+        lost; ///< keywords of the format that would change the picture and are not read, as written
+    bool kd_in_codes = false; ///< a Kd is above 1, so the file's are in 0..255
 };
 
 [[nodiscard]] MtlText mtl_text_from(std::string_view file);

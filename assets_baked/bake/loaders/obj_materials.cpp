@@ -22,6 +22,12 @@ bool moves_picture(const tinyobj::texture_option_t& options) {
            options.scale[1] != 1;
 }
 
+bool changes_picture(const tinyobj::texture_option_t& options) {
+    const tinyobj::real_t(&turbulence)[3] = options.turbulence;
+    return options.brightness != 0 || options.contrast != 1 || turbulence[0] != 0 || turbulence[1] != 0 ||
+           turbulence[2] != 0;
+}
+
 glm::vec4 colour_of(const tinyobj::real_t (&colour)[3]) {
     glm::vec4 made(1.0F);
     for (int i = 0; i < 3; ++i) {
@@ -119,6 +125,10 @@ void ObjMaterials::read_library(const std::string& name, const std::string& plac
     if (!mtl.unknown.empty()) {
         files_.notes.lost("lines of {} that the .mtl format does not have: {}", shown_name,
                           printable(fmt::format("{}", fmt::join(mtl.unknown, ", "))));
+    }
+    if (!mtl.lost.empty()) {
+        files_.notes.lost("what lines of {} add to the picture: {}", shown_name,
+                          printable(fmt::format("{}", fmt::join(mtl.lost, ", "))));
     }
     if (mtl.kd_in_codes) {
         files_.notes.guessed("the colours of {} are read as 0 to 255, because some are above 1", shown_name);
@@ -242,6 +252,10 @@ void ObjMaterials::note_unshown(const Material& material) {
     if (source.dissolve < 1) {
         files_.notes.lost("the transparency of the material \"{}\" (d {:.2f}): it is shown opaque", name,
                           source.dissolve);
+    }
+    if (changes_picture(source.diffuse_texopt)) {
+        files_.notes.lost(
+            "how the picture of the material \"{}\" is changed (map_Kd -mm, -t): it is shown as it is", name);
     }
     if (moves_picture(source.diffuse_texopt)) {
         files_.notes.lost("where the picture of the material \"{}\" lies (map_Kd -o, -s): it is shown as if "

@@ -9,32 +9,37 @@
 namespace frustumscreen::bake {
 
 std::shared_ptr<const image::Image8> PictureStore::decode(ByteView bytes, std::string_view place) {
-    Result<ShrunkImage> picture = decode_shrunk(bytes, kept_texels_);
+    Result<ShrunkImage> picture =
+        decode_shrunk(bytes, [this](const glm::ivec2& file_size) { return make_room_for(file_size); });
     if (!picture) {
         refuse({ErrorKind::BadInput, picture.error().id,
                 fmt::format("{} ({})", picture.error().message, place)});
     }
     file_sizes_.push_back(picture->file_size);
     kept_.push_back(std::make_shared<image::Image8>(std::move(picture->image)));
-    const std::shared_ptr<const image::Image8> made = kept_.back();
-    keep_within_limit();
-    return made;
+    return kept_.back();
 }
 
-void PictureStore::keep_within_limit() {
-    const auto all = [&] {
-        return std::accumulate(
-            kept_.begin(), kept_.end(), std::int64_t{0},
-            [](std::int64_t sum, const auto& picture) { return sum + texels_of(*picture); });
-    };
-    while (all() > kept_texels_) {
+int PictureStore::make_room_for(const glm::ivec2& file_size) {
+    int halvings = halvings_within(file_size, kept_texels_);
+    while (true) {
+        const glm::ivec2 size = image::halved_size(file_size, halvings);
+        const std::int64_t coming = std::int64_t{size.x} * size.y;
+        const std::int64_t all =
+            std::accumulate(kept_.begin(), kept_.end(), coming,
+                            [](std::int64_t sum, const auto& picture) { return sum + texels_of(*picture); });
         const auto largest = std::max_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
             return a->texels.size() < b->texels.size();
         });
-        if ((*largest)->texels.size() <= 1) {
-            return;
+        const std::int64_t most = largest == kept_.end() ? 0 : texels_of(**largest);
+        if (all <= kept_texels_ || std::max(most, coming) <= 1) {
+            return halvings;
         }
-        **largest = image::half_size(**largest);
+        if (most >= coming) {
+            **largest = image::half_size(**largest);
+        } else {
+            ++halvings;
+        }
     }
 }
 

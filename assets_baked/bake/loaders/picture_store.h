@@ -1,7 +1,7 @@
 /// Finds and decodes the pictures of one model.
 ///
-/// Memory   all pictures together are kept in a number of texels: when another one comes and there are more, the
-///          largest are halved. One picture at a time is decoded whole (decode_image.h).
+/// Memory   all pictures together are kept in a number of texels: before another one comes and makes more of them, the
+///          largest are halved. One picture at a time is decoded, to the size that it is kept in (decode_image.h).
 /// Errors   throws Refusal.
 #pragma once
 
@@ -37,7 +37,8 @@ public:
     void note_shrunk(LoadNotes& notes) const;
 
 private:
-    void keep_within_limit();
+    /// Halves the largest pictures until all of them fit, with one more of this size; returns how often that one is halved.
+    [[nodiscard]] int make_room_for(const glm::ivec2& file_size);
 
     Sidecars& sidecars_;
     std::filesystem::path texture_;

@@ -1,0 +1,43 @@
+/// How long the rest of a work of several stages takes, from what each was expected to take and what the passed ones took.
+///
+/// Rule     of the stage that is running, its own progress decides, once it has some. Those to come take what is expected
+///          times a factor: the geometric mean of the passed stages' factors and one more of 1. So one slow stage, such as
+///          reading from a slow disk, slows the expected rest by the root of its factor; several slow ones by nearly all of it.
+/// Units    seconds since any beginning; done: the share of the whole work, 0..1.
+/// Threads  values; any.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace frustumscreen::programs {
+
+class TimeLeft {
+public:
+    /// `ends`: of each stage, the share of the work that is done when it ends; ascending, the last is 1.
+    TimeLeft(std::vector<double> ends, double expected_s);
+    /// So much is done at this time; later calls have later times and larger shares.
+    void report(double now_s, double done);
+    [[nodiscard]] double seconds(double now_s) const;
+
+private:
+    /// Logarithms of the factors by which stages took longer than expected.
+    struct Factors {
+        double sum = 0.0;
+        double count = 0.0;
+        void add(double factor, double weight);
+        [[nodiscard]] double mean() const; ///< with one more of 1
+    };
+    [[nodiscard]] double begin() const { return stage_ == 0 ? 0.0 : ends_[stage_ - 1]; }
+    [[nodiscard]] double expected() const { return (ends_[stage_] - begin()) * expected_s_; }
+
+    std::vector<double> ends_;
+    double expected_s_;
+    std::size_t stage_ = 0;
+    double stage_begin_s_ = 0.0;
+    double reported_s_ = 0.0; ///< when `done_` was reported
+    double done_ = 0.0;
+    Factors passed_;
+};
+
+} // namespace frustumscreen::programs
