@@ -50,7 +50,7 @@ template <typename Narrows> double widest(const image::Image16& depth, int x, in
 }
 
 TEST(ConeMap, AnEmptyConeIsTheWidestThatHoldsNothing) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const image::Image16 depth = hills(seed);
         const image::Image16 cones = empty_cones(depth);
         for (int y = 0; y < side; ++y) {
@@ -108,7 +108,7 @@ TEST(ConeMap, ARayCrossesTheSurfaceOnceAtMostInsideARelaxedCone) {
     std::mt19937_64 engine(5);
     std::uniform_real_distribution<double> random(0.0, 1.0);
     int entered = 0;
-    for (const std::uint64_t seed : {5, 6, 7, 8}) {
+    for (std::uint64_t seed = 5; seed <= 8; ++seed) {
         const image::Image16 depth = hills(seed);
         const image::Image16 cones = relaxed_cones(depth);
         for (int ray = 0; ray < 5000; ++ray) {

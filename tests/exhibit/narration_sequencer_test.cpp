@@ -360,7 +360,6 @@ TEST_F(Telling_, HoldsItsPromisesForVisitorsWhoDoAnything) {
     const std::array tellables{&both, &hotspots_alone, &description_alone};
     const auto one_in = [&](unsigned n) { return random() % n == 0; };
     NarrationInput input;
-    std::optional<std::size_t> portion;
     int portions = 0;
     int hotspots = 0;
     MonotonicTime changed = now;

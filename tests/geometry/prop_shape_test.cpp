@@ -72,7 +72,7 @@ TEST(PropShape, ACubesSixFacesBoundIt) {
     ASSERT_EQ(cube.bounds.size(), 6U);
     glm::dvec3 sum(0.0);
     for (const PropFace& face : cube.faces) {
-        const std::size_t axis = face.name[1] - std::size_t{'X'};
+        const auto axis = static_cast<std::size_t>(face.name[1] - 'X');
         const double sign = face.name[0] == '+' ? 1.0 : -1.0;
         glm::dvec3 normal(0.0);
         normal[static_cast<glm::length_t>(axis)] = sign;

@@ -343,8 +343,9 @@ TEST_F(ImportProgram, MayBeKilledAtAnyMoment) {
             }
             ::_exit(127);
         }
-        ::usleep(static_cast<useconds_t>(
-            std::chrono::duration_cast<std::chrono::microseconds>(whole).count() * (random() % 1000) / 1000));
+        ::usleep(
+            static_cast<useconds_t>(std::chrono::duration_cast<std::chrono::microseconds>(whole).count() *
+                                    static_cast<std::int64_t>(random() % 1000) / 1000));
         ::kill(process, SIGKILL);
         ::waitpid(process, nullptr, 0);
         const std::vector<std::string> now = titles();

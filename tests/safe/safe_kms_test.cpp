@@ -125,7 +125,7 @@ TEST_P(SafeOnCard, AnyCallMayFailOnce) {
         std::vector<std::string> calls;
         std::string wrongs;
     };
-    const auto once = [this](std::size_t call, int error) {
+    const auto once = [](std::size_t call, int error) {
         display::FakeKernel own;
         display::CardOnDesk card(own.add_card(display::card_path));
         card.card.atomic = GetParam();

@@ -257,7 +257,7 @@ TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
                                          "packs = [\n\"cat.fspack\", \"README.md\", \"docs\"]\n",
                                          source_dir() + "/kiosk.toml");
     ASSERT_TRUE(settings) << settings.error().message;
-    const std::string folder = source_dir();
+    const std::string& folder = source_dir();
     EXPECT_EQ(
         missing_files(**settings),
         (std::vector<std::string>{

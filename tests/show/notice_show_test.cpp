@@ -367,9 +367,8 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     done.import_id = "second";
     done.packs[3] = {"coin.fspack", "", library::ImportOutcome::Refused, library::ImportRefusal::Altered,
                      "its hash is another"};
-    std::size_t calls = 0;
     const std::size_t before = lines.size();
-    for (std::size_t written = 1; written > 0; ++calls) {
+    for (std::size_t written = 1; written > 0;) {
         written = note(done);
         EXPECT_LE(written, show::ImportJournal::max_lines + 1);
     }

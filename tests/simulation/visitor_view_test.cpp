@@ -258,11 +258,11 @@ TEST(VisitorView, ShowsABlockWhereItIsTheNearest) {
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 120, 120);
     const image::Image8 white(1280, 800, glm::u8vec4(255));
     const image::Image8 before = visitor_view(scene, white, camera);
-    scene.blocks = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind everything
+    scene.objects = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind everything
     const image::Image8 walled = visitor_view(scene, white, camera);
     EXPECT_EQ(walled.at(60, 60), before.at(60, 60));
-    scene.blocks.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen in front of the
-                                                                          // eye
+    scene.objects.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen in front of the
+                                                                           // eye
     const image::Image8 hidden = visitor_view(scene, white, camera);
     EXPECT_EQ(hidden.at(60, 60), glm::u8vec4(0, 0, 0, 255));
     EXPECT_GT(before.at(60, 60).g, 100);

@@ -15,7 +15,7 @@ constexpr std::size_t ms = sample_rate_hz / 1000;
 
 /// Noise, except for these stretches in ms.
 std::vector<std::int16_t> broken(std::size_t length_ms,
-                                 std::vector<std::pair<std::size_t, std::size_t>> pauses, int quiet) {
+                                 const std::vector<std::pair<std::size_t, std::size_t>>& pauses, int quiet) {
     std::vector<std::int16_t> samples = noise(length_ms * ms, 8000, 11)->samples;
     const std::vector<std::int16_t> soft = noise(length_ms * ms, quiet, 12)->samples;
     for (const auto& [begin, end] : pauses) {
