@@ -60,7 +60,8 @@ TEST(WavSound, HearsWhatTheSilentOneKeepsTimeOf) {
         now += Nanoseconds(random() % 30'000'000);
         switch (random() % 40) {
         case 0:
-            wish.say(noise(random() % 60'000, 9000, k, {{5000, 6000}, {20'000, 21'000}}));
+            wish.say(
+                noise(random() % 60'000, 9000, static_cast<unsigned>(k), {{5000, 6000}, {20'000, 21'000}}));
             break;
         case 1:
             wish.leave();
