@@ -123,7 +123,7 @@ struct Named {
     int tables = 0;
     int moved = 0, metal = 0;
     int near_touch = 0;                     ///< of those that moved: named within one touch
-    int as_boards = 0, moved_as_boards = 0; ///< of moves at the first touch on boards
+    int as_boards = 0, moved_as_boards = 0; ///< of moves at the first touch on boards, or beside it
 };
 
 Named named(std::uint64_t tables, Fault fault, double size_m) {
@@ -137,7 +137,7 @@ Named named(std::uint64_t tables, Fault fault, double size_m) {
         const TouchCalibration found = calibrate_touch(made->touches, made->setup);
         ++ids[std::string(found.reason.id.view())];
         const bool is_moved = found.reason.id == "touches.moved";
-        if (made->first_after == on_table) {
+        if (made->first_after + 1 >= on_table && made->first_after <= on_table + 1) {
             ++count.as_boards;
             count.moved_as_boards += is_moved ? 1 : 0;
             continue;
@@ -194,7 +194,7 @@ TEST(Causes, DISABLED_TheFigures) {
     for (const double size_m : {3e-3, 5e-3, 10e-3, 20e-3}) {
         for (const Fault fault : {Fault::Source, Fault::Projector}) {
             const Named count = named(100, fault, size_m);
-            EXPECT_GE(10 * count.moved, size_m < 5e-3 ? 8 * count.tables : 9 * count.tables);
+            EXPECT_GE(10 * count.moved, 9 * count.tables);
         }
     }
     for (const double size_m : {4e-3, 6e-3, 8e-3}) {
