@@ -6,6 +6,7 @@
 #include "app/calibration/picture_shares.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
+#include "app/calibration/touch_causes.h"
 #include "app/calibration/upright_touches.h"
 
 #include <fmt/format.h>
@@ -262,73 +263,24 @@ VerdictReason in_words(const Undetermined& open, const MeasuredKind& kind) {
 
 namespace {
 
-/// The touches with one mistake undone, and a clause that names the mistake.
-struct Mistake {
-    Touches undone;
-    MessageId id;
-    std::string_view what;
-};
-
-/// Mistakes that affect all touches at once. find_agreement finds a single wrong touch, or two exchanged
-/// ones.
-std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
-    const std::size_t count = touches.size();
-    const auto with_pose_of = [&](const auto& number_of) {
-        Touches undone(touches.begin(), touches.end());
-        for (std::size_t k = 0; k < count; ++k) {
-            undone[k].tracker_from_sensor = touches[number_of(k)].tracker_from_sensor;
-        }
-        return undone;
-    };
-    Touches mirrored(touches.begin(), touches.end());
-    for (Touch& touch : mirrored) {
-        touch.pixel.x = width - touch.pixel.x;
-    }
-    return {
-        {std::move(mirrored), "touches.mirrored",
-         "the projector's picture is mirrored: switch its ceiling or rear projection off, and touch the "
-         "crosses again"},
-        {with_pose_of([&](std::size_t k) { return (k + count - 1) % count; }), "touches.one_left_out",
-         "each touch belongs to the next cross: one was left out, or the list begins too late"},
-        {with_pose_of([&](std::size_t k) { return (k + 1) % count; }), "touches.one_twice",
-         "each touch belongs to the cross before: one was taken twice, or the list begins too early"},
-        {with_pose_of([&](std::size_t k) { return count - 1 - k; }), "touches.reversed",
-         "the crosses were touched in the opposite order"},
-    };
-}
-
-FitSetup fit_setup_for(std::span<const Touch> touches, const TouchSetup& setup, const TouchModel& start) {
+FitSetup fit_setup_for(std::vector<bool> upright, const TouchSetup& setup) {
     return {.noise = setup.noise,
             .priors = setup.priors,
             .sensor_height_m = setup.sensor_height_m,
-            .upright = upright_ones(touches, start.table_up)};
-}
-
-/// The mistake whose correction makes the touches agree; nothing if none does.
-std::optional<VerdictReason> cause_of(std::span<const Touch> touches, const TouchSetup& setup) {
-    for (const Mistake& mistake : mistakes_in(touches, setup.width)) {
-        if (refusal_of(mistake.undone, setup.width, setup.height)) {
-            continue;
-        }
-        const std::vector<TouchModel> starts = starting_models(mistake.undone, setup.width, setup.height);
-        const Fit fit = best_fit(mistake.undone, fit_setup_for(mistake.undone, setup, starts[0]), starts);
-        if (fit.chi2 < chi2_limit(fit.freedom)) {
-            return VerdictReason{
-                mistake.id,
-                fmt::format("the touches contradict each other as given, and agree if {}", mistake.what)};
-        }
-    }
-    return std::nullopt;
+            .upright = std::move(upright)};
 }
 
 } // namespace
 
 TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup) {
+    const auto mistake = [&](const FitSetup& as_given) {
+        return mistake_in(touches, as_given, setup.width, setup.height);
+    };
     if (auto reason = refusal_of(touches, setup.width, setup.height)) {
-        return refused(cause_of(touches, setup).value_or(std::move(*reason)));
+        return refused(mistake(fit_setup_for({}, setup)).value_or(std::move(*reason)));
     }
     const std::vector<TouchModel> starts = starting_models(touches, setup.width, setup.height);
-    const FitSetup fit_setup = fit_setup_for(touches, setup, starts[0]);
+    const FitSetup fit_setup = fit_setup_for(upright_ones(touches, starts[0].table_up), setup);
     const AgreeingTouches found = find_agreement(touches, fit_setup, starts);
     const auto some_upright = std::find(fit_setup.upright.begin(), fit_setup.upright.end(), true);
     const ZoneSetup zone{setup.top_m,
@@ -336,19 +288,23 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
                              .tracker_from_sensor.rotation};
     const bool contradict =
         found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone);
-    if (const auto cause = contradict ? cause_of(touches, setup) : std::nullopt) {
+    if (const auto cause = contradict ? mistake(fit_setup) : std::nullopt) {
         return refused(*cause);
     }
     if (const auto open = undetermined(found.fit, zone)) {
         return refused(in_words(*open, crosses));
     }
+    if (const auto cause = found.agreement == Agreement::Exchanged
+                               ? std::nullopt
+                               : disturbance_of(touches, fit_setup, found)) {
+        return refused(*cause);
+    }
     if (contradict) {
-        return refused(
-            {"touches.contradict",
-             "the touches contradict each other, and no single mistake explains it: metal near the tracker, "
-             "a "
-             "projector that moved meanwhile, or several slips; take metal away, fix the projector, and "
-             "touch the crosses again"});
+        return refused({"touches.contradict", "the touches contradict each other, and no single mistake, no "
+                                              "move and no metal at one place explains "
+                                              "it: several slips, more than one move, or much metal near the "
+                                              "tracker; take metal away, fix the "
+                                              "projector, and touch the crosses again"});
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);

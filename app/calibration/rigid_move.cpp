@@ -5,14 +5,10 @@
 
 namespace frustumscreen::calibration {
 
-namespace {
-
 geometry::RigidTransform rigid(const RigidMove& move, const glm::dvec3& middle) {
     const glm::dquat turn = glm::normalize(glm::dquat(1.0, 0.5 * move[0], 0.5 * move[1], 0.5 * move[2]));
     return {turn, middle + glm::dvec3(move[3], move[4], move[5]) - turn * middle};
 }
-
-} // namespace
 
 std::string_view name_of(Moved moved) {
     switch (moved) {

@@ -25,6 +25,8 @@ using ByRigidMove = Eigen::Matrix<double, unknown_count, 6>;
 /// Standard deviations of the prior: a bump, not a new set-up.
 inline constexpr double usual_turn_rad = 0.026; // one degree and a half
 inline constexpr double usual_shift_m = 0.03;
+/// Turned and shifted about `middle`.
+[[nodiscard]] geometry::RigidTransform rigid(const RigidMove& move, const glm::dvec3& middle);
 /// Inverse variances of the prior.
 [[nodiscard]] RigidMove usual_move_weights();
 /// Error of the kept table itself, in addition to the touches' noise.

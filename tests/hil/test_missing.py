@@ -1,6 +1,8 @@
 """The machine starts without some of its devices: it lights up all the same, says what is missing, and takes what comes late. A
 projector that is missing or late: test_restart.py, test_display.py."""
 
+import json
+
 import screen
 from bench import USUAL, eventually
 from hil_test import START_S, LIT, HilTest, long
@@ -9,7 +11,7 @@ from stick_bench import StickTest, pulled_packs
 SYSTEM_BACK_S = 120.0
 LATE_S = 20.0  # a device must be taken within 2 s; the kernel's own enumeration is slow here
 LIT_PIXELS = 300
-NO_TRACKER, NO_PANEL = "no tracker is connected", "it is not there"
+NO_TRACKER, NO_PANEL, NO_SOUND = "no tracker is connected", "it is not there", "is it plugged in"
 
 
 class Anew(HilTest):
@@ -39,6 +41,21 @@ class Missing(Anew):
         self.addCleanup(self.bench.buttons.tell, "plug")
         self.addCleanup(self.bench.tracker.tell, "unplug", "off")
 
+    def assert_not_well(self, device, sentence):
+        """The status file says what is missing, and `frustumscreen status` names it in its first line, as its verdict."""
+        self.bench.status_says(device, sentence)
+        ran = self.bench.machine.run("frustumscreen status --json")
+        verdict = json.loads(ran.output)
+        self.assertEqual((ran.status, verdict["well"], verdict["runs"]), (1, False, True), verdict["sentence"])
+        missing = self.bench.status()[device].split("; ")[0]
+        self.assertTrue(verdict["sentence"].startswith("The exhibit runs, but: "), verdict["sentence"])
+        self.assertIn(missing, verdict["sentence"])
+        return verdict
+
+    def assert_well(self):
+        ran = self.bench.machine.run("frustumscreen status --json")
+        self.assertEqual((ran.status, json.loads(ran.output)["well"]), (0, True), ran.output)
+
     def plug_tracker(self):
         self.bench.tracker.tell("unplug", "off")
         self.bench.status_says("tracker", "is running", LATE_S)
@@ -62,24 +79,24 @@ class Missing(Anew):
         self.bench.buttons.tell("unplug")
         self.start_anew()
         process = self.bench.main_process()
-        self.bench.status_says("tracker", NO_TRACKER)
-        self.bench.status_says("panel", NO_PANEL)
-        self.bench.status_says("sound", "is it plugged in")
+        for device, sentence in (("tracker", NO_TRACKER), ("panel", NO_PANEL), ("sound", NO_SOUND)):
+            self.assert_not_well(device, sentence)
         for plug in (self.plug_sound, self.plug_panel, self.plug_tracker):
             plug()
+        self.assert_well()
         self.assertEqual(self.bench.main_process(), process, "the exhibit was restarted")
 
     def test_tracker_missing_and_late(self):
         self.bench.tracker.tell("unplug")
         self.start_anew()
-        self.bench.status_says("tracker", NO_TRACKER)
+        self.assertRegex(self.assert_not_well("tracker", NO_TRACKER)["id"], "^tracker\\.")
         self.bench.status_says("panel", "buttons are there")
         self.plug_tracker()
 
     def test_panel_missing_and_late(self):
         self.bench.buttons.tell("unplug")
         self.start_anew()
-        self.bench.status_says("panel", NO_PANEL)
+        self.assertRegex(self.assert_not_well("panel", NO_PANEL)["id"], "^panel\\.")
         self.bench.status_says("tracker", "is running", START_S)
         self.plug_panel()
 

@@ -15,7 +15,7 @@ DAY = "/var/lib/frustumscreen/counts/2026-01-05.json"
 VISITS = ('{"frustumscreen_counts": 1, "day": "2026-01-05", "hours": [{"hour": 10, "visits": 3, "ms": 184000}], '
           '"artifacts": [{"name": "Amphora", "visits": 3, "ms": 184000}], "languages": [{"name": "en", "visits": 3, "ms": 184000}]}\n')
 CALIBRATION = f"cat {kept_calibration.FOLDER}/calibration-*.toml"
-# Only that the table says so would need words, and the state of delivery a restart of the machine: tests/exhibit, tests/image_build/reset_test.py.
+# Only that the table says so would need words: tests/exhibit. The state of delivery: test_delivery.py.
 FORGET = f"{kept_calibration.FORGET}; rm -f {DAY} {SETTINGS}.* {LIBRARY}/set.txt; rm -rf {LIBRARY}/packs"
 RESTART_S = 90.0
 
