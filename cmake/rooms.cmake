@@ -121,10 +121,16 @@ if(BUILD_TESTING)
         FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
 endif()
 
-# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above. APART are
-# sources whose unnamed namespace has a name of another source of the test.
+# A GoogleTest program of one room; working directory is its own build folder.
+#   OUTSIDE, THREADS  it belongs to the above
+#   WAITS             it mostly waits, for a time of a device or for another program
+#   APART             sources whose unnamed namespace has a name of another source of the test
+#   COMPUTING         cases of a test with OUTSIDE or THREADS that compute for long on one thread, from what the test itself makes. They
+#                     look for wrong numbers and pictures, which no sanitizer sees, and take ten times as long under one; other cases run
+#                     the same code there. So with a sanitizer they are a test of their own without labels, NAME_computing, which
+#                     `./test asan --all` and `./test tsan --all` run.
 function(frustumscreen_test name)
-    cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;APART;USES;LABELS" ${ARGN})
+    cmake_parse_arguments(TEST "OUTSIDE;THREADS;WAITS" "" "SOURCES;APART;USES;LABELS;COMPUTING" ${ARGN})
     if(TEST_OUTSIDE OR TEST_THREADS)
         list(APPEND TEST_LABELS outside)
         add_dependencies(outside ${name})
@@ -140,9 +146,18 @@ function(frustumscreen_test name)
     frustumscreen_use_precompiled(${name} tests)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     target_link_options(${name} PRIVATE ${test_linker})
-    add_test(NAME ${name} COMMAND ${run_test} ${name} $<TARGET_FILE:${name}>)
-    # Of the five slots that ./test has on two cores: a test without this, which mostly waits for another program, runs beside two with it.
-    set_tests_properties(${name} PROPERTIES PROCESSORS 2)
+    set(cases)
+    if(TEST_COMPUTING AND (FRUSTUMSCREEN_ASAN OR FRUSTUMSCREEN_TSAN))
+        list(JOIN TEST_COMPUTING ":" computing)
+        set(cases "--gtest_filter=-${computing}")
+        add_test(NAME ${name}_computing COMMAND ${run_test} ${name}_computing $<TARGET_FILE:${name}> "--gtest_filter=${computing}")
+        set_tests_properties(${name}_computing PROPERTIES PROCESSORS 2)
+    endif()
+    add_test(NAME ${name} COMMAND ${run_test} ${name} $<TARGET_FILE:${name}> ${cases})
+    # Of the five slots that ./test has on two cores: a test that mostly waits takes one, and runs beside two that compute.
+    if(NOT TEST_WAITS)
+        set_tests_properties(${name} PROPERTIES PROCESSORS 2)
+    endif()
     if(TEST_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}")
     endif()

@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <thread>
 
 namespace frustumscreen::drift {
 namespace {
@@ -130,6 +132,40 @@ TEST(DriftWatch, MarksAreShownWhileNobodyIsThereAlone) {
     kiosk.run(3);
     EXPECT_EQ(kiosk.frames, 0U);
     EXPECT_EQ(kiosk.verdict().looks, 0U);
+}
+
+/// As on the kiosk, frames are judged on the camera's thread while this one steps and asks. The two tell each other the time only, in
+/// an order that orders nothing else, so the thread sanitizer sees what they share beside it. The frames are dark: no mark is found.
+TEST(DriftWatch, FramesAreJudgedOnTheCamerasThread) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "drift_thread_test";
+    DriftWatch watch({shipped_places(), {}, folder / "drift.json"});
+    constexpr std::int64_t begin_ms = 100'000, frame_ms = 150;
+    std::atomic<std::int64_t> now_ms{begin_ms}, seen_ms{0};
+    const std::jthread camera([&](const std::stop_token& stop) {
+        camera::CameraFrame frame{{}, 0, small_width, small_height, {}};
+        frame.luma.resize(std::size_t{small_width} * small_height);
+        while (!stop.stop_requested()) {
+            const std::int64_t at_ms = now_ms.load(std::memory_order_relaxed);
+            if (at_ms != seen_ms.load(std::memory_order_relaxed)) {
+                frame.time = MonotonicTime(milliseconds(at_ms + 40));
+                ++frame.number;
+                watch.use(frame);
+                seen_ms.store(at_ms, std::memory_order_relaxed);
+            }
+        }
+    });
+    int marks = 0;
+    const std::int64_t end_ms = begin_ms + 3 * 60'000;
+    for (std::int64_t at_ms = begin_ms; at_ms < end_ms && watch.verdict().looks == 0; at_ms += frame_ms) {
+        now_ms.store(at_ms, std::memory_order_relaxed);
+        marks += watch.step(MonotonicTime(milliseconds(at_ms)), true) ? 1 : 0;
+        while (seen_ms.load(std::memory_order_relaxed) != at_ms) {
+            std::this_thread::yield();
+        }
+    }
+    EXPECT_GT(marks, 0);
+    EXPECT_EQ(watch.verdict().looks, 1U);
+    EXPECT_EQ(watch.verdict().marks, 0U);
 }
 
 TEST(DriftWatch, ADamagedReferenceIsLearnedAnew) {
