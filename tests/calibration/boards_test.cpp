@@ -26,27 +26,28 @@ Touches on_boards(const simulators::SimulatedTable& table, std::vector<Cross> cr
 
 TEST(Boards, OfAnotherHeightAreMeasured) {
     ChosenCrosses crosses;
-    for (const double off_mm : {-20.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0}) {
+    /// The sum of the pictures' errors on twelve tables, with the same noise each time.
+    const auto picture_errors_mm = [&](double off_mm) {
         const double true_m = said_m + 1e-3 * off_mm;
-        double right_mm = 0.0;
-        double wrong_mm = 0.0;
+        double sum_mm = 0.0;
         for (std::uint64_t seed = 1; seed <= 12; ++seed) {
             const simulators::SimulatedTable table = simulators::some_table(seed);
             simulators::SeededNumbers numbers(300 + seed);
-            simulators::SeededNumbers same_numbers(300 + seed);
             const TouchCalibration found =
                 calibrate_touch(on_boards(table, crosses.of(table, 9), true_m, numbers), setup_for(table));
-            const TouchCalibration right = calibrate_touch(
-                on_boards(table, crosses.of(table, 9), said_m, same_numbers), setup_for(table));
-            ASSERT_TRUE(found.table && right.table)
-                << off_mm << " mm, table " << seed << ": " << found.reason.sentence;
-            ASSERT_TRUE(found.boards);
+            if (!found.table || !found.boards) {
+                ADD_FAILURE() << off_mm << " mm, table " << seed << ": " << found.reason.sentence;
+                continue;
+            }
             EXPECT_NEAR(found.boards->found_m, true_m, 4.0 * found.boards->sd_m) << seed;
             EXPECT_LT(found.boards->sd_m, 1e-3) << seed;
-            wrong_mm += 1e3 * simulators::registration_error(table, *found.table, said_m).mean_m;
-            right_mm += 1e3 * simulators::registration_error(table, *right.table, said_m).mean_m;
+            sum_mm += 1e3 * simulators::registration_error(table, *found.table, said_m).mean_m;
         }
-        EXPECT_LT(wrong_mm, 1.1 * right_mm) << off_mm;
+        return sum_mm;
+    };
+    const double right_mm = picture_errors_mm(0.0);
+    for (const double off_mm : {-20.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0}) {
+        EXPECT_LT(picture_errors_mm(off_mm), 1.1 * right_mm) << off_mm;
     }
 }
 

@@ -23,8 +23,14 @@ inline constexpr int shipped_touches = 15;
     return setup;
 }
 
-[[nodiscard]] inline std::vector<Cross> shipped_crosses(int count) {
-    return choose_crosses(shipped_model(), shipped_cross_setup(count));
+/// A process chooses each number once.
+[[nodiscard]] inline const std::vector<Cross>& shipped_crosses(int count) {
+    static std::map<int, std::vector<Cross>> chosen;
+    std::vector<Cross>& crosses = chosen[count];
+    if (crosses.empty()) {
+        crosses = choose_crosses(shipped_model(), shipped_cross_setup(count));
+    }
+    return crosses;
 }
 
 [[nodiscard]] inline std::vector<Cross> crosses_all_over(int count) {

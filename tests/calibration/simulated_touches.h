@@ -11,14 +11,15 @@
 namespace frustumscreen::calibration {
 
 /// Crosses for pictures of one shape and approximate throw, the only data of a projector that a data sheet
-/// gives.
+/// gives. Choosing takes half a second, so a process chooses each once.
 class ChosenCrosses {
 public:
     const std::vector<Cross>& of(const simulators::SimulatedTable& table, int count) {
         geometry::Pinhole pinhole = table.truth.pinhole;
         const double throw_ratio = pinhole.fx / pinhole.width < 1.5 ? 1.1 : 1.9;
         const auto key = std::tuple(pinhole.width * 10 / pinhole.height, throw_ratio, count);
-        std::vector<Cross>& crosses = chosen_[key];
+        static std::map<std::tuple<int, double, int>, std::vector<Cross>> chosen;
+        std::vector<Cross>& crosses = chosen[key];
         if (crosses.empty()) {
             pinhole = {1920, 19200 / std::get<0>(key), 1920 * throw_ratio, 1920 * throw_ratio,
                        960,  9600.0 / std::get<0>(key)};
@@ -35,7 +36,6 @@ public:
     }
 
 private:
-    std::map<std::tuple<int, double, int>, std::vector<Cross>> chosen_;
     std::vector<Cross> scaled_;
 };
 

@@ -81,20 +81,20 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
     EXPECT_LT(beside.back(), 0.05);
 }
 
-constexpr int table_count = 100;
 constexpr double one_in_a_thousand = 3.09; ///< standard deviations of a normal number, one-sided
 
 struct Figures {
     std::vector<double> mean_square_m2; ///< over the picture, of each table
     std::vector<double> worst_m;        ///< the worst place of each table, ascending
     int judged = 0;                     ///< tables that are good or usable
+    double square_of_said = 0.0; ///< mean over the tables: the square of the mean error over the reported one
 };
 
 /// Figures for a technician's noise: 0.3 mm, 0.15 degrees and half a pixel.
-Figures figures_of(int count) {
+Figures figures_of(int count, int tables) {
     ChosenCrosses crosses;
     Figures figures;
-    for (std::uint64_t seed = 1; seed <= table_count; ++seed) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tables); ++seed) {
         const simulators::SimulatedTable table = simulators::some_table(seed);
         simulators::SeededNumbers numbers(1000 + seed);
         const TouchCalibration found =
@@ -105,11 +105,15 @@ Figures figures_of(int count) {
         }
         const std::vector<glm::dvec3> offsets = simulators::registration_offsets(table, *found.table, 0.12);
         double sum = 0.0;
+        double sum_m = 0.0;
         double worst = 0.0;
         for (const glm::dvec3& offset : offsets) {
             sum += glm::dot(offset, offset);
+            sum_m += glm::length(offset);
             worst = std::fmax(worst, glm::length(offset));
         }
+        const double mean_m = sum_m / static_cast<double>(offsets.size());
+        figures.square_of_said += std::pow(mean_m / found.uncertainty.mean_m, 2.0) / tables;
         figures.mean_square_m2.push_back(sum / static_cast<double>(offsets.size()));
         figures.worst_m.push_back(worst);
         figures.judged += found.verdict == Verdict::Good || found.verdict == Verdict::Usable ? 1 : 0;
@@ -123,18 +127,18 @@ struct Propagated {
     SquareError square;                            ///< mean over the tables
     std::vector<std::vector<double>> worst_places; ///< draws of each table, ascending
 };
-Propagated propagated_of(int count) {
+Propagated propagated_of(int count, int tables) {
     constexpr int draws = 200;
     ChosenCrosses crosses;
     Propagated propagated;
-    for (std::uint64_t seed = 1; seed <= table_count; ++seed) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tables); ++seed) {
         const simulators::SimulatedTable table = simulators::some_table(seed);
         simulators::SeededNumbers numbers(3000 + seed);
         const Touches touches = touches_of(table, crosses.of(table, count), no_noise, numbers);
         const PropagatedTouches each = propagated_touches(table, touches, {}, {}, 0.12);
         const SquareError square = square_error(each);
-        propagated.square.mean_m2 += square.mean_m2 / table_count;
-        propagated.square.variance_m4 += square.variance_m4 / table_count / table_count;
+        propagated.square.mean_m2 += square.mean_m2 / tables;
+        propagated.square.variance_m4 += square.variance_m4 / tables / tables;
         propagated.worst_places.push_back(worst_places(each, draws, numbers));
     }
     return propagated;
@@ -154,62 +158,46 @@ double beyond(const Propagated& propagated, double limit_m, double deviations) {
     return mean + deviations * std::sqrt(variance);
 }
 
-/// Limit of the worst place in 90 of 100 tables.
+/// Limit of the worst place in nine of ten tables.
 double worst_place_p90(const Propagated& propagated, double deviations) {
     double limit_m = 1e-3;
-    while (beyond(propagated, limit_m, deviations) > 0.1 * table_count) {
+    while (beyond(propagated, limit_m, deviations) >
+           0.1 * static_cast<double>(propagated.worst_places.size())) {
         limit_m += 1e-5;
     }
     return limit_m;
 }
 
-void expect_no_more_than_the_noise_makes(int count) {
-    const Propagated propagated = propagated_of(count);
-    const Figures figures = figures_of(count);
-    ASSERT_EQ(figures.worst_m.size(), std::size_t{table_count});
+void expect_no_more_than_the_noise_makes(int count, int tables) {
+    const Propagated propagated = propagated_of(count, tables);
+    const Figures figures = figures_of(count, tables);
+    ASSERT_EQ(figures.worst_m.size(), static_cast<std::size_t>(tables));
     double square = 0.0;
     for (const double each : figures.mean_square_m2) {
-        square += each / table_count;
+        square += each / tables;
     }
     const double spread = one_in_a_thousand * std::sqrt(propagated.square.variance_m4);
     EXPECT_LE(square, propagated.square.mean_m2 + spread);
     EXPECT_GE(square, propagated.square.mean_m2 - spread); // otherwise another noise was propagated
-    const double p90_m = figures.worst_m[table_count * 9 / 10 - 1];
+    const double p90_m = figures.worst_m[static_cast<std::size_t>(tables * 9 / 10 - 1)];
     std::printf(
-        "%d touches: %.3f mm root mean square, of the noise %.3f; worst place in 90 of 100 %.3f, of the "
+        "%d touches: %.3f mm root mean square, of the noise %.3f; worst place in 9 of 10 %.3f, of the "
         "noise %.3f, at most %.3f\n",
         count, 1e3 * std::sqrt(square), 1e3 * std::sqrt(propagated.square.mean_m2), 1e3 * p90_m,
         1e3 * worst_place_p90(propagated, 0.0), 1e3 * worst_place_p90(propagated, one_in_a_thousand));
     EXPECT_LE(p90_m, worst_place_p90(propagated, one_in_a_thousand));
-    EXPECT_GE(figures.judged, 95);
+    EXPECT_GE(figures.judged, tables * 95 / 100);
+    // The reported uncertainty is that of the errors; a mean distance over a root mean square is somewhat below 1.
+    EXPECT_GT(std::sqrt(figures.square_of_said), 0.6);
+    EXPECT_LT(std::sqrt(figures.square_of_said), 1.2);
 }
 
 TEST(Touch, NineLeaveNoMoreThanTheirNoiseMakes) {
-    expect_no_more_than_the_noise_makes(9);
+    expect_no_more_than_the_noise_makes(9, 100);
 }
 
 TEST(Touch, FifteenLeaveNoMoreThanTheirNoiseMakes) {
-    expect_no_more_than_the_noise_makes(15);
-}
-
-TEST(Touch, TheUncertaintyIsThatOfTheErrors) {
-    ChosenCrosses crosses;
-    double square = 0.0;
-    constexpr int seeds = 60;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const simulators::SimulatedTable table = simulators::some_table(seed);
-        simulators::SeededNumbers numbers(2000 + seed);
-        const TouchCalibration found =
-            calibrate_touch(touches_of(table, crosses.of(table, 15), {}, numbers), setup_for(table));
-        ASSERT_TRUE(found.table);
-        square += std::pow(simulators::registration_error(table, *found.table, 0.12).mean_m /
-                               found.uncertainty.mean_m,
-                           2.0) /
-                  seeds;
-    }
-    // A mean distance over a root mean square is somewhat below 1.
-    EXPECT_GT(std::sqrt(square), 0.6);
-    EXPECT_LT(std::sqrt(square), 1.2);
+    expect_no_more_than_the_noise_makes(15, 100);
 }
 
 TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
