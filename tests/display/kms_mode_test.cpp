@@ -133,9 +133,9 @@ TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
 }
 
 /// Connectors that are less than a projector that is there.
-class KmsChoice : public testing::Test {
+class ChoiceOfKms : public testing::Test {
 protected:
-    KmsChoice() {
+    ChoiceOfKms() {
         panel.built_in = true;
         off.plugged = Plugged::No;
         unsure.plugged = Plugged::Unknown;
@@ -145,7 +145,7 @@ protected:
                   unsure = a_projector(3, "VGA-1"), mute = a_projector(4, "DP-1");
 };
 
-TEST_F(KmsChoice, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
+TEST_F(ChoiceOfKms, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
     const ConnectorSeen there = a_projector(5, "DP-2");
     const auto chosen = [](std::vector<ConnectorSeen> all, const OutputRequest& asked) {
         const CardSeen card = a_card(std::move(all));
@@ -171,7 +171,7 @@ TEST_F(KmsChoice, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePan
     EXPECT_EQ(chosen({there, mute, off}, forced), "none") << "no mode to force";
 }
 
-TEST_F(KmsChoice, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
+TEST_F(ChoiceOfKms, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
     EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), request()), CardRank::Projector);
     EXPECT_EQ(rank_of(a_card({off, panel}), request()), CardRank::Panel);
     for (const ConnectorSeen& nothing_certain : {off, unsure, mute}) {
