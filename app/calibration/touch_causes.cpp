@@ -57,6 +57,8 @@ std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
 /// Least decrease of chi squared by an unknown of a disturbance, over what is left by each degree of freedom: the F ratio.
 /// docs/calibration.md says how rarely right touches reach it.
 constexpr double min_ratio = 7.0;
+/// Smallest disturbance that is named, in metres: five times the noise of a report. A smaller one is within what the verdict allows for.
+constexpr double min_size_m = 1.5e-3;
 /// Least decrease of the cost below that of wrong touches: one of them is the more usual fault.
 constexpr double apart = 3.0;
 /// Of chi squared, for each unknown of an explanation (Akaike 1974).
@@ -71,7 +73,7 @@ double cost_of(double chi2, int unknowns) {
 bool explains(const Disturbance& found, const Fit& all, double best_cost) {
     const double noise = std::fmax(1.0, found.chi2 / found.freedom);
     const double ratio = (all.chi2 - found.chi2) / (found.unknowns - 1) / noise;
-    return ratio > min_ratio && found.chi2 < chi2_limit(found.freedom) &&
+    return found.size_m > min_size_m && ratio > min_ratio && found.chi2 < chi2_limit(found.freedom) &&
            cost_of(found.chi2, found.unknowns) < best_cost;
 }
 

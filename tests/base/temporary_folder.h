@@ -55,7 +55,7 @@ protected:
     [[nodiscard]] std::string text(const std::filesystem::path& file) const { return text_of(folder / file); }
     /// Runs commands of the shell in the folder. Returns the exit status; -1: a signal ended them.
     [[nodiscard]] int shell(const std::string& commands) const {
-        const int status = std::system(("cd '" + folder.string() + "' && " + commands).c_str());
+        const int status = std::system(("cd '" + folder.string() + "' || exit 4; " + commands).c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
