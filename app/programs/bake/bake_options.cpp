@@ -32,8 +32,8 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
         .within(0.0, 1.0);
     app.add_flag(
         "--clean", arguments.clean,
-        "remove the few triangles that lie far from the rest and make the artifact small; turn closed "
-        "parts that are inside out");
+        "remove the few triangles that lie far from the rest and make the artifact small, and a flat surface "
+        "under the object; turn closed parts that are inside out");
     app.add_flag("--strict", arguments.strict, "write nothing if any part of the file would be lost");
     app.add_option("--speech", arguments.speech,
                    "program that speaks descriptions without a recording: reads text from standard input, "

@@ -3,6 +3,7 @@
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/reduce_scan.h"
+#include "assets_baked/bake/table_under.h"
 #include "assets_baked/bake/winding.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,24 @@ bool has_colours(const bake::SourceMesh& mesh) {
         return each.base_colour == mesh.materials.front().base_colour;
     });
     return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
+/// With --clean the flat surface under the object goes; without, it is told.
+void take_away_table(bake::SourceMesh& mesh, const bake::Scraps& scraps, bool clean) {
+    const bake::Scraps table = bake::find_table(mesh, scraps);
+    if (table.triangles == 0) {
+        return;
+    }
+    const std::string what =
+        fmt::format("{} of {} triangles are a flat surface under the object, such as a table",
+                    table.triangles, mesh.triangles.size());
+    if (clean) {
+        mesh.notes.push_back({bake::SourceNote::Kind::Guessed, what + ": --clean leaves them out"});
+        bake::remove_scraps(mesh, table);
+    } else {
+        mesh.notes.push_back({bake::SourceNote::Kind::Guessed,
+                              what + ": leave them out with --clean, or cut them off in the scan"});
+    }
 }
 
 } // namespace
@@ -49,6 +68,7 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
         bake::remove_scraps(mesh, scraps);
         scraps = {};
     }
+    take_away_table(mesh, scraps, request.clean);
     const std::size_t turned = request.clean ? bake::turn_outward(mesh) : 0;
     if (turned > 0) {
         mesh.notes.push_back(
