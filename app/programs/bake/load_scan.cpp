@@ -4,6 +4,7 @@
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/reduce_scan.h"
 #include "assets_baked/bake/winding.h"
+#include "assets_baked/folder/unused_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,6 +21,20 @@ bool has_colours(const bake::SourceMesh& mesh) {
         return each.base_colour == mesh.materials.front().base_colour;
     });
     return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
+}
+
+/// A hint, not a loss: the curator may keep other files in the folder.
+void note_unused_files(const BakeRequest& request, bake::SourceMesh& mesh) {
+    if (request.folder.empty()) {
+        return;
+    }
+    std::vector<std::filesystem::path> used = request.inputs;
+    used.insert(used.end(), mesh.side_files.begin(), mesh.side_files.end());
+    used.insert(used.end(), {request.output, request.preview});
+    const std::vector<std::string> unused = folder::unused_files(request.folder, used);
+    if (!unused.empty()) {
+        mesh.notes.push_back({bake::SourceNote::Kind::Guessed, folder::sentence_on_unused(unused)});
+    }
 }
 
 } // namespace
@@ -67,6 +82,7 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
                               "light (KHR_materials_unlit): it is baked as with "
                               "--unlit"});
     }
+    note_unused_files(request, mesh);
     return mesh;
 }
 
