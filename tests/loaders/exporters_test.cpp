@@ -154,6 +154,31 @@ TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
               glm::vec4(1.0F, 0.2F, 0.0F, 1.0F));
 }
 
+// Wavefront's Appendix B1 (Object Files, 3.0): "v x y z w", where w is 1 by default; "vt u v w", where w is the depth of a
+// texture of three dimensions. "v x y z r g b" and "v x y z r g b a" are written by many programs.
+TEST(Exporters, NumbersThatAVertexHasBesidesAreToldIfTheyCouldChangeThePicture) {
+    const auto with = [](const std::string& vertex, const std::string& uv) {
+        return sound(load_text("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0" + vertex + "\nvt 0.5 0.5" + uv +
+                                                "\nf 1/1 2/1 3/1\n"));
+    };
+    for (const char* vertex :
+         {"", " 1", " 1.0", " 0.2 0.4 0.6", " 0.2 0.4 0.6 1", " 200 100 50 255", " 1 # w"}) {
+        const bake::SourceMesh mesh = with(vertex, "");
+        EXPECT_FALSE(notes(mesh, bake::SourceNote::Kind::Lost, "")) << vertex;
+    }
+    for (const char* vertex : {" 2", " 0", " 0.2 0.4", " 0.2 0.4 0.6 0.5", " 0.2 0.4 0.6 1 7"}) {
+        const bake::SourceMesh mesh = with(vertex, "");
+        EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "after x y z of 1 vertex, first in line 3"))
+            << vertex;
+        EXPECT_EQ(mesh.positions[2], glm::dvec3(0, 1, 0)) << vertex;
+    }
+    for (const char* uv : {"", " 0", " 0.9995"}) {
+        EXPECT_TRUE(with("", uv).notes.empty()) << uv;
+    }
+    EXPECT_TRUE(notes(with("", " 0 7"), bake::SourceNote::Kind::Lost,
+                      "after u v w of 1 texture coordinate, first in line 4"));
+}
+
 TEST(Exporters, ATextureCoordinateWithTheNumberZeroIsNone) {
     const bake::SourceMesh mesh = obj_with("newmtl m\nKd 1 0 0\n", "usemtl m\nf 1/0 2/0 3/0\n");
     EXPECT_EQ(mesh.triangles.size(), 1U);

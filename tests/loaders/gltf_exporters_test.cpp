@@ -174,5 +174,59 @@ TEST(GltfExporters, AnExtensionThatIsNotReadIsTold) {
     EXPECT_TRUE(notes(variants, bake::SourceNote::Kind::Lost, "gilt, bare"));
 }
 
+/// The text of the note about vertex attributes; the triangle has them besides POSITION. Accessors 0 to 3 are three floats,
+/// two floats, one float and four bytes for each corner.
+std::string lost_attributes(const std::string& attributes, std::string_view node = R"({"mesh":0})",
+                            std::string_view material = "{}") {
+    const std::string numbers =
+        bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 2, 3}) +
+        bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const bake::SourceMesh mesh = mesh_of(gltf_text(
+        numbers,
+        fmt::format(
+            R"("bufferViews":[{{"buffer":0,"byteLength":84}}],"accessors":[)"
+            R"({{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}},)"
+            R"({{"bufferView":0,"byteOffset":36,"componentType":5126,"type":"VEC2","count":3}},)"
+            R"({{"bufferView":0,"byteOffset":60,"componentType":5126,"type":"SCALAR","count":3}},)"
+            R"({{"bufferView":0,"byteOffset":72,"componentType":5121,"normalized":true,"type":"VEC4","count":3}}],)"
+            R"("images":[{{"uri":"data:image/png;base64,{}"}}],"textures":[{{"source":0}}],"materials":[{}],)"
+            R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0{}}},"material":0}},)"
+            R"({{"attributes":{{"POSITION":0{}}},"material":0}}]}}],)"
+            R"("skins":[{{"joints":[1]}}],"nodes":[{},{{}}],"scenes":[{{"nodes":[0,1]}}])",
+            base64(png_of(image::Image8(1, 1, glm::u8vec4(10, 20, 30, 255)))), material, attributes,
+            attributes, node)));
+    EXPECT_LE(mesh.notes.size(), 1U);
+    return mesh.notes.empty() ? "" : mesh.notes[0].text;
+}
+
+// glTF 2.0, 3.7.2.1 and 3.9.2: COLOR_0 multiplies the base colour, a material names its TEXCOORD, TANGENT serves normal maps,
+// 3.7.3: JOINTS and WEIGHTS serve the skin of a node, in as many sets of each; names with _ belong to an application.
+TEST(GltfExporters, AttributesThatCannotChangeThePictureAreNotTold) {
+    EXPECT_EQ(lost_attributes(""), "");
+    EXPECT_EQ(lost_attributes(R"(,"NORMAL":0,"TANGENT":3,"COLOR_0":3)"), "");
+    EXPECT_EQ(lost_attributes(R"(,"TEXCOORD_0":1,"TEXCOORD_1":1)"), "");
+    EXPECT_EQ(lost_attributes(R"(,"TEXCOORD_0":1,"TEXCOORD_1":1)", R"({"mesh":0})",
+                              R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})"),
+              "");
+    EXPECT_EQ(lost_attributes(R"(,"JOINTS_0":3,"WEIGHTS_0":3,"JOINTS_1":3,"WEIGHTS_1":3)"), "");
+    EXPECT_EQ(lost_attributes(R"(,"JOINTS_0":3,"WEIGHTS_0":3,"JOINTS_1":3,"WEIGHTS_1":3)",
+                              R"({"mesh":0,"skin":0})"),
+              "");
+    EXPECT_EQ(lost_attributes(R"(,"_FEATURE_ID_0":2,"_TEMPERATURE":2)"), "");
+}
+
+TEST(GltfExporters, AttributesThatMayBeColoursOrShapeAreToldOnceByName) {
+    const auto begins = [](const std::string& text, const std::string& names) {
+        return text.starts_with("the vertex attributes " + names + ": ");
+    };
+    EXPECT_TRUE(begins(lost_attributes(R"(,"COLOR_0":3,"COLOR_1":3)"), "COLOR_1"));
+    EXPECT_TRUE(begins(lost_attributes(R"(,"COLOR_1":0,"_TINT":3,"_ID":2)"), "COLOR_1, _TINT"));
+    EXPECT_TRUE(
+        begins(lost_attributes(R"(,"JOINTS_0":3,"WEIGHTS_0":3,"JOINTS_1":3)", R"({"mesh":0,"skin":0})"),
+               "JOINTS_1"));
+    EXPECT_TRUE(begins(lost_attributes(R"(,"JOINTS_1":3,"WEIGHTS_1":3)", R"({"mesh":0,"skin":0})"),
+                       "JOINTS_1, WEIGHTS_1"));
+}
+
 } // namespace
 } // namespace frustumscreen::testing

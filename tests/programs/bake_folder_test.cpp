@@ -62,6 +62,17 @@ TEST_F(BakeFolder, ARecordingIsHeardInAFolderOfAnyCase) {
     EXPECT_EQ(text("err.txt"), "");
 }
 
+TEST_F(BakeFolder, AFileThatNothingNamesIsHintedAtAndNotLost) {
+    put("jug/jug.txt", "notes of the curator");
+    const std::string lines = "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n";
+    ASSERT_EQ(bake(lines, "--speech none --strict"), 0) << text("err.txt");
+    EXPECT_NE(text("out.txt").find("that jug.txt beside artifact.toml is not used"), std::string::npos)
+        << text("out.txt");
+    fs::remove(folder / "jug/jug.txt");
+    ASSERT_EQ(bake(lines, "--speech none"), 0) << text("err.txt");
+    EXPECT_EQ(text("out.txt").find("is not used"), std::string::npos) << text("out.txt");
+}
+
 TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
     const std::string lines =
         std::string(english_and_german) +

@@ -155,7 +155,11 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.inputs = {file.scan};
     const bool is_folder = file.scan != arguments.input;
     if (is_folder) {
+        request.folder = arguments.input;
         request.inputs.push_back(arguments.input / folder::artifact_file_name);
+    }
+    if (!file.texture.empty()) {
+        request.inputs.push_back(file.texture);
     }
     for (const auto& [language, recording] : file.recordings) {
         request.inputs.push_back(recording);

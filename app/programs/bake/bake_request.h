@@ -47,6 +47,7 @@ struct BakeArguments {
 
 struct BakeRequest {
     std::filesystem::path scan;
+    std::filesystem::path folder; ///< the folder of artifact.toml; empty: a scan alone
     std::filesystem::path output;
     std::filesystem::path preview;             ///< as BakeArguments
     bool watched = false;                      ///< as BakeArguments

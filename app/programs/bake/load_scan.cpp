@@ -5,6 +5,7 @@
 #include "assets_baked/bake/reduce_scan.h"
 #include "assets_baked/bake/table_under.h"
 #include "assets_baked/bake/winding.h"
+#include "assets_baked/folder/unused_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,6 +39,20 @@ void take_away_table(bake::SourceMesh& mesh, const bake::Scraps& scraps, bool cl
     } else {
         mesh.notes.push_back({bake::SourceNote::Kind::Guessed,
                               what + ": leave them out with --clean, or cut them off in the scan"});
+    }
+}
+
+/// A hint, not a loss: the curator may keep other files in the folder.
+void note_unused_files(const BakeRequest& request, bake::SourceMesh& mesh) {
+    if (request.folder.empty()) {
+        return;
+    }
+    std::vector<std::filesystem::path> used = request.inputs;
+    used.insert(used.end(), mesh.side_files.begin(), mesh.side_files.end());
+    used.insert(used.end(), {request.output, request.preview});
+    const std::vector<std::string> unused = folder::unused_files(request.folder, used);
+    if (!unused.empty()) {
+        mesh.notes.push_back({bake::SourceNote::Kind::Guessed, folder::sentence_on_unused(unused)});
     }
 }
 
@@ -87,6 +102,7 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
                               "light (KHR_materials_unlit): it is baked as with "
                               "--unlit"});
     }
+    note_unused_files(request, mesh);
     return mesh;
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace frustumscreen::bake {
 
@@ -28,7 +30,46 @@ std::size_t morph_targets(const GltfModel& model) {
     return all;
 }
 
+bool is_of_skin(std::string_view attribute) {
+    return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_");
+}
+
+/// True for an attribute without effect on the picture, and for those that are read.
+bool is_harmless(std::string_view attribute, std::size_t components) {
+    const bool may_be_colour = components == 3 || components == 4;
+    return !may_be_colour || attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT" ||
+           attribute == "COLOR_0" || attribute.starts_with("TEXCOORD_");
+}
+
 } // namespace
+
+void add_lost_attributes(const GltfModel& model, const GltfPrimitive& primitive, bool has_skin,
+                         std::set<std::string>& names) {
+    std::set<std::string> of_skin_read;
+    for (std::size_t set = 0;; ++set) {
+        std::string joints = fmt::format("JOINTS_{}", set);
+        std::string weights = fmt::format("WEIGHTS_{}", set);
+        if (!primitive.attributes.contains(joints) || !primitive.attributes.contains(weights)) {
+            break;
+        }
+        of_skin_read.insert({std::move(joints), std::move(weights)});
+    }
+    for (const auto& [name, accessor] : primitive.attributes) {
+        const bool is_lost = is_of_skin(name) ? has_skin && !of_skin_read.contains(name)
+                                              : !is_harmless(name, model.accessors[accessor].components);
+        if (is_lost) {
+            names.insert(name);
+        }
+    }
+}
+
+void note_lost_attributes(const std::set<std::string>& names, LoadNotes& notes) {
+    if (!names.empty()) {
+        notes.lost("the vertex attributes {}: colours are read from COLOR_0, joints and weights from pairs "
+                   "numbered 0, 1, 2",
+                   printable(fmt::format("{}", fmt::join(names, ", ")), 200));
+    }
+}
 
 void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn_materials,
                       LoadNotes& notes) {

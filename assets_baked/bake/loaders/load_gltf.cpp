@@ -202,6 +202,7 @@ public:
             }
         }
         note_gltf_losses(model_, materials_, notes_);
+        note_lost_attributes(lost_attributes_, notes_);
         SourceMesh mesh = mesh_.finish(has_points_);
         mesh.is_unlit = !materials_.empty() &&
                         std::all_of(materials_.begin(), materials_.end(),
@@ -298,12 +299,12 @@ private:
 
     void draw_mesh(const GltfMesh& mesh, const GltfPlacement& placement) {
         for (const GltfPrimitive& primitive : mesh.primitives) {
-            note_losses(primitive);
+            note_losses(primitive, !placement.scene_from_mesh_by_joint.empty());
             primitives_.draw(primitive, placement);
         }
     }
 
-    void note_losses(const GltfPrimitive& primitive) {
+    void note_losses(const GltfPrimitive& primitive, bool has_skin) {
         if (primitive.material) {
             materials_.insert(*primitive.material);
         }
@@ -312,6 +313,7 @@ private:
             notes_.lost("points or lines are left out ({})", primitive.place);
             return;
         }
+        add_lost_attributes(model_, primitive, has_skin, lost_attributes_);
         const auto texture =
             primitive.material ? model_.materials[*primitive.material].texture : std::nullopt;
         if (texture && !primitive.attributes.contains(fmt::format("TEXCOORD_{}", texture->uv_set))) {
@@ -325,6 +327,7 @@ private:
     LoadNotes& notes_;
     bool has_points_ = false;
     std::set<std::size_t> materials_; ///< materials of the drawn primitives
+    std::set<std::string> lost_attributes_;
     MeshAssembly mesh_{'y'};
     std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< transforms of each skin's joints
     GltfMaterials surfaces_;

@@ -29,6 +29,33 @@ bool is_passed_over(std::string_view keyword) {
     return keyword.starts_with('#') || std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
 }
 
+/// True if numbers after x y z could change the picture and are not read. Read is a colour; a weight (w) of 1 and an
+/// alpha of 1 or 255 change nothing.
+bool loses_numbers(const std::vector<double>& vertex) {
+    switch (vertex.size()) {
+    case 3:
+    case 6:
+        return false;
+    case 4:
+        return vertex[3] != 1.0;
+    case 7:
+        return vertex[6] != 1.0 && vertex[6] != 255.0;
+    default:
+        return true;
+    }
+}
+
+/// Lines with numbers that are not read.
+struct LongLines {
+    std::size_t count = 0;
+    std::size_t first = 0; ///< number of the first line
+
+    void add(std::size_t line) {
+        first = count == 0 ? line : first;
+        ++count;
+    }
+};
+
 class ObjReader {
 public:
     ObjReader(std::string_view text, ModelFiles& files)
@@ -62,6 +89,16 @@ private:
         if (corners_at_0_ > 0) {
             notes_.lost("the texture coordinates of {}: they have the number 0, and the first is 1",
                         counted(corners_at_0_, "corner", "corners"));
+        }
+        if (long_positions_.count > 0) {
+            notes_.lost("the numbers after x y z of {}, first in line {}: only a colour of three numbers is "
+                        "read there",
+                        counted(long_positions_.count, "vertex", "vertices"), long_positions_.first);
+        }
+        if (long_uvs_.count > 0) {
+            notes_.lost("the numbers after u v w of {}, first in line {}",
+                        counted(long_uvs_.count, "texture coordinate", "texture coordinates"),
+                        long_uvs_.first);
         }
         if (!unknown_.empty()) {
             notes_.lost("lines that the OBJ format does not have: {}",
@@ -101,6 +138,9 @@ private:
             read_position(words);
         } else if (keyword == "vt") {
             const std::vector<double>& uv = numbers(words, 1);
+            if (uv.size() > 3) {
+                long_uvs_.add(line_);
+            }
             uvs_.push_back(MeshAssembly::finite_uv({uv[0], uv.size() > 1 ? 1.0 - uv[1] : 1.0}));
         } else if (keyword == "vn") {
             read_normal(words);
@@ -143,6 +183,9 @@ private:
                                  positions_.size() + 1);
         }
         positions_.push_back(position);
+        if (loses_numbers(values)) {
+            long_positions_.add(line_);
+        }
         if (values.size() >= 6) {
             colours_.resize(positions_.size(), glm::vec4(1.0F));
             for (int i = 0; i < 3; ++i) {
@@ -268,6 +311,8 @@ private:
     std::size_t points_lines_surfaces_ = 0; ///< elements that are not faces
     std::size_t corners_at_0_ = 0;          ///< corners whose texture coordinate has the number 0
     std::set<std::string> unknown_;         ///< keywords
+    LongLines long_positions_;
+    LongLines long_uvs_;
     std::vector<glm::dvec3> positions_;
     std::vector<glm::vec2> uvs_;
     std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; may be fewer
