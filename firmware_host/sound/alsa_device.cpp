@@ -141,7 +141,8 @@ public:
             }
             free = std::max<snd_pcm_sframes_t>(::snd_pcm_avail(pcm_.get()), 0);
         }
-        const snd_pcm_uframes_t held = set_up_.buffer - std::min<snd_pcm_uframes_t>(free, set_up_.buffer);
+        const snd_pcm_uframes_t held =
+            set_up_.buffer - std::min(static_cast<snd_pcm_uframes_t>(free), set_up_.buffer);
         queued_ = held;
         return set_up_.queue - std::min(held, set_up_.queue);
     }

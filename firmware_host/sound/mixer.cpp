@@ -139,9 +139,7 @@ float Mixer::next_of_speech() {
     const float early = fade_left_ > 0 ? ease(fade_left_ - 1, fade_samples) : 1.0F;
     const float sample = sample_of(prompt, position_) * edge * early;
     ++position_;
-    if (position_ == length) {
-        end_speech();
-    } else if (fade_left_ > 0 && --fade_left_ == 0) {
+    if (position_ == length || (fade_left_ > 0 && --fade_left_ == 0)) {
         end_speech();
     }
     return sample;

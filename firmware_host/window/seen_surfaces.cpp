@@ -3,6 +3,7 @@
 #include "firmware_host/gl/gl_program.h"
 
 #include <cstddef>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -56,10 +57,10 @@ Result<SeenSurfacesPass> SeenSurfacesPass::create() {
 }
 
 SeenSurfacesPass::SeenSurfacesPass(gl::GlProgram program) : program_(std::move(program)) {
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    for (const GLenum filter : std::initializer_list<GLenum>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
         glSamplerParameteri(sampler_.get(), filter, GL_LINEAR);
     }
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    for (const GLenum wrap : std::initializer_list<GLenum>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
         glSamplerParameteri(sampler_.get(), wrap, GL_CLAMP_TO_EDGE);
     }
     glBindVertexArray(vertices_.get());
