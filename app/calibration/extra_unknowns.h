@@ -1,4 +1,4 @@
-/// What a fit to touches would gain by a few more unknowns that disturb some touches alike.
+/// Computes how much a few more unknowns, which disturb some touches alike, would improve a fit to touches.
 ///
 /// Method   Linear about the fit: the unknowns' columns less what the fit's own 19 unknowns take up of them.
 /// Units    residuals whitened, so that a gain is a difference of chi squared.
@@ -31,7 +31,7 @@ struct Gain {
 /// `columns`: one per touch, all of the same width.
 [[nodiscard]] Gain gain_by(const FittedTouches& fitted, std::span<const ExtraColumns> columns);
 
-/// What disturbs the touches, found by a fit with it.
+/// A disturbance of the touches, estimated by a fit that includes it.
 struct Disturbance {
     double chi2 = 0.0;     ///< of all touches, without the disturbance
     int freedom = 0;       ///< degrees of freedom left

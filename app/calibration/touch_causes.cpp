@@ -61,7 +61,7 @@ constexpr double min_ratio = 7.0;
 constexpr double min_size_m = 1.5e-3;
 /// Least decrease of the cost below that of wrong touches: one of them is the more usual fault.
 constexpr double apart = 3.0;
-/// Of chi squared, for each unknown of an explanation (Akaike 1974).
+/// Penalty in chi squared per unknown of an explanation (Akaike 1974).
 constexpr double unknown_cost = 2.0;
 /// A wrong touch is left out with its three equations, and with its number.
 constexpr int wrong_unknowns = 4;
@@ -77,7 +77,7 @@ bool explains(const Disturbance& found, const Fit& all, double best_cost) {
            cost_of(found.chi2, found.unknowns) < best_cost;
 }
 
-/// What the touches cost if nothing but wrong touches is assumed.
+/// The cost of the explanation that some touches are wrong and nothing else is.
 double cost_of_wrong_ones(const AgreeingTouches& found, const Fit& all) {
     if (found.agreement == Agreement::All || found.agreement == Agreement::Without) {
         return cost_of(found.fit.chi2, wrong_unknowns * static_cast<int>(found.wrong.size()));

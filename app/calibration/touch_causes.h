@@ -15,10 +15,10 @@
 
 namespace frustumscreen::calibration {
 
-/// Nothing if none of the mistakes explains it. `setup`: of the touches as given.
+/// Returns no reason if none of the mistakes explains the misfit. `setup`: the setup of the touches as given.
 [[nodiscard]] std::optional<VerdictReason> mistake_in(std::span<const Touch> touches, const FitSetup& setup,
                                                       int width, int height);
-/// Nothing if none of the disturbances explains it. `found`: what agrees without one.
+/// Returns no reason if no disturbance explains the misfit. `found`: the touches that agree without one.
 [[nodiscard]] std::optional<VerdictReason>
 disturbance_of(std::span<const Touch> touches, const FitSetup& setup, const AgreeingTouches& found);
 

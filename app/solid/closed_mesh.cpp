@@ -19,7 +19,7 @@ struct Extent {
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 };
 
-/// Of the vertices that polygons use.
+/// Bounds of the vertices that polygons use.
 Extent extent_of(const PolygonMesh& mesh) {
     Extent extent;
     for (const Polygon& polygon : mesh.polygons) {

@@ -182,7 +182,7 @@ private:
         return {};
     }
 
-    /// Of a corner written v, v/vt, v//vn or v/vt/vn.
+    /// The vertex of a corner written v, v/vt, v//vn or v/vt/vn.
     Result<std::uint32_t> vertex_of(std::string_view word) const {
         std::string_view rest = word;
         const std::optional<std::int64_t> vertex = number_in<std::int64_t>(take_part(rest));

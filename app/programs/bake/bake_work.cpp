@@ -87,7 +87,7 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const bake::Bake
     return words;
 }
 
-/// What a bake is expected to take; it decides on the time left alone.
+/// Expected duration of a bake's stages; used for the time left only.
 struct ExpectedTime {
     double reading_s = 0.0;
     double bake_s = 0.0;
