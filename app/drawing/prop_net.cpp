@@ -24,6 +24,7 @@ const geometry::PropFace& face_named(const geometry::PropShape& prop, std::strin
 
 /// The face's corners in its own plane, seen from outside: the first at the origin, the second along x.
 std::array<glm::dvec2, 4> flat(const geometry::PropFace& face) {
+    assert(face.corners.size() == 4); // the net is that of a frustum or a cube
     const glm::dvec3 x = glm::normalize(face.corners[1] - face.corners[0]);
     const glm::dvec3 y = glm::cross(face.plane.normal, x);
     std::array<glm::dvec2, 4> corners{};

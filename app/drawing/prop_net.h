@@ -12,13 +12,13 @@
 #include <glm/glm.hpp>
 
 #include <array>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace frustumscreen::drawing {
 
 struct NetFace {
-    std::string_view name;               ///< as in PropShape
+    std::string name;                    ///< as in PropShape
     std::array<glm::dvec2, 4> corners{}; ///< in the order of PropFace::corners, counter-clockwise
 };
 /// A fold between two faces of the net.
@@ -36,6 +36,7 @@ struct PropNet {
     std::vector<NetTab> tabs;
 };
 
+/// Of a frustum or a cube.
 [[nodiscard]] PropNet unfold(const geometry::PropShape& prop);
 
 } // namespace frustumscreen::drawing

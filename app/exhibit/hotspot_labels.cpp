@@ -46,7 +46,8 @@ std::uint32_t faces_lit_from(const geometry::PropShape& prop, const glm::dvec3& 
     std::uint32_t lit = 0;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const geometry::PropFace& face = prop.faces[k];
-        const double distance = glm::distance(lens_in_prop_m, 0.5 * (face.corners[0] + face.corners[2]));
+        const double distance =
+            glm::distance(lens_in_prop_m, 0.5 * (face.corners[0] + face.corners[face.corners.size() / 2]));
         lit |= face.plane.distance(lens_in_prop_m) >= settings::min_sine_of_light * distance ? 1U << k : 0U;
     }
     return lit;

@@ -15,13 +15,11 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
-
 namespace frustumscreen::geometry {
 
 struct FaceRays {
-    std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): not positive inside the face
-    glm::dmat3 direction{1.0};         ///< times (x, y, 1): S - E, scaled by -n.L
+    PerCorner<glm::dvec3> edges; ///< times (x, y, 1): not positive inside the face
+    glm::dmat3 direction{1.0};   ///< times (x, y, 1): S - E, scaled by -n.L
 };
 
 [[nodiscard]] FaceRays face_rays(const PropFace& face, const Pinhole& projector,

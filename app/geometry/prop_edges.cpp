@@ -15,8 +15,8 @@ bool has_corner(const PropFace& face, const glm::dvec3& corner) {
 
 const PropFace* neighbour_of(const PropShape& prop, const PropFace& face, std::size_t k) {
     for (const PropFace& other : prop.faces) {
-        if (&other != &face && has_corner(other, face.corners.at(k)) &&
-            has_corner(other, face.corners.at((k + 1) % 4))) {
+        if (&other != &face && has_corner(other, face.corners[k]) &&
+            has_corner(other, face.corners[face.corners.next(k)])) {
             return &other;
         }
     }

@@ -1,15 +1,20 @@
 #include "app/geometry/prop_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen::geometry {
 
 namespace {
 
-PropFace face_of(std::string_view name, const std::array<glm::dvec3, 4>& corners) {
+/// Corners closer than this are at one place.
+constexpr double same_place_m = 1e-9;
+
+PropFace face_of(std::string name, const PerCorner<glm::dvec3>& corners) {
     const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    return {name, {normal, glm::dot(normal, corners[0])}, corners};
+    return {std::move(name), {normal, glm::dot(normal, corners[0])}, corners};
 }
 
 /// All faces except the bottom.
@@ -37,7 +42,55 @@ void bound_by_faces(PropShape& prop) {
     }
 }
 
+bool looks_the_same(const std::vector<glm::dvec3>& corners, int quarters) {
+    const auto turned = [quarters](glm::dvec3 corner) {
+        for (int k = 0; k < quarters; ++k) {
+            corner = {-corner.y, corner.x, corner.z};
+        }
+        return corner;
+    };
+    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
+        return std::any_of(corners.begin(), corners.end(), [&](const glm::dvec3& other) {
+            return glm::distance(turned(corner), other) <= same_place_m;
+        });
+    });
+}
+
 } // namespace
+
+glm::dvec3 PropFace::middle() const {
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& corner : corners) {
+        sum += corner;
+    }
+    return sum / static_cast<double>(corners.size());
+}
+
+std::vector<glm::dvec3> foot_of(const PropShape& prop) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : prop.corners) {
+        lowest = std::fmin(lowest, corner.z);
+    }
+    std::vector<glm::dvec3> foot;
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& corner : prop.corners) {
+        if (corner.z <= lowest + same_place_m) {
+            foot.push_back(corner);
+            sum += corner;
+        }
+    }
+    const glm::dvec3 middle = sum / static_cast<double>(foot.size());
+    const auto azimuth = [&](const glm::dvec3& corner) {
+        return std::atan2(corner.y - middle.y, corner.x - middle.x);
+    };
+    std::sort(foot.begin(), foot.end(),
+              [&](const glm::dvec3& a, const glm::dvec3& b) { return azimuth(a) < azimuth(b); });
+    return foot;
+}
+
+int quarters_to_same(const PropShape& prop) {
+    return looks_the_same(prop.corners, 1) ? 1 : looks_the_same(prop.corners, 2) ? 2 : 4;
+}
 
 PropShape make_frustum(FrustumSize size) {
     PropShape prop = make_faces(size);

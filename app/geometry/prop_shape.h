@@ -4,11 +4,12 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/geometry/per_corner.h"
+
 #include <glm/glm.hpp>
 
-#include <array>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace frustumscreen::geometry {
@@ -20,23 +21,31 @@ struct Plane {
     [[nodiscard]] double distance(const glm::dvec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
-/// One face that can be lit; corners counter-clockwise seen from outside.
+/// One face that can be lit, a convex polygon; corners counter-clockwise seen from outside.
 struct PropFace {
-    std::string_view name; ///< a literal: the axis that its normal is closest to, e.g. "+X"
-    Plane plane;           ///< normal points outward
-    std::array<glm::dvec3, 4> corners{};
-    [[nodiscard]] glm::dvec3 middle() const {
-        return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    }
+    std::string name; ///< unique; of a frustum or a cube: the axis that its normal is closest to, e.g. "+X"
+    Plane plane;      ///< normal points outward
+    PerCorner<glm::dvec3> corners;
+    /// Mean of the corners.
+    [[nodiscard]] glm::dvec3 middle() const;
 };
 
+/// At most `max_faces` faces and `max_corners` corners (per_corner.h).
 struct PropShape {
-    std::vector<PropFace> faces; ///< the existing ones of +X, -X, +Y, -Y, +Z, -Z, in this order
+    /// Of a frustum or a cube: the existing ones of +X, -X, +Y, -Y, +Z, -Z, in this order.
+    std::vector<PropFace> faces;
     /// Bounding planes of the solid, outward: those of the faces first, then those that are never lit.
     std::vector<Plane> bounds;
-    std::vector<glm::dvec3> corners; ///< of the solid; the bottom's first
-    glm::dvec3 middle{0.0};
+    std::vector<glm::dvec3> corners; ///< of the solid, in no order
+    glm::dvec3 middle{0.0};          ///< of the box around it
 };
+
+/// The corners on which the prop stands, those with the lowest z: one, two, or a polygon counter-clockwise seen from
+/// above.
+[[nodiscard]] std::vector<glm::dvec3> foot_of(const PropShape& prop);
+
+/// Quarter turns about +Z after which the prop looks the same: 1 for a frustum or a cube, 2, or 4 for a whole turn.
+[[nodiscard]] int quarters_to_same(const PropShape& prop);
 
 /// A frustum between two squares; its sides face +-X and +-Y.
 struct FrustumSize {

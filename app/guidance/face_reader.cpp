@@ -168,16 +168,16 @@ double FaceReader::area_px(const GuidedState& tracked_state, std::uint32_t faces
         if ((faces >> k & 1U) == 0) {
             continue;
         }
-        std::array<glm::dvec2, 4> seen{};
-        for (std::size_t c = 0; c < seen.size(); ++c) {
-            const glm::dvec3 to = prop.faces[k].corners[c] - eye;
+        geometry::PerCorner<glm::dvec2> seen;
+        for (const glm::dvec3& corner : prop.faces[k].corners) {
+            const glm::dvec3 to = corner - eye;
             const double depth = std::fmax(glm::dot(to, forward), nearest_share * distance);
-            seen[c] = glm::dvec2(glm::dot(to, right), glm::dot(to, up)) / depth;
+            seen.push_back(glm::dvec2(glm::dot(to, right), glm::dot(to, up)) / depth);
         }
         double twice = 0.0;
         for (std::size_t c = 0; c < seen.size(); ++c) {
             const glm::dvec2& a = seen[c];
-            const glm::dvec2& b = seen[(c + 1) % seen.size()];
+            const glm::dvec2& b = seen[seen.next(c)];
             twice += a.x * b.y - b.x * a.y;
         }
         area += 0.5 * std::abs(twice);

@@ -46,7 +46,7 @@ Meeting meeting_at_edges(const glm::dvec3& eye, const FacePart& part, std::span<
     for (const glm::dvec3& corner : corners) {
         middle += corner - eye;
     }
-    std::array<glm::dvec3, 16> inward{};
+    std::array<glm::dvec3, FacePart::max_corners> inward{};
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const glm::dvec3 normal = glm::cross(corners[k] - eye, corners[(k + 1) % corners.size()] - eye);
         inward.at(k) = glm::dot(normal, middle) < 0.0 ? -normal : normal;
@@ -169,7 +169,7 @@ double SeenOutline::area_through(const FacePart& part) const {
     }
     const View view(eye_, forward_);
     const std::size_t sides = part.corners().size();
-    std::array<glm::dvec2, 16> window{};
+    std::array<glm::dvec2, FacePart::max_corners> window{};
     std::transform(part.corners().begin(), part.corners().end(), window.begin(),
                    [&](const glm::dvec3& point) { return view.seen(point); });
     double twice = 0.0;

@@ -13,6 +13,8 @@
 /// Threads  pure; any. Allocates nothing.
 #pragma once
 
+#include "app/geometry/per_corner.h"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -24,6 +26,9 @@ namespace frustumscreen::guidance {
 /// A part of a face: the face clipped by several planes. Its corners are in order; fewer than 3 make it empty.
 class FacePart {
 public:
+    /// Each of the picture's four edges adds a corner at most; one is spare, for rounding.
+    static constexpr std::size_t max_corners = geometry::max_face_corners + 5;
+
     FacePart() = default;
     explicit FacePart(std::span<const glm::dvec3> corners) {
         for (const glm::dvec3& corner : corners) {
@@ -38,10 +43,10 @@ public:
 private:
     void add(const glm::dvec3& corner) {
         if (count_ < corners_.size()) {
-            corners_.at(count_++) = corner;
+            corners_[count_++] = corner;
         }
     }
-    std::array<glm::dvec3, 16> corners_{};
+    std::array<glm::dvec3, max_corners> corners_{};
     std::size_t count_ = 0;
 };
 

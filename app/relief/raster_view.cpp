@@ -111,7 +111,9 @@ void set_up(RasterView& view, const geometry::PropShape& prop, const RasterScene
         RasterFace face_view;
         face_view.face = static_cast<int>(k);
         face_view.direction = glm::dmat3(box_from_prop) * rays.direction;
-        std::transform(rays.edges.begin(), rays.edges.end(), face_view.edges.begin(), inward_edge);
+        for (const glm::dvec3& edge : rays.edges) {
+            face_view.edges.push_back(inward_edge(edge));
+        }
         face_view.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
         face_view.lit =
             intersected(pixels_around(face_view, scene.box_size, scene.projector), pixels_of(face, scene));

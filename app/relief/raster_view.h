@@ -14,20 +14,31 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace frustumscreen::relief {
 
 struct RasterFace {
-    int face = 0;                      ///< index into the prop's faces
-    glm::dmat3 direction{1.0};         ///< of the eye's ray, from (x, y, 1); box, not unit
-    std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
+    int face = 0;                            ///< index into the prop's faces
+    glm::dmat3 direction{1.0};               ///< of the eye's ray, from (x, y, 1); box, not unit
+    geometry::PerCorner<glm::dvec3> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
     glm::mat<4, 3, double> pixel_from_box{1.0};
     PixelRectangle lit; ///< the projector's pixels that may show the box on this face
 };
+
+/// Most faces have four edges or fewer. What tests many pixels against them repeats no loop for these, and goes on with
+/// `more_edges`, which most faces do not have. Of a triangle the last edge counts twice.
+[[nodiscard]] inline std::array<glm::vec3, 4> first_edges(const RasterFace& face) {
+    return {face.edges[0], face.edges[1], face.edges[2], face.edges[face.edges.size() > 3 ? 3 : 2]};
+}
+[[nodiscard]] inline std::span<const glm::dvec3> more_edges(const RasterFace& face) {
+    return std::span(face.edges).subspan(std::min<std::size_t>(face.edges.size(), 4));
+}
 
 struct RasterView {
     glm::dvec3 eye_box{0.0};

@@ -19,7 +19,8 @@ struct ReadyItem {
     const std::uint32_t* codes;
     const std::uint64_t* covers;
     const PixelLens& lens;
-    std::array<glm::vec3, 4> edges; ///< the face's, as RasterFace
+    std::array<glm::vec3, 4> edges; ///< the face's first ones
+    std::span<const glm::dvec3> more_edges;
     CornerMap map;
     float outward; ///< sign of the picture area of a cell that faces the eye
 };
@@ -28,7 +29,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
                                      const BlockItems& items, const BlockItem& item) {
     const ReliefBlock& block = relief.blocks[item.block];
     const GridView& grid = items.grids[item.face][item.direction];
-    const std::array<glm::dvec3, 4>& edges = view.faces[item.face].edges;
+    const RasterFace& face = view.faces[item.face];
     const float turn =
         glm::dot(glm::vec3(grid.pixel[0]), glm::cross(glm::vec3(grid.pixel[1]), glm::vec3(grid.pixel[2])));
     return {.item = item,
@@ -36,7 +37,8 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
             .codes = &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
             .covers = relief.covers.data() + block.first_cover,
             .lens = items.lens,
-            .edges = {edges[0], edges[1], edges[2], edges[3]},
+            .edges = first_edges(face),
+            .more_edges = more_edges(face),
             .map = corner_map(block, grid),
             .outward = turn > 0.0F ? -1.0F : 1.0F};
 }
@@ -132,6 +134,9 @@ FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixe
     const PixelLanes at = ready.lens.bends ? unbent(ready.lens, pixels) : pixels;
     Ints inside = Ints{} - 1;
     for (const glm::vec3& edge : ready.edges) {
+        inside &= edge.x * at.x + edge.y * at.y + edge.z > 0.0F;
+    }
+    for (const glm::vec3 edge : ready.more_edges) {
         inside &= edge.x * at.x + edge.y * at.y + edge.z > 0.0F;
     }
     return inside;

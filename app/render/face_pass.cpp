@@ -1,8 +1,11 @@
 #include "app/render/face_pass.h"
 
+#include "app/geometry/corner_fan.h"
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -45,6 +48,15 @@ void set_draw(const Shader& shader, const scene::Draw& draw) {
                        glm::value_ptr(draw.clip_from_unit));
 }
 
+void draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& outline) {
+    for (std::size_t k = 0; k < geometry::fan_quads(corners.size()); ++k) {
+        const auto [a, b, c, d] = geometry::fan_quad(corners.size(), k);
+        const std::array<glm::vec4, 4> quad{corners[a], corners[b], corners[c], corners[d]};
+        glUniform4fv(outline.location(Uniform::Corners), 4, glm::value_ptr(quad[0]));
+        outline.draw_quad();
+    }
+}
+
 /// The uploaded mip level for ::mip_level, one for the whole draw: choosing and mixing two levels for each
 /// pixel costs a software or small GPU more than the rest of the pixel.
 int mip_of(const scene::Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
@@ -52,6 +64,14 @@ int mip_of(const scene::Draw& draw, const GpuStore::Texture& texture, const Rast
     const int mip =
         scene::mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box);
     return std::max(mip - texture.finest_mip, 0);
+}
+
+int outline_calls(const scene::FramePlan& plan) {
+    std::size_t quads = 0;
+    for (const scene::FacePlan& face : plan.faces) {
+        quads += geometry::fan_quads(face.corners_clip.size());
+    }
+    return static_cast<int>(quads);
 }
 
 } // namespace
@@ -79,7 +99,7 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
     glFrontFace(GL_CW);
-    auto calls = static_cast<int>(plan.faces.size());
+    int calls = outline_calls(plan);
     for (const scene::Draw& draw : plan.draws) {
         if (draw.shader.pass != scene::ShaderKey::Pass::Surface) {
             continue;
@@ -157,8 +177,7 @@ void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, c
         // The prop is convex: faces that the projector sees do not hide each other.
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
         set_scissor(plan.faces[k].bounds, raster);
-        glUniform4fv(outline.location(Uniform::Corners), 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
-        outline.draw_quad();
+        draw_outline(plan.faces[k].corners_clip, outline);
     }
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

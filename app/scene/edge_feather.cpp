@@ -36,9 +36,11 @@ glm::vec4 clip_of(const glm::dvec2& pixel, const geometry::Pinhole& pinhole) {
 
 /// The edge from corner `k` to the next; nullopt if it is not in front of the projector or has no length.
 std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const geometry::Pinhole& pinhole) {
-    const std::optional<glm::dvec2> a = pixel_of(face.corners_clip.at(k), pinhole);
-    const std::optional<glm::dvec2> b = pixel_of(face.corners_clip.at((k + 1) % 4), pinhole);
-    const std::optional<glm::dvec2> inside = pixel_of(face.corners_clip.at((k + 2) % 4), pinhole);
+    const geometry::PerCorner<glm::vec4>& corners = face.corners_clip;
+    const std::size_t next = corners.next(k);
+    const std::optional<glm::dvec2> a = pixel_of(corners[k], pinhole);
+    const std::optional<glm::dvec2> b = pixel_of(corners[next], pinhole);
+    const std::optional<glm::dvec2> inside = pixel_of(corners[corners.next(next)], pinhole);
     if (!a || !b || !inside || !(glm::distance(*a, *b) > 0.0)) {
         return std::nullopt;
     }
@@ -94,7 +96,7 @@ void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector,
     for (std::size_t face = 0; face < plan.faces.size(); ++face) {
         const FacePlan& own = plan.faces[face];
         const geometry::PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
-        for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t k = 0; k < own.corners_clip.size(); ++k) {
             const std::optional<PictureEdge> edge = edge_of(own, k, ideal);
             // Bounds are in bent pixels, edges in ideal ones. Behind a lens only the scissor clips the
             // strips.

@@ -74,9 +74,9 @@ PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const geometry::P
 PixelRectangle face_bounds(const geometry::PropFace& face, const geometry::Box& box,
                            const glm::dmat4& clip_from_prop, const glm::dmat4& clip_through_face,
                            const geometry::Pinhole& pinhole) {
-    std::array<glm::dvec4, 4> outline;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        outline[k] = clip_from_prop * glm::dvec4(face.corners[k], 1.0);
+    geometry::PerCorner<glm::dvec4> outline;
+    for (const glm::dvec3& corner : face.corners) {
+        outline.push_back(clip_from_prop * glm::dvec4(corner, 1.0));
     }
     std::array<glm::dvec4, 8> corners;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -88,13 +88,9 @@ PixelRectangle face_bounds(const geometry::PropFace& face, const geometry::Box& 
     return intersected(pixels_around(outline, pinhole), pixels_around(corners, pinhole));
 }
 
-std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners, const glm::dmat4& clip) {
-    std::array<glm::vec4, 4> result{};
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const glm::dvec4 corner = clip * glm::dvec4(corners[k], 1.0);
-        result[k] = glm::vec4(glm::dvec4(corner.x, corner.y, 0.0, corner.w));
-    }
-    return result;
+glm::vec4 corner_in_clip(const glm::dvec3& corner, const glm::dmat4& clip) {
+    const glm::dvec4 at = clip * glm::dvec4(corner, 1.0);
+    return glm::vec4(glm::dvec4(at.x, at.y, 0.0, at.w));
 }
 
 FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
@@ -103,7 +99,7 @@ FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_pr
     const glm::dvec3 eye = eye_in_prop / metres_per_box;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
         const glm::dvec3 a = face.corners[k] / metres_per_box - eye;
-        const glm::dvec3 b = face.corners[(k + 1) % face.corners.size()] / metres_per_box - eye;
+        const glm::dvec3 b = face.corners[face.corners.next(k)] / metres_per_box - eye;
         const glm::dvec3 inward = glm::cross(b, a);
         volume.add(glm::dvec4(inward, -glm::dot(inward, eye)));
     }

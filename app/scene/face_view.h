@@ -40,8 +40,7 @@ struct FaceView {
                                          const geometry::Pinhole& pinhole);
 
 /// Depth 0 keeps points in front of the projector (w > 0) and clips the others.
-[[nodiscard]] std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners,
-                                                       const glm::dmat4& clip);
+[[nodiscard]] glm::vec4 corner_in_clip(const glm::dvec3& corner, const glm::dmat4& clip);
 
 /// The pyramid from the eye through the face, and the picture's edges seen through the face's collineation;
 /// edges bent by a lens are replaced by straight ones around them. Box frame.

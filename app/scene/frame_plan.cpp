@@ -1,6 +1,7 @@
 #include "app/scene/frame_plan.h"
 
 #include "app/geometry/collineation.h"
+#include "app/geometry/corner_fan.h"
 #include "app/scene/face_view.h"
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
@@ -11,9 +12,6 @@
 namespace frustumscreen::scene {
 
 namespace {
-
-/// More faces than any prop has; a fixed limit avoids allocation per frame.
-constexpr std::size_t max_faces = 16;
 
 /// Values of one frame that faces and parts share.
 struct Shared {
@@ -57,7 +55,7 @@ Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> part
 /// nullopt if no eye looks through the face, or no light meets it.
 std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const geometry::PropFace& face = shared.prop.faces[index];
-    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
+    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[face.corners.size() / 2]);
     if (!(face.plane.distance(shared.projector_in_prop) >
           geometry::min_sine * glm::distance(shared.projector_in_prop, middle))) {
         return std::nullopt;
@@ -169,9 +167,9 @@ bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan&
 
 /// Part by part, because the triangles that face the eye are found once for all faces that share the eye.
 void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
-    const std::size_t faces = std::min(shared.prop.faces.size(), max_faces);
-    std::array<std::optional<FaceView>, max_faces> through{};
-    std::array<std::optional<std::size_t>, max_faces> planned{}; // index into plan.faces
+    const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
+    std::array<std::optional<FaceView>, geometry::max_faces> through{};
+    std::array<std::optional<std::size_t>, geometry::max_faces> planned{}; // index into plan.faces
     for (std::size_t face = 0; face < faces; ++face) {
         through[face] = look_through(face, shared);
     }
@@ -189,12 +187,12 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
             }
             if (!planned[face]) {
                 planned[face] = plan.faces.size();
-                plan.faces.push_back(
-                    {.face = static_cast<int>(face),
-                     .corners_clip = corners_in_clip(shared.prop.faces[face].corners, shared.clip_from_prop),
-                     .light = {},
-                     .bounds = {},
-                     .pixels_per_m = draw->pixels_per_box / part.level.metres_per_box});
+                FacePlan& added = plan.faces.emplace_back();
+                added.face = static_cast<int>(face);
+                for (const glm::dvec3& corner : shared.prop.faces[face].corners) {
+                    added.corners_clip.push_back(corner_in_clip(corner, shared.clip_from_prop));
+                }
+                added.pixels_per_m = draw->pixels_per_box / part.level.metres_per_box;
             }
             FacePlan& on = plan.faces[*planned[face]];
             on.bounds = united(on.bounds, draw->bounds);
@@ -223,7 +221,9 @@ int samples_on_gpu(std::span<const Part> parts) {
 /// A quadrilateral with a picture, or black.
 Draw draw_flat(const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip, TextureId texture,
                double brightness, const PixelRectangle& bounds) {
-    const std::array<glm::vec4, 4> columns = corners_in_clip(outline, clip);
+    std::array<glm::vec4, 4> columns{};
+    std::transform(outline.begin(), outline.end(), columns.begin(),
+                   [&](const glm::dvec3& corner) { return corner_in_clip(corner, clip); });
     Draw draw;
     draw.shader = {ShaderKey::Pass::TablePicture};
     draw.drawable.material.texture = texture;
@@ -264,10 +264,14 @@ void plan_table(const Shared& shared, FramePlan& plan) {
     }
     for (const geometry::PropFace& face : shared.prop.faces) {
         if (face.plane.distance(shared.projector_in_prop) > 0.0) {
-            const PixelRectangle own = intersected(bounds, bounds_of(face.corners, shared.clip_from_prop));
-            if (!own.empty()) {
-                plan.draws.push_back(
-                    draw_flat(face.corners, shared.clip_from_prop, TextureId::None, 0.0, own));
+            for (std::size_t k = 0; k < geometry::fan_quads(face.corners.size()); ++k) {
+                const auto [a, b, c, d] = geometry::fan_quad(face.corners.size(), k);
+                const std::array<glm::dvec3, 4> part{face.corners[a], face.corners[b], face.corners[c],
+                                                     face.corners[d]};
+                const PixelRectangle own = intersected(bounds, bounds_of(part, shared.clip_from_prop));
+                if (!own.empty()) {
+                    plan.draws.push_back(draw_flat(part, shared.clip_from_prop, TextureId::None, 0.0, own));
+                }
             }
         }
     }
@@ -284,8 +288,8 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
     if (plan.faces.empty()) {
         return; // the eye or the lens may be inside the prop
     }
-    const std::size_t faces = std::min(shared.prop.faces.size(), max_faces);
-    std::array<SeenFace, max_faces> seen{};
+    const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
+    std::array<SeenFace, geometry::max_faces> seen{};
     for (std::size_t face = 0; face < faces; ++face) {
         seen[face] = {&shared.prop.faces[face], shared.eye(face)};
     }
@@ -332,9 +336,15 @@ FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact
 FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts) {
     FramePlan plan;
     const std::size_t faces = prop.faces.size();
+    std::size_t edges = 0; // of all faces
+    std::size_t quads = 0;
+    for (const geometry::PropFace& face : prop.faces) {
+        edges += face.corners.size();
+        quads += geometry::fan_quads(face.corners.size());
+    }
     plan.faces.reserve(faces);
-    plan.draws.reserve(parts * faces + max_on_table + 1 + faces);
-    plan.feathers.reserve(4 * faces);
+    plan.draws.reserve(parts * faces + max_on_table + 1 + quads);
+    plan.feathers.reserve(edges);
     // A triangle may show on every face. Reserved memory costs nothing until it is written.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);

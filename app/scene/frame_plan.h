@@ -107,8 +107,8 @@ struct IndexRange {
 
 /// One face of the prop that is turned to its eye and lit by the projector.
 struct FacePlan {
-    int face = 0;                            ///< index into PropShape::faces
-    std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
+    int face = 0;                                  ///< index into PropShape::faces
+    geometry::PerCorner<glm::vec4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
     PixelRectangle bounds; ///< around the bounds of its draws
     /// At the artifact's middle, perpendicular to the eye's ray; the mean of two directions, by area.

@@ -17,7 +17,8 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-void hash_corners(const std::array<glm::vec4, 4>& corners, Hash& hash) {
+void hash_corners(const geometry::PerCorner<glm::vec4>& corners, Hash& hash) {
+    hash.add(corners.size());
     for (const glm::vec4& corner : corners) {
         for (int k = 0; k < 4; ++k) {
             hash.add_float(corner[k]);

@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <numbers>
 
 namespace frustumscreen::scene {
 
 PixelRectangle prop_bounds(const geometry::PropShape& prop, const geometry::Pinhole& projector,
                            const glm::dmat4& clip_from_prop) {
-    std::array<glm::dvec4, 16> clip{};
-    const std::size_t count = std::min(prop.corners.size(), clip.size());
+    std::array<glm::dvec4, geometry::max_corners> clip{};
+    const std::size_t count = prop.corners.size();
+    assert(count <= clip.size());
     for (std::size_t k = 0; k < count; ++k) {
         clip[k] = clip_from_prop * glm::dvec4(prop.corners[k], 1.0);
     }
@@ -23,9 +25,10 @@ PixelRectangle prop_bounds(const geometry::PropShape& prop, const geometry::Pinh
 std::optional<PixelSize> largest_outline(const settings::Settings& settings,
                                          const geometry::Pinhole& projector, const Visibility& visibility) {
     constexpr int places = 13; // along each side of the table, including its middle and its corners
-    constexpr int yaws = 32;   // over a quarter of a turn
+    constexpr int yaws_of_quarter = 32;
     constexpr int margin = 16;
     const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const int yaws = yaws_of_quarter * geometry::quarters_to_same(prop);
     const glm::dmat4 clip_from_table =
         projector.clip_from_point() * settings.projector.table_from_projector.inverse().matrix();
     PixelSize largest;
@@ -44,7 +47,7 @@ std::optional<PixelSize> largest_outline(const settings::Settings& settings,
             const glm::dvec2 share = glm::dvec2(place % places, place / places) / (places - 1.0) - 0.5;
             const glm::dvec3 at(share.x * settings.table.width_m, share.y * settings.table.depth_m, 0.0);
             for (int yaw = 0; yaw < yaws; ++yaw) {
-                const double angle = yaw * std::numbers::pi / (2.0 * yaws);
+                const double angle = yaw * std::numbers::pi / (2.0 * yaws_of_quarter);
                 add({glm::angleAxis(angle, glm::dvec3(0.0, 0.0, 1.0)), at});
             }
         }

@@ -74,10 +74,12 @@ FRUSTUMSCREEN_INLINE relief::Floats at_pixels(const glm::vec3& linear, const rel
 }
 
 /// The pixels within the face, including those on an edge, which go to the first of two faces.
-FRUSTUMSCREEN_INLINE relief::Ints inside(const std::array<glm::vec3, 4>& edges,
-                                         const relief::PixelLanes& at) {
+FRUSTUMSCREEN_INLINE relief::Ints inside(const RasterLight::Face& face, const relief::PixelLanes& at) {
     relief::Ints in = relief::Ints{} - 1;
-    for (const glm::vec3& edge : edges) {
+    for (const glm::vec3& edge : face.edges) {
+        in &= at_pixels(edge, at) >= 0.0F;
+    }
+    for (const glm::vec3& edge : face.more_edges) {
         in &= at_pixels(edge, at) >= 0.0F;
     }
     return in;
@@ -117,7 +119,7 @@ FRUSTUMSCREEN_INLINE relief::Ints shown(const RasterLight::Parts& parts, int x, 
     relief::Ints left = relief::Ints{} - 1; // pixels that no face has taken yet
     relief::Ints result{};
     for (const RasterLight::Face& face : parts.faces) {
-        const relief::Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : relief::Ints{};
+        const relief::Ints own = may_have(face.lit, x, y) ? left & inside(face, at) : relief::Ints{};
         if (!relief::any(own)) {
             continue;
         }
@@ -188,12 +190,14 @@ void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
         const FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
         for (const relief::RasterFace& seen : planned.view.faces) {
             if (seen.face == face.face) {
-                const auto& [a, b, c, d] = seen.edges;
-                parts_.faces.push_back(
-                    {.face = draw.face,
-                     .lit = seen.lit,
-                     .edges = {a, b, c, d},
-                     .gain = gain_of(face, plan.projector, planned.even_light, draw.brightness)});
+                RasterLight::Face& added = parts_.faces.emplace_back();
+                added.face = draw.face;
+                added.lit = seen.lit;
+                added.edges = relief::first_edges(seen);
+                for (const glm::dvec3& edge : relief::more_edges(seen)) {
+                    added.more_edges.push_back(glm::vec3(edge));
+                }
+                added.gain = gain_of(face, plan.projector, planned.even_light, draw.brightness);
             }
         }
     }

@@ -43,7 +43,8 @@ public:
     struct Face {
         int face = 0;                     ///< index into FramePlan::faces
         PixelRectangle lit;               ///< the face has no pixels outside this
-        std::array<glm::vec3, 4> edges{}; ///< as RasterFace
+        std::array<glm::vec3, 4> edges{}; ///< the first ones (relief/raster_view.h)
+        geometry::PerCorner<glm::vec3> more_edges{};
         Gain gain;
     };
     /// An EdgeFeather in ideal pixels: functions linear in (x, y, 1) that go from 0 to 1 across it.

@@ -18,7 +18,7 @@ bool looks_away(const glm::dvec3& eye, const pack::PackCluster& cluster) {
 
 /// The half spaces whose boundary crosses one cluster.
 struct Crossed {
-    std::array<glm::vec4, 9> half_spaces{};
+    std::array<glm::vec4, FaceVolume::max_half_spaces> half_spaces; ///< the first `count`
     std::size_t count = 0;
     bool outside = false;
 };

@@ -9,6 +9,7 @@
 /// Threads  pure; any. Allocates nothing if `indices` has room.
 #pragma once
 
+#include "app/geometry/per_corner.h"
 #include "app/pack/pack.h"
 
 #include <glm/glm.hpp>
@@ -48,7 +49,9 @@ void find_extents(LevelTriangles& level);
 /// The volume that one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the
 /// picture's four edges.
 struct FaceVolume {
-    std::array<glm::dvec4, 9> half_spaces{};
+    /// The face's edges, the plane before the projector and the picture's edges.
+    static constexpr std::size_t max_half_spaces = geometry::max_face_corners + 5;
+    std::array<glm::dvec4, max_half_spaces> half_spaces{};
     std::size_t count = 0;
 
     /// Normalises the half space; a degenerate or non-finite one is skipped.

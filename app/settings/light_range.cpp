@@ -10,7 +10,7 @@ namespace frustumscreen::settings {
 namespace {
 
 constexpr double min_share_of_brightest = 0.25;
-constexpr int yaws = 30; ///< over a quarter turn, after which a square prop looks the same
+constexpr int yaws_of_quarter = 30;
 
 /// Adds the prop in one pose, given by the lens in the prop's frame.
 void include(const geometry::PropShape& prop, const glm::dvec3& lens, LightRange& range) {
@@ -43,12 +43,13 @@ glm::dvec2 reach_on_table(const PropSettings& prop, const TableSettings& table) 
 }
 
 LightRange light_range(const geometry::PropShape& prop, const glm::dvec3& lens, const glm::dvec2& reach_m) {
+    const int yaws = yaws_of_quarter * geometry::quarters_to_same(prop);
     LightRange range{std::numeric_limits<double>::infinity(), 0.0, 1.0};
     for (int place = 0; place < 9; ++place) {
         const glm::dvec2 at = reach_m * glm::dvec2(place % 3 - 1, place / 3 - 1);
         const glm::dvec3 to_lens = lens - glm::dvec3(at, 0.0);
         for (int k = 0; k < yaws; ++k) {
-            const double yaw = 0.5 * std::numbers::pi * k / yaws;
+            const double yaw = 0.5 * std::numbers::pi * k / yaws_of_quarter;
             const double c = std::cos(yaw);
             const double s = std::sin(yaw);
             include(prop, {c * to_lens.x + s * to_lens.y, c * to_lens.y - s * to_lens.x, to_lens.z}, range);

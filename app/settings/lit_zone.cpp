@@ -69,7 +69,7 @@ struct TurnedFace {
     double run = 0.0; ///< length of the normal's horizontal part; 0: it looks straight up or down
     double rise = 0.0;
     double offset = 0.0;
-    std::array<Round, 4> corners{};
+    geometry::PerCorner<Round> corners{};
 };
 
 TurnedFace turned(const geometry::PropFace& face) {
@@ -77,10 +77,9 @@ TurnedFace turned(const geometry::PropFace& face) {
     TurnedFace result{
         .run = glm::length(glm::dvec2(n)), .rise = n.z, .offset = face.plane.offset, .corners = {}};
     const double azimuth = result.run > 0.0 ? std::atan2(n.y, n.x) : 0.0;
-    for (std::size_t k = 0; k < face.corners.size(); ++k) {
-        const glm::dvec3& corner = face.corners[k];
-        result.corners[k] = {glm::length(glm::dvec2(corner)), corner.z,
-                             std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2.0 * pi)};
+    for (const glm::dvec3& corner : face.corners) {
+        result.corners.push_back({glm::length(glm::dvec2(corner)), corner.z,
+                                  std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2.0 * pi)});
     }
     return result;
 }
@@ -90,7 +89,7 @@ bool are_alike(const TurnedFace& a, const TurnedFace& b) {
     constexpr double rounding = 1e-12;
     const auto near = [](double x, double y) { return std::abs(x - y) <= rounding; };
     return near(a.run, b.run) && near(a.rise, b.rise) && near(a.offset, b.offset) &&
-           std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(),
+           std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
                       [&](const Round& c, const Round& d) {
                           return near(c.radius, d.radius) && near(c.z, d.z) && near(c.off, d.off);
                       });

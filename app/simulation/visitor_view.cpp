@@ -68,6 +68,9 @@ public:
           eye_in_prop_(prop_from_table_.point(scene.eye_m)),
           lens_in_prop_(prop_from_table_.point(scene.table_from_projector.translation)) {
         exposure_ = exposure_of(scene.prop, lens());
+        for (const glm::dvec3& corner : geometry::foot_of(scene.prop)) {
+            foot_ = glm::max(foot_, glm::abs(glm::dvec2(corner)));
+        }
     }
 
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
@@ -166,8 +169,7 @@ private:
     /// Less of the room's light arrives near the prop.
     [[nodiscard]] double contact_shadow(const glm::dvec3& point_m) const {
         const glm::dvec3 p = prop_from_table_.point(point_m);
-        const glm::dvec2& foot = scene_.prop.corners.front();
-        const glm::dvec3 outside = glm::max(glm::abs(p) - glm::dvec3(glm::abs(foot), 0.0), glm::dvec3(0.0));
+        const glm::dvec3 outside = glm::max(glm::abs(p) - glm::dvec3(foot_, 0.0), glm::dvec3(0.0));
         return 1.0 - 0.75 * std::exp(-glm::length(outside) / contact_shadow_reach_m);
     }
 
@@ -178,6 +180,7 @@ private:
     geometry::RigidTransform projector_from_table_;
     glm::dvec3 eye_in_prop_;
     glm::dvec3 lens_in_prop_;
+    glm::dvec2 foot_{0.0}; ///< half of the sides of a rectangle around the prop's axis that holds its foot
     double exposure_ = 1.0;
 };
 

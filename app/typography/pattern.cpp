@@ -132,10 +132,11 @@ image::Image8 with_prop(const image::Image8& table, const PatternScene& scene,
                 continue;
             }
             glm::dvec3 middle(0.0);
-            for (std::size_t c = 0; c < 4; ++c) {
-                middle += table_from_prop.point(face.corners[c]) / 4.0;
+            const std::size_t corners = face.corners.size();
+            for (std::size_t c = 0; c < corners; ++c) {
+                middle += table_from_prop.point(face.corners[c]) / static_cast<double>(corners);
                 draw_edge(canvas, pixel, table_from_prop.point(face.corners[c]),
-                          table_from_prop.point(face.corners[(c + 1) % 4]), 3.0,
+                          table_from_prop.point(face.corners[face.corners.next(c)]), 3.0,
                           lit ? prop_colour : unlit_colour);
             }
             if (const auto at = pixel(middle)) {

@@ -45,7 +45,7 @@ public:
         const double elevation = std::lerp(least, 0.5 * std::numbers::pi, 0.5 + 0.5 * share(random));
         const double azimuth = std::numbers::pi * share(random);
         const double distance = std::lerp(eye_.nearest_m, 1.0, 0.5 + 0.5 * share(random));
-        pose.eye_m = glm::dvec3(pose.place_m, 0.5 * prop_.corners.back().z) +
+        pose.eye_m = glm::dvec3(pose.place_m, prop_.middle.z) +
                      distance * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
                                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
         return pose;

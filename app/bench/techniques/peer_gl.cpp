@@ -167,6 +167,7 @@ FaceQuads::FaceQuads() : array_(gl::GlVertexArray::generate()), buffer_(gl::GlBu
 void FaceQuads::set(const std::vector<PeerFace>& faces) {
     std::vector<glm::vec3> corners;
     for (const PeerFace& each : faces) {
+        assert(each.face->corners.size() == 4); // the peers draw frustums and cubes
         corners.insert(corners.end(), each.face->corners.begin(), each.face->corners.end());
     }
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());

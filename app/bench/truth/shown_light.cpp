@@ -31,7 +31,8 @@ ShownLight::ShownLight(LightAim aim, const geometry::PropShape& prop, const Trut
     : aim_(std::move(aim)), prop_(prop), view_(view), ideal_(view.projector.ideal()) {
     edges_.resize(prop.faces.size());
     for (int face = 0; aim_.soft_edges && face < static_cast<int>(prop.faces.size()); ++face) {
-        for (std::size_t corner = 0; corner < 4; ++corner) {
+        for (std::size_t corner = 0; corner < prop.faces[static_cast<std::size_t>(face)].corners.size();
+             ++corner) {
             if (const std::optional<SoftEdge> edge = soft_edge(face, corner)) {
                 edges_[static_cast<std::size_t>(face)].push_back(*edge);
             }
@@ -49,15 +50,16 @@ double ShownLight::even(const LitPlace& place) const {
 
 std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t corner) const {
     const geometry::PropFace& own = prop_.faces[static_cast<std::size_t>(face)];
-    const std::array<glm::dvec3, 4>& corners = own.corners;
-    const std::array<glm::dvec3, 2> ends{corners.at(corner), corners.at((corner + 1) % 4)};
+    const geometry::PerCorner<glm::dvec3>& corners = own.corners;
+    const std::size_t next = corners.next(corner);
+    const std::array<glm::dvec3, 2> ends{corners[corner], corners[next]};
     const geometry::RigidTransform projector_from_prop = view_.prop_from_projector.inverse();
     const auto pixel = [&](const glm::dvec3& point, const geometry::Pinhole& pinhole) {
         return pinhole.pixel(projector_from_prop.point(point));
     };
     const std::optional<glm::dvec2> a = pixel(ends[0], ideal_);
     const std::optional<glm::dvec2> b = pixel(ends[1], ideal_);
-    const std::optional<glm::dvec2> inside = pixel(corners.at((corner + 2) % 4), ideal_);
+    const std::optional<glm::dvec2> inside = pixel(corners[corners.next(next)], ideal_);
     if (!a || !b || !inside) {
         return std::nullopt;
     }

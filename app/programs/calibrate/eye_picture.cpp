@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace frustumscreen::programs {
 
@@ -144,14 +145,14 @@ public:
         : procedure_(procedure), scene_(procedure.scene()), canvas_(canvas),
           unit_(scene_.pinhole.width / 160.0) {}
 
-    /// The square on which the prop should stand.
-    void square() {
+    /// The polygon on which the prop should stand.
+    void foot() {
         const geometry::RigidTransform place = calibration::first_place(scene_);
-        std::array<glm::dvec2, 4> bottom{};
-        for (std::size_t k = 0; k < bottom.size(); ++k) {
-            bottom[k] = pixel(place.point(scene_.prop.corners[k]));
+        std::vector<glm::dvec2> foot;
+        for (const glm::dvec3& corner : geometry::foot_of(scene_.prop)) {
+            foot.push_back(pixel(place.point(corner)));
         }
-        canvas_.outline(bottom, 0.5 * unit_, TableColours::front);
+        canvas_.outline(foot, 0.5 * unit_, TableColours::front);
     }
     void cross(typography::Colour colour) {
         const glm::dvec3& middle = procedure_.cross().cross_m;
@@ -265,7 +266,7 @@ image::Image8 table_picture(const calibration::EyeProcedure& procedure, const Ta
     typography::Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
     SightDrawing drawing(procedure, canvas);
     if (!procedure.knows_place() && procedure.stage() != Stage::Left) {
-        drawing.square();
+        drawing.foot();
     }
     if (has_cross(procedure.stage())) {
         const bool is_held = procedure.stage() == Stage::HoldStill;

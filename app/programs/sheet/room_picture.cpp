@@ -39,7 +39,7 @@ image::Image8 projector_view(const simulation::VisitorScene& scene, const image:
                              const glm::ivec2& size) {
     typography::Canvas canvas(size.x, size.y, typography::Colour(0));
     canvas.picture(picture, {0, 0}, {picture.width, picture.height}, {0, 0}, size);
-    for (std::array<glm::dvec2, 4> outline : face_outlines(scene)) {
+    for (FaceOutline outline : face_outlines(scene)) {
         for (glm::dvec2& point : outline) {
             point *= glm::dvec2(size) / glm::dvec2(picture.width, picture.height);
         }

@@ -88,18 +88,17 @@ std::vector<glm::dvec3> lit_corners(const simulation::VisitorScene& scene) {
     return corners;
 }
 
-std::vector<std::array<glm::dvec2, 4>> face_outlines(const simulation::VisitorScene& scene) {
+std::vector<FaceOutline> face_outlines(const simulation::VisitorScene& scene) {
     const geometry::RigidTransform projector_from_prop =
         scene.table_from_projector.inverse() * scene.table_from_prop;
-    std::vector<std::array<glm::dvec2, 4>> outlines;
+    std::vector<FaceOutline> outlines;
     for (const geometry::PropFace& face : scene.prop.faces) {
-        std::array<glm::dvec2, 4> outline{};
+        FaceOutline outline;
         bool visible = true;
-        for (std::size_t k = 0; k < outline.size(); ++k) {
-            const std::optional<glm::dvec2> pixel =
-                scene.projector.pixel(projector_from_prop.point(face.corners[k]));
+        for (const glm::dvec3& corner : face.corners) {
+            const std::optional<glm::dvec2> pixel = scene.projector.pixel(projector_from_prop.point(corner));
             visible = visible && pixel.has_value();
-            outline[k] = pixel.value_or(glm::dvec2(0.0));
+            outline.push_back(pixel.value_or(glm::dvec2(0.0)));
         }
         if (visible) {
             outlines.push_back(outline);

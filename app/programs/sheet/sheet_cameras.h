@@ -4,9 +4,9 @@
 /// Threads  pure; any.
 #pragma once
 
+#include "app/geometry/per_corner.h"
 #include "app/simulation/visitor_view.h"
 
-#include <array>
 #include <vector>
 
 namespace frustumscreen::programs {
@@ -31,7 +31,8 @@ inline constexpr double prop_share_of_height = 0.85;
 /// The corners of the projector's picture on the table, as far as its light reaches the table.
 [[nodiscard]] std::vector<glm::dvec3> lit_corners(const simulation::VisitorScene& scene);
 
+using FaceOutline = geometry::PerCorner<glm::dvec2>;
 /// Corners of the prop's faces in the projector's picture; only faces in front of the lens.
-[[nodiscard]] std::vector<std::array<glm::dvec2, 4>> face_outlines(const simulation::VisitorScene& scene);
+[[nodiscard]] std::vector<FaceOutline> face_outlines(const simulation::VisitorScene& scene);
 
 } // namespace frustumscreen::programs

@@ -44,8 +44,7 @@ struct Crop {
 
 /// The part that a tile shows, in the tile's aspect ratio: the prop's outlines with a margin, or the whole
 /// picture.
-Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const image::Image8& picture,
-             const glm::ivec2& tile) {
+Crop crop_of(const std::vector<FaceOutline>& outlines, const image::Image8& picture, const glm::ivec2& tile) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
     for (const auto& outline : outlines) {
@@ -84,12 +83,11 @@ void draw_frame(typography::Canvas& canvas, const settings::Settings& settings, 
     const Tiles& tiles = whole ? whole_table : around_prop;
     const simulation::VisitorScene scene =
         visitor_scene(settings, frame.tracked_state, picture.width, picture.height);
-    std::vector<std::array<glm::dvec2, 4>> outlines = face_outlines(scene);
-    const Crop crop =
-        crop_of(whole ? std::vector<std::array<glm::dvec2, 4>>() : outlines, picture, tiles.projector);
+    std::vector<FaceOutline> outlines = face_outlines(scene);
+    const Crop crop = crop_of(whole ? std::vector<FaceOutline>() : outlines, picture, tiles.projector);
     typography::Canvas tile(tiles.projector.x, tiles.projector.y, typography::Colour(0));
     tile.picture(picture, crop.low, crop.size, {0, 0}, tiles.projector);
-    for (std::array<glm::dvec2, 4>& outline : outlines) {
+    for (FaceOutline& outline : outlines) {
         for (glm::dvec2& point : outline) {
             point = (point - crop.low) / crop.size * glm::dvec2(tiles.projector);
         }

@@ -3,13 +3,14 @@
 #include "app/geometry/table_plane.h"
 #include "app/simulation/room_light.h"
 
-#include <array>
+#include <cstddef>
+#include <optional>
 
 namespace frustumscreen::programs {
 
 namespace {
 
-using Quad = std::array<glm::dvec3, 4>; ///< in the table's frame
+using Polygon = geometry::PerCorner<glm::dvec3>; ///< convex; in the table's frame
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
 const glm::vec3 outline_light(0.10F, 0.28F, 0.30F);
@@ -49,10 +50,12 @@ public:
                 .gain = 0.0F,
                 .own = light};
     }
-    void add(const Quad& quad, const glm::dvec3& normal, double albedo, bool lit,
+    void add(const Polygon& polygon, const glm::dvec3& normal, double albedo, bool lit,
              window::SeenSurfaces& seen) const {
-        for (const std::size_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-            seen.triangles.push_back(surface(quad[corner], normal, albedo, lit));
+        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+            for (const std::size_t corner : {std::size_t{0}, k, k + 1}) {
+                seen.triangles.push_back(surface(polygon[corner], normal, albedo, lit));
+            }
         }
     }
 
@@ -74,15 +77,15 @@ void add_table(const Viewer& viewer, const glm::dvec2& half, window::SeenSurface
 }
 
 /// Adds the shadow of each face on the table.
-void add_shadow(const Viewer& viewer, const Quad& face, const glm::dvec3& lens, const glm::dvec2& half,
+void add_shadow(const Viewer& viewer, const Polygon& face, const glm::dvec3& lens, const glm::dvec2& half,
                 window::SeenSurfaces& seen) {
-    Quad shadow{};
-    for (std::size_t k = 0; k < face.size(); ++k) {
-        const std::optional<glm::dvec2> meets = geometry::meets_table(lens, face[k] - lens);
+    Polygon shadow;
+    for (const glm::dvec3& corner : face) {
+        const std::optional<glm::dvec2> meets = geometry::meets_table(lens, corner - lens);
         if (!meets) {
             return; // the corner is higher than the lens
         }
-        shadow[k] = glm::dvec3(glm::clamp(*meets, -half, half), 0.0);
+        shadow.push_back(glm::dvec3(glm::clamp(*meets, -half, half), 0.0));
     }
     viewer.add(shadow, up, simulation::table_albedo, false, seen);
 }
@@ -105,15 +108,15 @@ void VisitorHalf::see(const tracker::PoseSample& prop, const glm::dvec3& eye_m, 
     const geometry::RigidTransform table_from_prop{prop.rotation, prop.position_m};
     const geometry::RigidTransform prop_from_table = table_from_prop.inverse();
     const glm::dvec3& lens = projector_.table_from_projector.translation;
-    std::vector<Quad> faces;
+    std::vector<Polygon> faces;
     for (const geometry::PropFace& face : prop_.faces) {
-        Quad& quad = faces.emplace_back();
-        for (std::size_t k = 0; k < quad.size(); ++k) {
-            quad[k] = table_from_prop.point(face.corners[k]);
+        Polygon& polygon = faces.emplace_back();
+        for (const glm::dvec3& corner : face.corners) {
+            polygon.push_back(table_from_prop.point(corner));
         }
     }
     add_table(viewer, half_table_m_, seen);
-    for (const Quad& face : faces) {
+    for (const Polygon& face : faces) {
         add_shadow(viewer, face, lens, half_table_m_, seen);
     }
     for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -123,9 +126,9 @@ void VisitorHalf::see(const tracker::PoseSample& prop, const glm::dvec3& eye_m, 
         }
         viewer.add(faces[k], table_from_prop.direction(plane.normal), simulation::prop_albedo,
                    plane.distance(prop_from_table.point(lens)) > 0.0, seen);
-        for (std::size_t corner = 0; corner < 4; ++corner) {
+        for (std::size_t corner = 0; corner < faces[k].size(); ++corner) {
             seen.lines.push_back(viewer.line(faces[k][corner], outline_light));
-            seen.lines.push_back(viewer.line(faces[k][(corner + 1) % 4], outline_light));
+            seen.lines.push_back(viewer.line(faces[k][faces[k].next(corner)], outline_light));
         }
     }
 }
