@@ -15,6 +15,10 @@ target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract
     -ffunction-sections -fdata-sections # the link leaves out what a program does not use, of JSON above all
     -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
 target_link_options(frustumscreen_options INTERFACE -Wl,--gc-sections)
+# For loops over pixels and triangles. GCC 12 ends with a fault of its own at -O3 under the sanitizers and under gcov.
+if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN AND NOT CMAKE_CXX_FLAGS MATCHES "--coverage")
+    set(FRUSTUMSCREEN_LOOPS -O3)
+endif()
 if(FRUSTUMSCREEN_ASAN)
     target_compile_options(frustumscreen_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
