@@ -310,7 +310,9 @@ TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_eve
     for (int k = 0; k < 500; ++k) {
         const MonotonicTime now = start + milliseconds(10 * k);
         if (k % 7 == 0) {
-            notice.take(now, report_of("a", library::ImportStage::Copying, std::min(100U, 2U * (k / 7))),
+            notice.take(now,
+                        report_of("a", library::ImportStage::Copying,
+                                  std::min(100U, 2U * static_cast<unsigned>(k / 7))),
                         false);
         }
         const double ring = *notice.at(now)->ring;

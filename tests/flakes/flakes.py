@@ -2,11 +2,12 @@
 """Looks for tests that fail now and then; `./test flakes` calls this. What has passed is remembered, so that a run that was ended goes on
 where it stood; another commit, or another change of the working tree, begins anew. Exit status 1: something failed.
 
-Each test of `ctest` but those that only compute (label 'computes') runs 20 times beside six busy loops; then the emulated machines start
+Each test of `ctest` but those that only compute (label 'computes') runs 20 times beside six busy loops, three tests at a time; then the emulated machines start
 five times (./test hil, ./test image), and all of continuous integration runs three times.
 """
 
 import argparse
+import concurrent.futures
 import hashlib
 import json
 import os
@@ -14,6 +15,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -56,15 +58,20 @@ class Runs:
         self._passed_file = folder / "passed.txt"
         self._passed = set(self._passed_file.read_text(encoding="utf-8").splitlines()) if self._passed_file.exists() else set()
         self.failed = []
+        self._lock = threading.Lock()
 
     def make(self, name, command):
         if name in self._passed:
             return
         begun = time.monotonic()
         ran = subprocess.run([os.fspath(word) for word in command], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        verdict = "passed" if ran.returncode == 0 else "FAILED"
-        print(f"   {name}: {verdict} in {time.monotonic() - begun:.0f} s", flush=True)
-        if ran.returncode == 0:
+        with self._lock:
+            self._note(name, ran, time.monotonic() - begun)
+
+    def _note(self, name, ran, seconds):
+        passed = ran.returncode == 0
+        print(f"   {name}: {'passed' if passed else 'FAILED'} in {seconds:.0f} s", flush=True)
+        if passed:
             with open(self._passed_file, "a", encoding="utf-8") as file:
                 file.write(f"{name}\n")
             return
@@ -78,6 +85,7 @@ def main():
     parser = argparse.ArgumentParser(prog="./test flakes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--times", metavar="N", type=int, default=20, help="runs of each test of ctest (20)")
     parser.add_argument("--loops", metavar="N", type=int, default=6, help="busy loops beside them (6)")
+    parser.add_argument("--parallel", metavar="N", type=int, default=3, help="tests of ctest at a time (3)")
     parser.add_argument("--boots", metavar="N", type=int, default=5, help="runs of the emulated machines (5)")
     parser.add_argument("--ci", metavar="N", type=int, default=3, help="runs of .ci/run (3)")
     arguments = parser.parse_args()
@@ -86,9 +94,9 @@ def main():
     folder = state_folder()
     print(f"== what passed is remembered in {folder.relative_to(ROOT)}", flush=True)
     runs = Runs(folder)
-    with Load(arguments.loops):
+    with Load(arguments.loops), concurrent.futures.ThreadPoolExecutor(arguments.parallel) as pool:
         for name, command in unit_tests(arguments.times):
-            runs.make(f"{name} x {arguments.times}", command)
+            pool.submit(runs.make, f"{name} x {arguments.times}", command)
     for number in range(1, arguments.boots + 1):
         runs.make(f"hil {number}", ["./test", "hil"])
         runs.make(f"image {number}", ["./test", "image"])
