@@ -9,8 +9,10 @@ namespace frustumscreen::geometry {
 
 namespace {
 
-/// Corners closer than this are at one place.
-constexpr double same_place_m = 1e-9;
+/// Corners closer than this are at one place: a prop file's numbers are rounded.
+constexpr double same_place_m = 1e-6;
+/// Corners no higher than this above the lowest one touch the table.
+constexpr double touching_m = 0.0005;
 
 PropFace face_of(std::string name, const PerCorner<glm::dvec3>& corners) {
     const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -74,7 +76,7 @@ std::vector<glm::dvec3> foot_of(const PropShape& prop) {
     std::vector<glm::dvec3> foot;
     glm::dvec3 sum(0.0);
     for (const glm::dvec3& corner : prop.corners) {
-        if (corner.z <= lowest + same_place_m) {
+        if (corner.z <= lowest + touching_m) {
             foot.push_back(corner);
             sum += corner;
         }

@@ -40,7 +40,7 @@ struct PropShape {
     glm::dvec3 middle{0.0};          ///< of the box around it
 };
 
-/// The corners on which the prop stands, those with the lowest z: one, two, or a polygon counter-clockwise seen from
+/// The corners on which the prop stands, those no more than 0.5 mm above the lowest one: one, two, or a polygon counter-clockwise seen from
 /// above.
 [[nodiscard]] std::vector<glm::dvec3> foot_of(const PropShape& prop);
 

@@ -1,5 +1,6 @@
 #include "app/solid/closed_mesh.h"
 
+#include "app/geometry/union_find.h"
 #include "app/solid/area_vector.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace frustumscreen::solid {
@@ -186,21 +186,10 @@ Result<std::vector<SharedEdge>> pair_up(const PolygonMesh& mesh) {
 
 /// Number of parts that edges hold together.
 std::size_t parts_of(std::size_t polygons, const std::vector<SharedEdge>& edges) {
-    std::vector<std::uint32_t> parent(polygons);
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t p) {
-        while (parent[p] != p) {
-            parent[p] = parent[parent[p]];
-            p = parent[p];
-        }
-        return p;
-    };
+    geometry::UnionFind joined(polygons);
     std::size_t parts = polygons;
     for (const SharedEdge& edge : edges) {
-        const std::uint32_t left = root(edge.left);
-        const std::uint32_t right = root(edge.right);
-        parts -= left != right ? 1 : 0;
-        parent[left] = right;
+        parts -= joined.join(edge.left, edge.right) ? 1 : 0;
     }
     return parts;
 }

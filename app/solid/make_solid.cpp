@@ -80,19 +80,35 @@ struct Deviation {
     std::size_t face = 0;
 };
 
-Result<void> check_flat(const ClosedMesh& closed, const std::vector<JoinedFace>& faces,
-                        const std::vector<std::string>& described) {
+/// The largest `distance(face's plane, corner)` above 0 of all `corners_to(face)`.
+Deviation max_deviation(const ClosedMesh& closed, const std::vector<JoinedFace>& faces,
+                        const auto& corners_to, const auto& distance) {
     Deviation worst;
     for (std::size_t k = 0; k < faces.size(); ++k) {
-        for (const std::uint32_t polygon : faces[k].polygons) {
-            for (const std::uint32_t vertex : closed.mesh.polygons[polygon].corners) {
-                const double distance = std::abs(faces[k].plane.distance(closed.mesh.vertices[vertex]));
-                if (!(distance <= worst.distance_m)) {
-                    worst = {distance, vertex, k};
-                }
+        for (const std::uint32_t vertex : corners_to(faces[k])) {
+            const double each = distance(faces[k].plane, closed.mesh.vertices[vertex]);
+            if (!(each <= worst.distance_m)) {
+                worst = {each, vertex, k};
             }
         }
     }
+    return worst;
+}
+
+Result<void> check_flat(const ClosedMesh& closed, const std::vector<JoinedFace>& faces,
+                        const std::vector<std::string>& described) {
+    const auto own_corners = [&](const JoinedFace& face) {
+        std::vector<std::uint32_t> corners;
+        for (const std::uint32_t polygon : face.polygons) {
+            const std::vector<std::uint32_t>& more = closed.mesh.polygons[polygon].corners;
+            corners.insert(corners.end(), more.begin(), more.end());
+        }
+        return corners;
+    };
+    const Deviation worst =
+        max_deviation(closed, faces, own_corners, [](const geometry::Plane& plane, const glm::dvec3& corner) {
+            return std::abs(plane.distance(corner));
+        });
     if (worst.distance_m <= flatness_m) {
         return {};
     }
@@ -110,15 +126,9 @@ Result<void> check_convex(const ClosedMesh& closed, const std::vector<JoinedFace
     for (const Polygon& polygon : closed.mesh.polygons) {
         used.insert(polygon.corners.begin(), polygon.corners.end());
     }
-    Deviation worst;
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-        for (const std::uint32_t vertex : used) {
-            const double outside = faces[k].plane.distance(closed.mesh.vertices[vertex]);
-            if (outside > worst.distance_m) {
-                worst = {outside, vertex, k};
-            }
-        }
-    }
+    const Deviation worst = max_deviation(
+        closed, faces, [&](const JoinedFace&) -> const std::set<std::uint32_t>& { return used; },
+        [](const geometry::Plane& plane, const glm::dvec3& corner) { return plane.distance(corner); });
     if (worst.distance_m <= flatness_m) {
         return {};
     }
@@ -128,6 +138,19 @@ Result<void> check_convex(const ClosedMesh& closed, const std::vector<JoinedFace
         "hollow, so that no face looks at another",
         in_mm(closed.mesh.vertices[worst.vertex]), in_mm(worst.distance_m), described[worst.face],
         in_mm(flatness_m));
+}
+
+/// A face of a convex solid meets each other face at one edge.
+Result<void> check_corners(const Solid& solid, const std::vector<std::string>& described) {
+    for (std::size_t k = 0; k < solid.faces.size(); ++k) {
+        if (solid.faces[k].corners.size() > geometry::max_face_corners) {
+            return bad_input("prop_file.face_corners",
+                             "{} has {} corners, allowed are {}; it meets another face at two edges: make "
+                             "one face of what lies between them",
+                             described[k], solid.faces[k].corners.size(), geometry::max_face_corners);
+        }
+    }
+    return {};
 }
 
 /// Two faces in one plane that look to one side overlap, or something lies between them.
@@ -199,6 +222,7 @@ Result<MadeSolid> make_solid(PolygonMesh mesh) {
     MadeSolid made;
     made.solid = solid_of(closed, faces, std::move(names), outlines);
     TRY_VOID(check_apart(closed, made.solid, descriptions));
+    TRY_VOID(check_corners(made.solid, descriptions));
     made.notes = notes_on(closed, faces.size());
     return made;
 }

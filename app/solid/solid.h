@@ -16,7 +16,7 @@
 namespace frustumscreen::solid {
 
 inline constexpr std::size_t min_faces = 4;
-inline constexpr std::size_t max_faces = 16;
+inline constexpr std::size_t max_faces = geometry::max_faces;
 
 /// How far a corner may lie from its face's plane, and outside of another face's: a third of a projector's
 /// pixel on the prop.

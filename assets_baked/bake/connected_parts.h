@@ -1,13 +1,13 @@
-/// Parts of a mesh that triangles connect: union-find with path halving.
+/// Parts of a mesh that triangles connect.
 ///
 /// Threads  pure; any.
 #pragma once
 
+#include "app/geometry/union_find.h"
 #include "assets_baked/bake/source_mesh.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -17,24 +17,12 @@ namespace frustumscreen::bake {
 /// where a triangle uses it.
 [[nodiscard]] inline std::vector<std::uint32_t>
 connected_parts(const SourceMesh& mesh, std::span<const std::uint32_t> places, std::size_t count) {
-    std::vector<std::uint32_t> parent(count);
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            parent[v] = parent[parent[v]];
-            v = parent[v];
-        }
-        return v;
-    };
+    geometry::UnionFind parts(count);
     for (const auto& [a, b, c] : mesh.triangles) {
-        const std::uint32_t first = root(places[a]);
-        parent[root(places[b])] = first;
-        parent[root(places[c])] = first;
+        parts.join(places[a], places[b]);
+        parts.join(places[a], places[c]);
     }
-    for (std::uint32_t& each : parent) {
-        each = root(each);
-    }
-    return parent;
+    return parts.roots();
 }
 
 } // namespace frustumscreen::bake

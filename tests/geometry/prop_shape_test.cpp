@@ -1,10 +1,19 @@
+#include "app/geometry/corner_fan.h"
 #include "app/geometry/prop_shape.h"
+#include "app/geometry/union_find.h"
 #include "tests/geometry/random_geometry.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <vector>
 
 namespace frustumscreen::geometry {
 namespace {
@@ -205,6 +214,104 @@ TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
             << face.name;
     }
     EXPECT_NEAR(prop.faces[0].middle().x, 0.25 * (0.16 + 0.09), 1e-15) << "between bottom and top";
+}
+
+/// A prism that stands on a polygon of `sides` corners, its first side perpendicular to +X.
+PropShape prism(int sides) {
+    PropShape prop;
+    for (const double z : {0.1, 0.0}) {
+        for (int k = 0; k < sides; ++k) {
+            const double azimuth = 2.0 * std::numbers::pi * (k - 0.5) / sides;
+            prop.corners.emplace_back(0.06 * std::cos(azimuth), 0.06 * std::sin(azimuth), z);
+        }
+    }
+    return prop;
+}
+
+TEST(PropShape, ItsFootIsWhatStandsOnTheTable) {
+    const PropShape frustum = make_frustum({0.16, 0.09, 0.12});
+    EXPECT_EQ(foot_of(frustum), (std::vector<glm::dvec3>{
+                                    {-0.08, -0.08, 0}, {0.08, -0.08, 0}, {0.08, 0.08, 0}, {-0.08, 0.08, 0}}));
+    const std::vector<glm::dvec3> foot = foot_of(prism(5));
+    ASSERT_EQ(foot.size(), 5U);
+    for (std::size_t k = 0; k < foot.size(); ++k) {
+        const glm::dvec3 edge = foot[(k + 1) % 5] - foot[k];
+        EXPECT_EQ(foot[k].z, 0.0);
+        EXPECT_NEAR(glm::length(edge), 0.12 * std::sin(std::numbers::pi / 5.0), 1e-15);
+        EXPECT_GT(glm::cross(foot[k], edge).z, 0.0) << "counter-clockwise";
+    }
+    PropShape tip;
+    tip.corners = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.1}, {-0.1, 0.1, 0.1}, {-0.1, -0.1, 0.1}};
+    EXPECT_EQ(foot_of(tip), std::vector<glm::dvec3>{glm::dvec3(0.0)});
+}
+
+TEST(PropShape, LooksTheSameAfterTheQuarterTurnsOfItsSymmetry) {
+    EXPECT_EQ(quarters_to_same(make_frustum({})), 1);
+    EXPECT_EQ(quarters_to_same(make_cube(0.1)), 1);
+    EXPECT_EQ(quarters_to_same(prism(4)), 1);
+    EXPECT_EQ(quarters_to_same(prism(6)), 2);
+    EXPECT_EQ(quarters_to_same(prism(3)), 4);
+    EXPECT_EQ(quarters_to_same(prism(8)), 1);
+}
+
+TEST(CornerFan, IsThePolygonWithoutGapsAndOverlaps) {
+    for (std::size_t corners = 3; corners <= max_face_corners; ++corners) {
+        const auto at = [&](std::size_t k) {
+            const double azimuth =
+                2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
+            return glm::dvec2(std::cos(azimuth), std::sin(azimuth));
+        };
+        const auto area = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+            return 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+        };
+        double whole = 0.0;
+        for (std::size_t k = 0; k < fan_quads(corners); ++k) {
+            const auto [a, b, c, d] = fan_quad(corners, k);
+            ASSERT_LT(std::max({a, b, c, d}), corners);
+            for (const double part : {area(at(a), at(b), at(c)), area(at(a), at(c), at(d))}) {
+                EXPECT_GE(part, 0.0);
+                whole += part;
+            }
+        }
+        const double angle = 2.0 * std::numbers::pi / static_cast<double>(corners);
+        EXPECT_NEAR(whole, 0.5 * static_cast<double>(corners) * std::sin(angle), 1e-12) << corners;
+    }
+    EXPECT_EQ(fan_quads(4), 1U);
+    EXPECT_EQ(fan_quad(4, 0), (std::array<std::size_t, 4>{0, 1, 2, 3}));
+}
+
+TEST(UnionFind, JoinsWhatIsConnected) {
+    std::mt19937 random(5);
+    for (int graph = 0; graph < 50; ++graph) {
+        constexpr std::uint32_t count = 40;
+        std::array<std::array<bool, count>, count> connected{};
+        UnionFind sets(count);
+        std::size_t joined = 0;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            connected[k][k] = true;
+        }
+        for (int edge = 0; edge < 25; ++edge) {
+            const auto a = static_cast<std::uint32_t>(random() % count);
+            const auto b = static_cast<std::uint32_t>(random() % count);
+            EXPECT_EQ(sets.join(a, b), !connected[a][b]);
+            joined += connected[a][b] ? 0U : 1U;
+            for (std::uint32_t i = 0; i < count; ++i) { // all that reach a reach what b reaches
+                for (std::uint32_t j = 0; j < count; ++j) {
+                    if ((connected[i][a] && connected[b][j]) || (connected[i][b] && connected[a][j])) {
+                        connected[i][j] = connected[j][i] = true;
+                    }
+                }
+            }
+        }
+        const std::vector<std::uint32_t> roots = sets.roots();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            EXPECT_EQ(roots[i], sets.root(i));
+            for (std::uint32_t j = 0; j < count; ++j) {
+                EXPECT_EQ(roots[i] == roots[j], connected[i][j]);
+            }
+        }
+        EXPECT_EQ(std::set<std::uint32_t>(roots.begin(), roots.end()).size(), count - joined);
+    }
 }
 
 } // namespace

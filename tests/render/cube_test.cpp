@@ -10,17 +10,6 @@ namespace {
 
 constexpr double edge_m = 0.12;
 
-/// Random orientation about its middle, which is held over the table; the eye anywhere above.
-void hold(Stage& stage, std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> u(-1.0, 1.0);
-    stage.shuffle(random);
-    const glm::dquat rotation =
-        glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
-    const glm::dvec3 middle(0.03 * u(random), 0.02 * u(random), 0.16 + 0.04 * u(random));
-    stage.table_from_prop = {rotation, middle - rotation * stage.prop.middle};
-}
-
 struct CubeRig : Rig {
     Stage stage{256, 160};
 
@@ -38,7 +27,7 @@ TEST(Cube, EveryFaceShowsWhatARayCastShows) {
     std::mt19937 random(11);
     std::set<std::string_view> shown;
     for (int pose = 0; pose < 24; ++pose) {
-        hold(stage, random);
+        stage.hold(random);
         scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
         for (const scene::FacePlan& face : rig.plan.faces) {
             shown.insert(stage.prop.faces[static_cast<std::size_t>(face.face)].name);

@@ -1,4 +1,4 @@
-/// A relief of a synthetic pack's only level, in a frustum's directions.
+/// A relief of a synthetic pack's only level, in a frustum's directions, or in all.
 #pragma once
 
 #include "assets_baked/bake/block_relief.h"
@@ -9,15 +9,18 @@
 
 namespace frustumscreen::synthetic {
 
-inline std::shared_ptr<const relief::BlockRelief> relief_of(const pack::Pack& pack, int texels) {
+inline std::shared_ptr<const relief::BlockRelief> relief_of(const pack::Pack& pack, int texels,
+                                                            bool from_below = false) {
     const bake::SourceMesh mesh = bake::textured_source(pack.levels[0], pack.textures[0], pack.box_size);
     const bake::SourceScene surface(mesh, mesh.positions, bake::Sides::Front);
-    return std::make_shared<const relief::BlockRelief>(bake::bake_blocks(
-        {surface,
-         pack.box_size,
-         {pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX, pack::ReliefDirection::PlusY,
-          pack::ReliefDirection::MinusY, pack::ReliefDirection::PlusZ},
-         texels}));
+    std::vector<pack::ReliefDirection> directions{pack::ReliefDirection::PlusX, pack::ReliefDirection::MinusX,
+                                                  pack::ReliefDirection::PlusY, pack::ReliefDirection::MinusY,
+                                                  pack::ReliefDirection::PlusZ};
+    if (from_below) {
+        directions.push_back(pack::ReliefDirection::MinusZ);
+    }
+    return std::make_shared<const relief::BlockRelief>(
+        bake::bake_blocks({surface, pack.box_size, directions, texels}));
 }
 
 } // namespace frustumscreen::synthetic

@@ -142,6 +142,16 @@ struct Stage {
     [[nodiscard]] scene::PlanView view(std::optional<scene::LightCompensation> light = std::nullopt) const {
         return {projector, table_from_projector, table_from_prop, std::span(&eye_m, 1), light};
     }
+    /// The prop held over the table in any orientation; the eye anywhere above.
+    void hold(std::mt19937& random) {
+        std::normal_distribution<double> normal;
+        std::uniform_real_distribution<double> u(-1.0, 1.0);
+        shuffle(random);
+        const glm::dquat rotation =
+            glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+        const glm::dvec3 middle(0.03 * u(random), 0.02 * u(random), 0.16 + 0.04 * u(random));
+        table_from_prop = {rotation, middle - rotation * prop.middle};
+    }
     /// A prop at any yaw near the middle, and an eye anywhere above the table.
     void shuffle(std::mt19937& random) {
         std::uniform_real_distribution<double> u(-1.0, 1.0);

@@ -1,0 +1,263 @@
+// The props of config/prop_*.obj in the hand, with faces of three, four and six corners: mesh and relief, with
+// and without a lens, against a ray cast that meets the prop's planes and knows no corners.
+
+#include "app/solid/prop_file.h"
+#include "app/solid/shape_of.h"
+#include "firmware_host/base/file.h"
+#include "tests/folders.h"
+#include "tests/render/comparison.h"
+#include "tests/render/counted_new.h"
+#include "tests/render/relief_rig.h"
+
+#include <array>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+constexpr std::array<const char*, 3> solids{"prop_hexagon", "prop_tetrahedron", "prop_gem"};
+/// A place in the picture may be this far off.
+constexpr double outline_px = 0.1;
+
+geometry::PropShape solid_prop(const std::string& name, solid::Underside underside = solid::Underside::Lit) {
+    const auto bytes = read_file(std::filesystem::path(source_dir()) / "config" / (name + ".obj"));
+    const auto file = solid::parse_prop_file(as_text(bytes.value()), solid::LengthUnit::Millimetre);
+    return solid::shape_of(file.value().solid, underside);
+}
+
+/// The stage of the lens, as near to the table as the prop fits into the picture.
+Stage stage_with(const geometry::PropShape& prop, const geometry::Lens& lens) {
+    Stage stage = stage_of(lens);
+    stage.prop = prop;
+    return stage;
+}
+
+struct SolidRig : ReliefRig {
+    SolidRig(const geometry::PropShape& shape, const geometry::Lens& lens, const pack::Pack& shown)
+        : ReliefRig(1, 256, shown, lens) {
+        prop = shape;
+        relief = relief_of(pack, 256, true);
+        raster = scene::placed(pack, relief, 0.0, renderer->store().keep(relief));
+        drawn = scene::placed(pack, relief, 0.0, renderer->store().upload(relief).value());
+        drawn.on_gpu = true;
+        for (scene::PlacedLevel* const each : {&level, &raster, &drawn}) {
+            each->metres_per_box = synthetic::metres_per_box(pack, prop);
+            each->samples = 1;
+        }
+        plan = scene::make_plan(prop, level.triangles->indices.size(), 1);
+    }
+};
+
+/// The outcome of `is` at the pixel's centre, and whether it is the same all around it.
+template <typename Is> std::pair<bool, bool> at_pixel(int x, int y, const Is& is) {
+    const glm::dvec2 centre(x + 0.5, y + 0.5);
+    const bool here = is(centre);
+    for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4.0;
+        if (is(centre + outline_px * glm::dvec2(std::cos(angle), std::sin(angle))) != here) {
+            return {here, false};
+        }
+    }
+    return {here, true};
+}
+
+/// True if the light through a pixel meets a face that the eye sees.
+bool lights_seen_face(const Stage& stage, const glm::dvec2& pixel) {
+    const geometry::RigidTransform prop_from_projector =
+        stage.table_from_prop.inverse() * stage.table_from_projector;
+    geometry::PropHit lit;
+    return geometry::intersect(stage.prop, prop_from_projector.translation,
+                               prop_from_projector.direction(stage.projector.ray(pixel)), lit) &&
+           stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(
+               stage.table_from_prop.inverse().point(stage.eye_m)) > 0.0;
+}
+
+TEST(Solids, EveryFaceShowsWhatARayCastShows) {
+    for (const char* const name : solids) {
+        const geometry::PropShape prop = solid_prop(name);
+        std::set<std::string> shown;
+        for (const geometry::Lens& lens : lenses) {
+            // Small triangles: a triangle's edge stays straight where the lens bends it.
+            SolidRig rig(prop, lens, lens.is_plain() ? rings() : rings(48, 24));
+            Stage stage = stage_with(prop, lens);
+            const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
+            std::mt19937 random(31);
+            std::size_t both = 0;
+            for (int pose = 0; pose < (lens.is_plain() ? 24 : 4); ++pose) {
+                stage.hold(random);
+                scene::plan_frame(prop, rig.level, stage.view(), rig.plan);
+                for (const scene::FacePlan& face : rig.plan.faces) {
+                    shown.insert(prop.faces[static_cast<std::size_t>(face.face)].name);
+                }
+                const Comparison c = compare(stage, cast, rig.places());
+                both += c.both;
+                EXPECT_LT(c.worst_mm, 0.1) << name << ' ' << lens.k1 << ' ' << pose;
+                EXPECT_EQ(c.unexcused, 0U)
+                    << name << ' ' << lens.k1 << ' ' << pose << ": of " << c.mismatched << " mismatched";
+            }
+            std::printf("%s, lens %g: %zu pixels\n", name, lens.k1, both);
+            EXPECT_GT(both, 500U);
+        }
+        EXPECT_EQ(shown.size(), prop.faces.size()) << name;
+    }
+}
+
+TEST(Solids, AReliefShowsEachPlaceWhereTheRayCastFindsItAndStaysOnItsFaces) {
+    for (const char* const name : solids) {
+        const geometry::PropShape prop = solid_prop(name);
+        for (const geometry::Lens& lens : {lenses[0], lenses[2]}) {
+            SolidRig rig(prop, lens, rings());
+            Stage stage = stage_with(prop, lens);
+            const ReferenceCast truth(rig.pack, rig.level.metres_per_box);
+            std::mt19937 random(32);
+            for (const bool on_gpu : {false, true}) {
+                std::size_t both = 0;
+                std::size_t one = 0;
+                double mm = 0.0;
+                for (int pose = 0; pose < 4; ++pose) {
+                    stage.hold(random);
+                    const image::Image8 picture = rig.one(stage, on_gpu ? rig.drawn : rig.raster);
+                    const image::ImageFloat places = rig.places();
+                    for (int y = 0; y < picture.height; ++y) {
+                        for (int x = 0; x < picture.width; ++x) {
+                            const ReferenceCast::Hit hit = truth.through_pixel(stage, {x + 0.5, y + 0.5});
+                            const glm::vec3& point = places.at(x, y);
+                            const bool met = !std::isnan(point.x);
+                            one += met != hit.found ? 1U : 0U;
+                            if (met && hit.found) {
+                                both += 1;
+                                mm += 1e3 * glm::distance(glm::dvec3(point), hit.point);
+                            }
+                            const auto [seen, alike] = met ? at_pixel(x, y,
+                                                                      [&](const glm::dvec2& at) {
+                                                                          return lights_seen_face(stage, at);
+                                                                      })
+                                                           : std::pair(true, true);
+                            EXPECT_TRUE(seen || !alike)
+                                << name << ' ' << pose << ": beside the face at " << x << ", " << y;
+                            const glm::u8vec4& code = picture.at(x, y);
+                            EXPECT_TRUE(met || code.r + code.g + code.b == 0) << x << ", " << y;
+                        }
+                    }
+                }
+                std::printf("%s, lens %g, %s: %zu pixels, %zu in one alone, %.4f mm\n", name, lens.k1,
+                            on_gpu ? "GPU" : "processor", both, one, mm / static_cast<double>(both));
+                EXPECT_GT(both, 500U);
+                EXPECT_LT(one, both / 50);
+                EXPECT_LT(mm / static_cast<double>(both), 0.1);
+            }
+        }
+    }
+}
+
+/// White, so a pixel's code is its gain; see Relief.HasTheLightThatAMeshHasAndItsSoftEdges.
+TEST(Solids, MeshAndReliefHaveTheSameLightAndSoftEdges) {
+    for (const char* const name : solids) {
+        const geometry::PropShape prop = solid_prop(name, solid::Underside::Dark);
+        for (const geometry::Lens& lens : {lenses[0], lenses[2]}) {
+            SolidRig rig(prop, lens, white(rings()));
+            Stage stage = stage_with(prop, lens);
+            std::mt19937 random(33);
+            std::size_t both = 0;
+            std::size_t soft = 0;
+            std::size_t off = 0;
+            for (int pose = 0; pose < 6; ++pose) {
+                stage.shuffle(random);
+                const scene::LightCompensation light{pose % 2 == 0 ? 0.25 : 1.5};
+                const image::Image8 mesh = rig.one(stage, rig.level, light);
+                const image::Image8 relief = rig.one(stage, rig.raster, light);
+                scene::plan_frame(prop, rig.raster, stage.view(light), rig.plan);
+                rig.plan.feathers.clear();
+                rig.draw(render::Redraw::Everything);
+                const image::Image8 sharp = rig.picture();
+                for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
+                    if (mesh.texels[k].g > 0 && relief.texels[k].g > 0) {
+                        both += 1;
+                        soft += relief.texels[k].g < sharp.texels[k].g ? 1U : 0U;
+                        off += farthest_channel(mesh.texels[k], relief.texels[k]) > 1 ? 1U : 0U;
+                    }
+                }
+            }
+            std::printf("%s, lens %g: %zu pixels, %zu of soft edges, %zu off\n", name, lens.k1, both, soft,
+                        off);
+            EXPECT_GT(both, 1'000U);
+            EXPECT_GT(soft, 10U);
+            EXPECT_LE(off, both / 1000);
+        }
+    }
+}
+
+/// A picture that covers the table does not shine on the prop.
+TEST(Solids, CoverThePicturesOnTheTable) {
+    for (const char* const name : solids) {
+        const geometry::PropShape prop = solid_prop(name);
+        for (const geometry::Lens& lens : lenses) {
+            SolidRig rig(prop, lens, rings());
+            Stage stage = stage_with(prop, lens);
+            scene::TablePicture everywhere;
+            everywhere.corners_m = {
+                glm::dvec3(-1.0, 1.0, 0.0), {1.0, 1.0, 0.0}, {1.0, -1.0, 0.0}, {-1.0, -1.0, 0.0}};
+            everywhere.texture =
+                rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
+            std::mt19937 random(34);
+            for (int pose = 0; pose < 4; ++pose) {
+                stage.hold(random);
+                scene::PlanView view = stage.view();
+                view.on_table = {&everywhere, 1};
+                scene::plan_frame(prop, scene::PlacedLevel{}, view, rig.plan);
+                rig.draw(render::Redraw::Everything);
+                const image::Image8 picture = rig.picture();
+                const geometry::RigidTransform prop_from_projector =
+                    stage.table_from_prop.inverse() * stage.table_from_projector;
+                std::size_t dark = 0;
+                std::size_t wrong = 0;
+                for (int y = 0; y < picture.height; ++y) {
+                    for (int x = 0; x < picture.width; ++x) {
+                        const auto [covered, alike] = at_pixel(x, y, [&](const glm::dvec2& at) {
+                            geometry::PropHit hit;
+                            return geometry::enter(prop, prop_from_projector.translation,
+                                                   prop_from_projector.direction(stage.projector.ray(at)),
+                                                   hit);
+                        });
+                        dark += covered ? 1U : 0U;
+                        wrong += alike && (picture.at(x, y).g == 0) != covered ? 1U : 0U;
+                    }
+                }
+                EXPECT_GT(dark, 1'000U);
+                EXPECT_EQ(wrong, 0U) << name << ' ' << lens.k1 << ' ' << pose << ": of " << dark << " dark";
+            }
+        }
+    }
+}
+
+TEST(Solids, AFrameAllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    const geometry::PropShape prop = solid_prop("prop_gem");
+    SolidRig rig(prop, {}, rings());
+    Stage stage = stage_with(prop, {});
+    scene::TablePicture everywhere;
+    everywhere.corners_m = {glm::dvec3(-1.0, 1.0, 0.0), {1.0, 1.0, 0.0}, {1.0, -1.0, 0.0}, {-1.0, -1.0, 0.0}};
+    everywhere.texture = rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
+    for (const scene::PlacedLevel& which : {rig.level, rig.raster}) {
+        rig.plan = scene::make_plan(prop, which);
+        std::mt19937 random(35);
+        long counted = 0;
+        for (int k = 0; k < 60; ++k) {
+            stage.hold(random);
+            const long before = allocations_so_far();
+            scene::PlanView view = stage.view(scene::LightCompensation{});
+            view.on_table = {&everywhere, 1};
+            scene::plan_frame(prop, which, view, rig.plan);
+            counted += allocations_so_far() - before;
+        }
+        EXPECT_EQ(counted, 0) << (which.relief ? "relief" : "mesh");
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
