@@ -57,9 +57,7 @@ void CopyOffer::take(MonotonicTime now, const library::ImportReport& report, boo
     if (state_.stage == CopyStage::Writing && (!is_confirmed || stick != stick_)) {
         return;
     }
-    CopyState next = is_old         ? CopyState{}
-                     : is_confirmed ? written_by(report)
-                                    : offered_by(report);
+    CopyState next = is_old ? CopyState{} : is_confirmed ? written_by(report) : offered_by(report);
     const bool writes = next.stage == CopyStage::Writing; // each report says that it goes on
     if (writes || stick != stick_ || next != state_) {
         since_ = now;

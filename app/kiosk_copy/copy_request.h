@@ -26,7 +26,7 @@ struct CopyRequest {
     bool counts = false;
     bool packs = false;
     bool reset = false;
-    bool by_staff = false; ///< confirmed by the staff's buttons, not signed
+    bool by_staff = false;         ///< confirmed by the staff's buttons, not signed
     std::chrono::sys_days until{}; ///< its last day
     std::string machine{};         ///< empty: each kiosk that trusts the signer's key
     [[nodiscard]] bool asks_for_copy() const { return settings || calibration || counts || packs; }

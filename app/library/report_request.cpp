@@ -72,9 +72,10 @@ ImportedPack copy_offer() {
             .title = "",
             .outcome = ImportOutcome::Pending,
             .refusal = ImportRefusal::Unsigned,
-            .reason = "it waits for the staff; to copy settings, calibration, visits and packs to the stick, "
-                      "leave it in, show the staff's picture within ten minutes, turn to its page Copy to the "
-                      "stick, and hold the first button for two seconds"};
+            .reason =
+                "it waits for the staff; to copy settings, calibration, visits and packs to the stick, "
+                "leave it in, show the staff's picture within ten minutes, turn to its page Copy to the "
+                "stick, and hold the first button for two seconds"};
 }
 
 bool offers_copy(const ImportedPack& line) {
@@ -85,9 +86,8 @@ bool offers_reset(const ImportedPack& line) {
     return is_pending_request(line, ImportRefusal::None);
 }
 
-std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
-                                                std::optional<std::vector<ImportedPack>> outcome,
-                                                bool is_confirmed) {
+std::vector<ImportedPack>
+lines_of_stick_report(FileTree& stick, std::optional<std::vector<ImportedPack>> outcome, bool is_confirmed) {
     const bool has_word = outcome.has_value();
     static_assert(max_report_request_bytes == max_copy_request_bytes);
     const FileResult<std::string> report = read_text(stick, report_request_name, max_report_request_bytes);

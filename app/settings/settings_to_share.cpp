@@ -32,8 +32,7 @@ Result<std::string> rewritten(std::string_view text, toml::format_flags flags, c
 
 Result<std::string> settings_to_share(std::string_view text) {
     // 0.7, not 0.69999999999999996; six digits are enough to see how a kiosk is set.
-    return rewritten(text,
-                     toml::toml_formatter::default_flags | toml::format_flags::relaxed_float_precision,
+    return rewritten(text, toml::toml_formatter::default_flags | toml::format_flags::relaxed_float_precision,
                      [](toml::table& values) {
                          if (toml::table* const exhibit = values["exhibit"].as_table()) {
                              exhibit->erase("keys");

@@ -217,9 +217,9 @@ std::vector<library::ImportedPack> stick_report_of(FileTree& stick, const Import
 
 /// A copy that the staff may confirm, once for each time that a stick is put in. What cannot be written is not offered.
 void offer_copy(FileTree& stick, const ImportArguments& arguments, library::ImportRequest& request) {
-    const bool fails = std::any_of(
-        request.stick_report.begin(), request.stick_report.end(),
-        [](const auto& line) { return line.outcome == library::ImportOutcome::NotWritten; });
+    const bool fails =
+        std::any_of(request.stick_report.begin(), request.stick_report.end(),
+                    [](const auto& line) { return line.outcome == library::ImportOutcome::NotWritten; });
     if (!arguments.confirmed && !fails && library::waits_for_staff(stick)) {
         leave_mark(arguments, "copy-asked", request.import_id);
         request.kiosk.push_back(library::copy_offer());

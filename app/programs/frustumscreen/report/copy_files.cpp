@@ -40,8 +40,7 @@ std::optional<std::chrono::sys_days> today_of(const CopyPlaces& places, std::chr
 }
 
 Result<void> add_settings(const kiosk_copy::CopyRequest& request, const CopyPlaces& places,
-                          kiosk_copy::KioskCopy& copy,
-                          std::vector<report::ReportFile>& texts) {
+                          kiosk_copy::KioskCopy& copy, std::vector<report::ReportFile>& texts) {
     TRY(const Bytes bytes, read_file(places.config, library::max_stick_settings_bytes));
     copy.settings = std::string(as_text(bytes));
     if (request.by_staff) {
