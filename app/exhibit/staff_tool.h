@@ -5,7 +5,7 @@
 ///     third button    undoes one step of the first
 ///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured; while it is
 ///                     offered, on StaffPage::Status: the kiosk goes back to the state of delivery; on
-///                     StaffPage::Copy: a copy of the kiosk is written to the stick
+///                     StaffPage::Copy: a copy of the kiosk is written to the stick, and the picture is kept
 ///
 /// Buttons  two are enough. On StaffPage::Buttons each press is only counted. This page is therefore the last, and
 ///          only the chord leaves it, as the chord ends the picture on every page. The effect of the presses of a

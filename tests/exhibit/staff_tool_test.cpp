@@ -144,6 +144,7 @@ TEST(StaffTool, ACopyIsConfirmedOnItsPageWhileItIsOffered) {
         played.tool.offer_copy(offered);
         played.play(presses);
         EXPECT_EQ(played.tool.take_copy(), copies) << presses;
+        EXPECT_TRUE(!copies || played.shown().kept) << "what becomes of it is told here";
         EXPECT_FALSE(played.tool.take_copy()) << "once";
         EXPECT_FALSE(played.tool.take_reset()) << presses;
     }

@@ -97,7 +97,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     locked_in frustumscreen-update-told@stick1p1.service 13
     locked_in frustumscreen-next-try.service 19
     locked_in frustumscreen-reset.service 19
-    locked_in frustumscreen-copy.service 19
+    locked_in frustumscreen-copy.service 13
     locked_in frustumscreen-report@stick1p1.service 6
     locked_in frustumscreen-report-open@stick1p1.service 41
     locked_in frustumscreen-report-close@stick1p1.service 41

@@ -35,8 +35,7 @@ struct ImportArguments {
     std::string id;               ///< id of this import; empty: a new one
     double report_stands_s = 0.0; ///< least age of another import's finished report before it is replaced
     bool allow_unsigned = false;
-    bool confirmed =
-        false; ///< the staff have confirmed the copy for which this stick waited; it was written before
+    bool confirmed = false; ///< the staff have confirmed a copy onto this stick; it was written before
     bool json = false;
 };
 
