@@ -142,7 +142,8 @@ TEST_F(Offer, AStickThatSaysNothingMoreIsGivenUp) {
     offer.confirm(now);
     library::ImportReport copies = told("stick1.staff", ImportStage::Copying);
     copies.total_bytes = 1U << 30U;
-    for (copies.done_bytes = 0; copies.done_bytes < 1000; ++copies.done_bytes) { // a slow one, less than a percent
+    for (copies.done_bytes = 0; copies.done_bytes < 1000;
+         ++copies.done_bytes) { // a slow one, less than a percent
         now += minutes(1);
         EXPECT_EQ(take(copies), CopyStage::Writing);
     }

@@ -31,7 +31,8 @@ protected:
         put("a/kiosk.toml", testing_copy::settings_of(museum.key));
         put("b/kiosk.toml", shipped);
         ASSERT_TRUE(counts::keep_day(folder / "a/counts", testing_copy::day(testing_copy::first_day, 3)));
-        ASSERT_TRUE(settings::keep_calibration(*open_tree(folder / "a/calibration").value(), testing_copy::calibration(9)));
+        ASSERT_TRUE(settings::keep_calibration(*open_tree(folder / "a/calibration").value(),
+                                               testing_copy::calibration(9)));
         for (const std::string id : {"vase", "cup"}) {
             put("packs/" + id + ".fspack", std::string(as_text(museum.pack(id, 7))));
         }

@@ -114,7 +114,8 @@ TEST_F(SignedRequest, AnEmptyOneWithoutASignatureWaitsForTheStaff) {
     EXPECT_TRUE(library::waits_for_staff(stick));
     EXPECT_EQ(refusal(), library::ImportRefusal::Unsigned);
     EXPECT_TRUE(library::lines_of_stick_report(stick, std::nullopt, false).empty());
-    ASSERT_EQ(library::lines_of_stick_report(stick, std::nullopt, true).size(), 1U) << "the writer left no word";
+    ASSERT_EQ(library::lines_of_stick_report(stick, std::nullopt, true).size(), 1U)
+        << "the writer left no word";
     for (const std::string text : {"\n", "what = [\"packs\"]\n"}) {
         stick.put(name, text);
         EXPECT_FALSE(library::waits_for_staff(stick)) << text;

@@ -90,7 +90,7 @@ TEST_F(StaffCopy, AnotherKioskTakesItOnlySigned) {
 
 /// The buttons confirm an empty request, and no other one.
 TEST_F(StaffCopy, AButtonIsNoSignature) {
-    for (const std::string request : {everything, std::string("\n"), std::string("reset = true\n")}) {
+    for (const std::string& request : {everything, std::string("\n"), std::string("reset = true\n")}) {
         put("stick/frustumscreen-request.toml", request);
         EXPECT_EQ(report_of_a(" --confirmed"), 1) << request;
         EXPECT_FALSE(std::filesystem::exists(folder / place)) << request;
