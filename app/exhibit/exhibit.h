@@ -96,6 +96,8 @@ public:
     void set_louder_db(int louder_db) { staff_.set_louder_db(louder_db); }
     /// Offers the staff the state of delivery, for which a stick has asked, or not any more.
     void offer_reset(bool offered) { staff_.offer_reset(offered); }
+    /// Offers the staff a copy of the kiosk onto a stick that waits for it, or not any more.
+    void offer_copy(bool offered) { staff_.offer_copy(offered); }
     /// Ends the staff mode early, when there is no picture to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 

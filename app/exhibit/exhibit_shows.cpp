@@ -49,6 +49,7 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     presentation.louder_db = staff_.louder_db();
     presentation.calibrate = staff_.take_measure();
     presentation.reset = staff_.take_reset();
+    presentation.copy = staff_.take_copy();
     presentation.lamps = lamps();
     return presentation;
 }

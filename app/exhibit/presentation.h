@@ -84,6 +84,7 @@ struct Presentation {
     int louder_db = 0;                        ///< relative to the settings' volume
     bool calibrate = false;                   ///< the staff asked for calibration in this step
     bool reset = false;                       ///< the staff confirmed the state of delivery in this step
+    bool copy = false;                        ///< the staff confirmed a copy onto a stick in this step
     std::uint32_t lamps = 0;                  ///< buttons that do something; bit k = button k
 };
 

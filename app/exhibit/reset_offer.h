@@ -21,10 +21,7 @@ public:
     /// Call when the importer's report is another one. `is_old`: it was there before the exhibit.
     void take(MonotonicTime now, const library::ImportReport& report, bool is_old) {
         const bool asks =
-            !is_old && std::any_of(report.packs.begin(), report.packs.end(), [](const auto& line) {
-                return line.file == library::copy_request_name &&
-                       line.outcome == library::ImportOutcome::Pending;
-            });
+            !is_old && std::any_of(report.packs.begin(), report.packs.end(), library::offers_reset);
         since_ = !asks ? std::nullopt : since_ ? since_ : std::optional(now);
     }
     [[nodiscard]] bool at(MonotonicTime now) const { return since_ && now - *since_ < stands; }

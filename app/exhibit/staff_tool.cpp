@@ -23,10 +23,11 @@ void StaffTool::begin(State before, MonotonicTime now) {
     view.louder_db = view_.louder_db;
     view.stays = view_.stays;
     view.resets = view_.resets;
+    view.copies = view_.copies;
     view_ = view;
     shown_ = view;
     before_ = {};
-    measure_ = reset_ = false;
+    measure_ = reset_ = copy_ = false;
     begun_ = pressed_ = lit_ = shown_since_ = now;
 }
 
@@ -85,6 +86,8 @@ void StaffTool::hold(bool first, MonotonicTime now) {
         measure_ = true;
     } else if (first && view_.page == StaffPage::Status && view_.resets) {
         reset_ = true;
+    } else if (first && view_.page == StaffPage::Copy && view_.copies) {
+        copy_ = view_.kept = true; // until it is told what became of it
     } else {
         view_.kept = true;
     }
@@ -135,6 +138,10 @@ bool StaffTool::take_measure() {
 
 bool StaffTool::take_reset() {
     return std::exchange(reset_, false);
+}
+
+bool StaffTool::take_copy() {
+    return std::exchange(copy_, false);
 }
 
 void StaffTool::set_louder_db(int louder_db) {

@@ -3,8 +3,9 @@
 ///     first button    does what the page is for: the next light, louder and a tone
 ///     second button   the next page
 ///     third button    undoes one step of the first
-///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured; on
-///                     StaffPage::Status, while it is offered: the kiosk goes back to the state of delivery
+///     any, held       the picture is kept; the first one on StaffPage::Place: the table is measured; while it is
+///                     offered, on StaffPage::Status: the kiosk goes back to the state of delivery; on
+///                     StaffPage::Copy: a copy of the kiosk is written to the stick, and the picture is kept
 ///
 /// Buttons  two are enough. On StaffPage::Buttons each press is only counted. This page is therefore the last, and
 ///          only the chord leaves it, as the chord ends the picture on every page. The effect of the presses of a
@@ -29,9 +30,9 @@
 
 namespace frustumscreen::exhibit {
 
-enum class StaffPage : std::uint8_t { Status, Place, Focus, Light, Sound, Tracker, Buttons };
-inline constexpr std::array<std::string_view, 7> staff_page_names{"Status", "Place",   "Focus",  "Light",
-                                                                  "Sound",  "Tracker", "Buttons"};
+enum class StaffPage : std::uint8_t { Status, Place, Focus, Light, Sound, Tracker, Copy, Buttons };
+inline constexpr std::array<std::string_view, 8> staff_page_names{
+    "Status", "Place", "Focus", "Light", "Sound", "Tracker", "Copy to the stick", "Buttons"};
 /// The picture of StaffPage::Light: all white, all black, steps from black to white.
 enum class StaffLight : std::uint8_t { White, Black, Greys };
 
@@ -48,6 +49,7 @@ struct StaffView {
     bool kept = false;
     bool stays = false;
     bool resets = false; ///< the state of delivery is offered
+    bool copies = false; ///< a copy of the kiosk onto a stick is offered
 
     [[nodiscard]] bool operator==(const StaffView&) const = default;
 };
@@ -80,6 +82,10 @@ public:
     void offer_reset(bool offered) { view_.resets = offered; }
     /// True if the staff confirmed it since `begin` or the last call.
     [[nodiscard]] bool take_reset();
+    /// A stick waits for a copy of the kiosk, or does not any more.
+    void offer_copy(bool offered) { view_.copies = offered; }
+    /// True if the staff confirmed it since `begin` or the last call.
+    [[nodiscard]] bool take_copy();
 
     /// The content to show.
     [[nodiscard]] const StaffView& shown() const { return shown_; }
@@ -112,6 +118,7 @@ private:
     std::uint32_t tones_ = 0;
     bool measure_ = false;
     bool reset_ = false;
+    bool copy_ = false;
     std::size_t latest_other_ = 1; ///< the latest pressed button other than the first
     MonotonicTime begun_, pressed_, lit_, shown_since_;
 };

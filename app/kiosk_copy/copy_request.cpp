@@ -87,6 +87,10 @@ Result<CopyRequest> parse_copy_request(std::string_view text) {
     return request;
 }
 
+CopyRequest whole_copy() {
+    return {.settings = true, .calibration = true, .counts = true, .packs = true, .by_staff = true};
+}
+
 tl::expected<std::optional<CopyRequest>, library::ImportFailure>
 read_copy_request(FileTree& stick, std::span<const pack::TrustedKey> keys, std::string_view machine,
                   std::optional<std::chrono::sys_days> today) {

@@ -2,6 +2,7 @@
 
 #include "app/library/import_failure.h"
 #include "app/library/stick_pack.h"
+#include "app/pack/container/limits.h"
 #include "app/settings/toml_file.h"
 #include "firmware_host/base/tree_text.h"
 
@@ -52,16 +53,48 @@ bool are_about(std::span<const ImportedPack> lines, std::string_view name) {
                        [&](const ImportedPack& line) { return line.file == name; });
 }
 
+bool is_pending_request(const ImportedPack& line, ImportRefusal refusal) {
+    return line.file == copy_request_name && line.outcome == ImportOutcome::Pending &&
+           line.refusal == refusal;
+}
+
 } // namespace
 
-std::vector<ImportedPack> lines_of_stick_report(FileTree& stick,
-                                                std::optional<std::vector<ImportedPack>> outcome) {
+bool waits_for_staff(FileTree& stick) {
+    const FileResult<std::string> request = read_text(stick, copy_request_name, max_copy_request_bytes);
+    const FileResult<std::string> signature =
+        read_text(stick, copy_request_signature, pack::max_signature_bytes);
+    return request && request->empty() && !signature && signature.error().number == ENOENT;
+}
+
+ImportedPack copy_offer() {
+    return {.file = std::string(copy_request_name),
+            .title = "",
+            .outcome = ImportOutcome::Pending,
+            .refusal = ImportRefusal::Unsigned,
+            .reason =
+                "it waits for the staff; to copy settings, calibration, visits and packs to the stick, "
+                "leave it in, show the staff's picture within ten minutes, turn to its page Copy to the "
+                "stick, and hold the first button for two seconds"};
+}
+
+bool offers_copy(const ImportedPack& line) {
+    return is_pending_request(line, ImportRefusal::Unsigned);
+}
+
+bool offers_reset(const ImportedPack& line) {
+    return is_pending_request(line, ImportRefusal::None);
+}
+
+std::vector<ImportedPack>
+lines_of_stick_report(FileTree& stick, std::optional<std::vector<ImportedPack>> outcome, bool is_confirmed) {
     const bool has_word = outcome.has_value();
     static_assert(max_report_request_bytes == max_copy_request_bytes);
     const FileResult<std::string> report = read_text(stick, report_request_name, max_report_request_bytes);
     const FileResult<std::string> copy = read_text(stick, copy_request_name, max_copy_request_bytes);
     std::vector<ImportedPack> written = std::move(outcome).value_or(std::vector<ImportedPack>());
-    if (!has_word && (report || copy)) {
+    const bool asks_for_copy = copy && (is_confirmed || !waits_for_staff(stick));
+    if (!has_word && (report || asks_for_copy)) {
         written.push_back(
             {.file = std::string(report ? report_request_name : copy_request_name),
              .title = "",

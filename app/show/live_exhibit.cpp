@@ -84,6 +84,7 @@ void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> com
     exhibit_.note(presentation_show_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, presentation_show_->triangles(presentation_.artifact));
     exhibit_.offer_reset(reset_.at(now));
+    exhibit_.offer_copy(copy_.is_offered());
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
     if (set_switch_ && !asleep) { // a set that was not visible is neither good nor bad
         set_switch_->report(now, presentation_.state);
@@ -92,12 +93,14 @@ void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> com
     if (const SharedImport& import = notice_.import(); import != import_) {
         import_ = import;
         reset_.take(now, import->report, import->is_old);
+        copy_.take(now, import->report, import->is_old);
     }
     dim(presentation_, light_);
     const bool has_space = mark_ && has_space_for_mark(mark_->place_m, presentation_,
                                                        0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
     presentation_show_->set_mark(has_space ? mark_ : std::nullopt);
     follow_staff_mode();
+    follow_copy(now);
     speaker_.set_gain_db(gain_db_ + presentation_.louder_db);
     if (asleep) {
         speaker_.fall_silent();
@@ -138,6 +141,7 @@ ShowState LiveExhibit::state() const {
     state.used = exhibit_.used();
     state.calibrate = presentation_.calibrate;
     state.reset = presentation_.reset;
+    state.copy = presentation_.copy;
     state.louder_db = presentation_.louder_db;
     return state;
 }
@@ -156,6 +160,16 @@ void LiveExhibit::follow_staff_mode() {
             }
             staff_ = std::move(*made);
         }
+    }
+}
+
+void LiveExhibit::follow_copy(MonotonicTime now) {
+    if (presentation_.copy) {
+        copy_.confirm(now);
+    }
+    const exhibit::CopyState& state = copy_.step(now);
+    if (staff_) {
+        staff_->set_copy(state);
     }
 }
 

@@ -6,6 +6,7 @@
 /// Errors   a typeface is missing: the exhibit goes on, and a line on standard error says so.
 #pragma once
 
+#include "app/exhibit/copy_offer.h"
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/reset_offer.h"
 #include "app/settings/settings.h"
@@ -59,6 +60,7 @@ private:
     [[nodiscard]] std::span<const settings::Command>
     left_by_notice(MonotonicTime now, std::span<const settings::Command> commands);
     void follow_staff_mode();
+    void follow_copy(MonotonicTime now);
 
     const settings::Settings& settings_;
     std::unique_ptr<PresentationShow> presentation_show_;
@@ -70,6 +72,7 @@ private:
     NoticeShow notice_;
     SharedImport import_; ///< of the previous step
     exhibit::ResetOffer reset_;
+    exhibit::CopyOffer copy_;
     sound::Volume volume_;
     double light_ = 1.0;                   ///< 0: asleep
     std::optional<drift::ShownMark> mark_; ///< wanted in this step

@@ -51,6 +51,7 @@ public:
           times_(window_frames), presented_(start), artifact_since_(start) {
         visit_pieces_.reserve(max_visit_pieces);
         result_.status.calibrates = static_cast<bool>(options.calibrate);
+        result_.status.copies = static_cast<bool>(options.copy);
         result_.status.camera_for = camera_uses(inputs);
         if (options.keep_rows && options.length) {
             rows_expected_ =
@@ -190,6 +191,9 @@ private:
         }
         if (state.reset && options_.reset) {
             options_.reset();
+        }
+        if (state.copy && options_.copy) {
+            options_.copy();
         }
         fault_since_ = state.state != exhibit::State::Fault ? std::nullopt
                        : fault_since_                       ? fault_since_

@@ -43,6 +43,7 @@ struct LoopOptions {
     std::function<bool()> ends = {};            ///< called in each frame; true ends the loop
     std::function<void()> calibrate = {};       ///< starts the calibration for the staff; none: not available
     std::function<void()> reset = {}; ///< begins the way back to the state of delivery; none: not available
+    std::function<void()> copy = {};  ///< has a copy written to the stick that waits; none: not available
     counts::VisitBook* visits = nullptr; ///< counts visits; none: they are not counted, as in a fast run
     RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern
 };

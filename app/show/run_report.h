@@ -72,6 +72,7 @@ struct RunStatus : status::StatusReport {
     int camera_width = 0, camera_height = 0; ///< of the camera's frames; 0: unknown
     int louder_db = 0;                       ///< relative to the settings, chosen with the staff's buttons
     bool calibrates = false;                 ///< the staff may start the table's calibration with the buttons
+    bool copies = false;                     ///< the staff may have a copy of the kiosk written to a stick
     SharedImport seen_import;                ///< the importer's report; null: none
     status::SharedEnvironment environment;   ///< what other programs know; null: not read yet
 };

@@ -42,6 +42,7 @@ struct ShowState {
     std::optional<MonotonicTime> used = {}; ///< when it was last used; nothing: never
     bool calibrate = false;                 ///< the staff asked for the table's calibration in this step
     bool reset = false;                     ///< the staff confirmed the state of delivery in this step
+    bool copy = false;                      ///< the staff confirmed a copy onto a stick in this step
     int louder_db = 0;                      ///< relative to the settings, chosen with the staff's buttons
 };
 

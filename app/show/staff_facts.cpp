@@ -98,6 +98,7 @@ StaffFacts staff_facts(const RunStatus& status, const settings::Settings& settin
     facts.buttons = std::clamp<std::size_t>(settings.panel.buttons(), 2, settings::button_commands.size());
     facts.tracks_head = settings.eye.tracked;
     facts.calibrates = status.calibrates;
+    facts.copies = status.copies;
     return facts;
 }
 

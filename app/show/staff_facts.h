@@ -5,6 +5,7 @@
 /// Errors   none: unknown facts are left out.
 #pragma once
 
+#include "app/exhibit/copy_offer.h"
 #include "app/exhibit/states.h"
 #include "app/settings/settings.h"
 #include "app/show/run_report.h"
@@ -30,6 +31,8 @@ struct StaffFacts {
     std::size_t buttons = 2;       ///< of the panel
     bool tracks_head = false;
     bool calibrates = false; ///< the staff may start the table's calibration
+    bool copies = false;     ///< the staff may have a copy of the kiosk written to a stick
+    exhibit::CopyState copy; ///< how far that is
     bool speaks = false;     ///< there is a sound device
 
     [[nodiscard]] bool operator==(const StaffFacts&) const = default;

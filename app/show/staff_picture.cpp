@@ -104,6 +104,9 @@ private:
             add("Let them lie still: noise is how much they trembled in the last second.");
             add(facts_.camera);
             break;
+        case exhibit::StaffPage::Copy:
+            add_copy();
+            break;
         case exhibit::StaffPage::Buttons:
             add("Press each button: it lights up and is counted, and does nothing else here.");
             add(facts_.panel);
@@ -121,6 +124,42 @@ private:
             break;
         case exhibit::StaffLight::Greys:
             add("Each step must be seen, also at both ends of the lower row.");
+            break;
+        }
+    }
+
+    void add_copy() {
+        const exhibit::CopyState& copy = facts_.copy;
+        if (!facts_.copies) {
+            add("This exhibit writes to no stick. A technician makes copies in its shell.");
+            return;
+        }
+        switch (copy.stage) {
+        case exhibit::CopyStage::NoStick:
+            add("Put in a stick that has an empty file frustumscreen-request.toml. For ten minutes settings, "
+                "calibration, visits and packs can then be copied to it.");
+            break;
+        case exhibit::CopyStage::Looking:
+            add("A stick is being looked through.");
+            break;
+        case exhibit::CopyStage::NoRequest:
+            add("The stick does not wait for a copy. Make an empty file frustumscreen-request.toml on it, "
+                "without a signature, and put it in again.");
+            break;
+        case exhibit::CopyStage::Offered:
+            add("The stick waits for a copy. Leave it in.");
+            break;
+        case exhibit::CopyStage::Writing:
+            add(copy.percent > 0
+                    ? fmt::format("The copy is being written, {} %. Leave the stick in.", copy.percent)
+                    : "The copy is being written. Leave the stick in.");
+            break;
+        case exhibit::CopyStage::Written:
+            add(fmt::format("The copy is written, in the folder {}. Take the stick out.", copy.said));
+            add("Before another exhibit takes it, an office computer must sign it.");
+            break;
+        case exhibit::CopyStage::Failed:
+            add(fmt::format("The copy is not written: {}", copy.said));
             break;
         }
     }
@@ -187,9 +226,15 @@ private:
                             "visits and packs are removed",
                             circled(0, view_)));
         }
+        const bool copies = view_.page == exhibit::StaffPage::Copy && view_.copies;
+        if (copies) {
+            add_button(fmt::format("{} held for two seconds: settings, calibration, visits and packs are "
+                                   "copied to the stick",
+                                   circled(0, view_)));
+        }
         if (!view_.kept && !view_.stays && view_.page != exhibit::StaffPage::Buttons) {
             add_button(fmt::format("{} held for two seconds: this picture is kept for half an hour",
-                                   measures || resets ? circled(1, view_) : "any button"));
+                                   measures || resets || copies ? circled(1, view_) : "any button"));
         }
         add_button(fmt::format("{} and {} held together for three seconds: back to the exhibit",
                                circled(0, view_), circled(facts_.buttons - 1, view_)));
@@ -313,6 +358,7 @@ image::Image8 staff_picture(const exhibit::StaffView& view, const StaffFacts& fa
         break;
     case exhibit::StaffPage::Sound:
     case exhibit::StaffPage::Tracker:
+    case exhibit::StaffPage::Copy:
         put_words({margin, margin}, {wide, height - 2.0 * margin}, 22.0);
         break;
     case exhibit::StaffPage::Buttons:

@@ -26,11 +26,21 @@ void StaffShow::tell(const RunStatus& status, double gain_db) {
     facts.settings_gain_db = gain_db;
     facts.prop = facts_.prop;
     facts.head = facts_.head;
+    facts.copy = facts_.copy;
     if (facts != facts_) {
         facts_ = std::move(facts);
         drawn_.reset();
     }
     pattern_->tell(status);
+}
+
+void StaffShow::set_copy(const exhibit::CopyState& copy) {
+    if (facts_.copy != copy) {
+        facts_.copy = copy;
+        if (drawn_ && drawn_->page == exhibit::StaffPage::Copy) {
+            drawn_.reset();
+        }
+    }
 }
 
 void StaffShow::show(MonotonicTime now, const exhibit::StaffView& view, const tracking::TrackerSignal& prop,

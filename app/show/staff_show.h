@@ -29,6 +29,8 @@ public:
 
     /// `gain_db`: the settings' volume for this hour.
     void tell(const RunStatus& status, double gain_db);
+    /// Sets how far a copy onto a stick is, from the next `show` on.
+    void set_copy(const exhibit::CopyState& copy);
     void set_viewfinder(Viewfinder* viewfinder) { pattern_->set_viewfinder(viewfinder); }
     /// Draws the picture again if it has changed.
     void show(MonotonicTime now, const exhibit::StaffView& view, const tracking::TrackerSignal& prop,

@@ -74,10 +74,13 @@ constexpr Row table[] = {
     {"22223333333", Sound, White, 12, 7, false, false},
     {"22222", Tracker, White, 0, 0, false, false},
     {"2222213", Tracker, White, 0, 0, false, false},
-    {"222222", Buttons, White, 0, 0, false, false},
+    {"222222", Copy, White, 0, 0, false, false},
+    {"222222134", Copy, White, 0, 0, false, false},
+    {"2222221F", Copy, White, 0, 0, true, false},
+    {"2222222", Buttons, White, 0, 0, false, false},
     {"222222222222", Buttons, White, 0, 0, false, false},
-    {"2222221345", Buttons, White, 0, 0, false, false},
-    {"2222222O1F", Buttons, White, 0, 0, false, false},
+    {"22222221345", Buttons, White, 0, 0, false, false},
+    {"22222222O1F", Buttons, White, 0, 0, false, false},
     {"2O", Status, White, 0, 0, true, false},
     {"1F", Status, White, 0, 0, true, false},
     {"22O", Place, White, 0, 0, true, false},
@@ -128,6 +131,30 @@ TEST(StaffTool, TheStateOfDeliveryIsConfirmedOnTheFirstPageWhileItIsOffered) {
     EXPECT_TRUE(played.shown().resets) << "a new picture offers it too";
     played.tool.begin(State::View, played.now);
     EXPECT_FALSE(played.tool.take_reset()) << "what was asked on another picture is over";
+}
+
+TEST(StaffTool, ACopyIsConfirmedOnItsPageWhileItIsOffered) {
+    for (const auto& [presses, offered, copies] :
+         {std::tuple("222222F", true, true), std::tuple("2222221F", true, true),
+          std::tuple("222222O", true, false), std::tuple("222222", true, false),
+          std::tuple("2222221", true, false), std::tuple("F", true, false), std::tuple("2F", true, false),
+          std::tuple("22222F", true, false), std::tuple("2222222F", true, false),
+          std::tuple("222222F", false, false)}) {
+        Played played;
+        played.tool.offer_copy(offered);
+        played.play(presses);
+        EXPECT_EQ(played.tool.take_copy(), copies) << presses;
+        EXPECT_TRUE(!copies || played.shown().kept) << "what becomes of it is told here";
+        EXPECT_FALSE(played.tool.take_copy()) << "once";
+        EXPECT_FALSE(played.tool.take_reset()) << presses;
+    }
+    Played played;
+    played.tool.offer_copy(true);
+    played.tool.begin(State::View, played.now);
+    played.play("222222F");
+    EXPECT_TRUE(played.shown().copies) << "a new picture offers it too";
+    played.tool.begin(State::View, played.now);
+    EXPECT_FALSE(played.tool.take_copy()) << "what was asked on another picture is over";
 }
 
 /// On every page, with every number of buttons, in either order, and with another press in between.
@@ -275,7 +302,7 @@ TEST(StaffTool, EveryStateThatCanBeReachedIsInOrder) {
     }
     EXPECT_EQ(pages.size(), staff_page_names.size());
     // Volumes on and after the sound page, lights on their own page, kept or not.
-    EXPECT_EQ(reached.size(), 2U * (1 + 1 + 1 + 3 + 11 + 11 + 11));
+    EXPECT_EQ(reached.size(), 2U * (1 + 1 + 1 + 3 + 11 + 11 + 11 + 11));
 }
 
 } // namespace

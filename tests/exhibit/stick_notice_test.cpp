@@ -1,6 +1,7 @@
 // The notice about a stick, and its duration, for reports that an importer might write and for presses.
 #include "app/exhibit/reset_offer.h"
 #include "app/exhibit/stick_notice.h"
+#include "app/library/report_request.h"
 #include "tests/exhibit/block_words.h"
 
 #include <gtest/gtest.h>
@@ -114,6 +115,10 @@ TEST(ResetOffer, StandsTenMinutesAfterASignedStick) {
     other.packs = {{"vase.fspack", "", library::ImportOutcome::Pending, {}, ""}};
     offer.take(start + std::chrono::minutes(2), other, false);
     EXPECT_FALSE(offer.at(start + std::chrono::minutes(2)));
+    // An unsigned request waits for the staff too, for a copy: it must not offer this.
+    other.packs = {library::copy_offer()};
+    offer.take(start + std::chrono::minutes(3), other, false);
+    EXPECT_FALSE(offer.at(start + std::chrono::minutes(3)));
     // A line of this name that was not believed offers nothing.
     other.packs = {{"frustumscreen-request.toml", "", library::ImportOutcome::NotWritten,
                     library::ImportRefusal::Unsigned, ""}};

@@ -42,11 +42,12 @@ show::StaffFacts facts_of(const settings::Settings& settings) {
     show::RunStatus run;
     static_cast<status::StatusReport&>(run) = status::read_status_report(nlohmann::json::parse(status));
     run.environment = std::make_shared<const status::Environment>(around);
-    run.calibrates = true;
+    run.calibrates = run.copies = true;
     constexpr std::time_t now = 1777651200; // a Friday at noon
     show::StaffFacts facts =
         show::staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", exhibit::State::View, now);
     facts.speaks = true;
+    facts.copy.stage = exhibit::CopyStage::Offered;
     facts.settings_gain_db = -3.0;
     facts.prop = {240.0, 1.0, 0.06, 0.012};
     return facts;
@@ -91,6 +92,7 @@ Result<void> draw(const std::filesystem::path& folder) {
         view.page = which;
         view.light = light;
         view.louder_db = 6;
+        view.copies = which == exhibit::StaffPage::Copy;
         view.presses = {2, 1, 4, 0, 0};
         view.pressed = which == exhibit::StaffPage::Buttons ? std::optional<std::uint8_t>(std::uint8_t{2})
                                                             : std::nullopt;
@@ -108,7 +110,7 @@ Result<void> draw(const std::filesystem::path& folder) {
         image::encode_png(contact_sheet(
             {page(exhibit::StaffPage::Focus), page(exhibit::StaffPage::Light, exhibit::StaffLight::Greys),
              page(exhibit::StaffPage::Sound), page(exhibit::StaffPage::Tracker),
-             page(exhibit::StaffPage::Buttons), page(exhibit::StaffPage::Light)})));
+             page(exhibit::StaffPage::Copy), page(exhibit::StaffPage::Buttons)})));
 }
 
 } // namespace

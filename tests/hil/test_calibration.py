@@ -14,6 +14,7 @@ import tomllib
 
 import screen
 from bench import EYE_M, PLACE_TOLERANCE_M, UPRIGHT, USUAL, WIDTH, eventually
+from family import RELEASED_S, hold
 from hil_test import PIXELS, START_S, HilTest, long
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "calibration"))
@@ -23,7 +24,6 @@ FIRST, NEXT, LAST = 0, 1, 2
 CALIBRATION = "frustumscreen-calibrate.service"
 FOLDER = "/var/lib/frustumscreen/calibration"
 SENSOR_M = 0.085
-RELEASED_S = 1.0  # long enough to be seen
 ARTIFACT = "amphora"
 IDENTITY = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
 UNCALIBRATED = {"table_from_tracker": IDENTITY, "sensor_from_prop": IDENTITY}
@@ -72,22 +72,11 @@ class Calibration(HilTest):
     # The technician.
 
     def begin(self):
-        self.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         self.press(NEXT)  # to the page of the picture's place
         self.bench.machine.let_run(RELEASED_S)
-        self.hold((FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
+        hold(self.bench, (FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
         self.hears("Staff: measure the whole table", 3 * START_S)  # crosses are chosen first
-
-    def hold(self, buttons, until):
-        """As a person does: until the table answers. A slow machine sees the buttons late."""
-        for button in buttons:
-            self.bench.buttons.tell("hold", button)
-        try:
-            until()
-        finally:
-            for button in buttons:
-                self.bench.buttons.tell("release", button)
-        self.bench.machine.let_run(RELEASED_S)
 
     def has_begun(self):
         return self.bench.machine.run(f"systemctl is-active {CALIBRATION}").output.strip() in ("activating", "active")

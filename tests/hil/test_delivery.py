@@ -3,6 +3,7 @@ and knows nothing of the museum."""
 
 import kept_calibration
 from bench import SETTINGS, UNIT, eventually
+from family import hold
 from hil_test import LIT, START_S, long
 from stick_bench import LIBRARY, StickTest, pulled_packs
 from test_calibration import FIRST, LAST
@@ -13,7 +14,6 @@ ASKS = b'reset = true\nuntil = "2099-12-31"\n'
 DELIVERED = "/usr/share/frustumscreen/kiosk.toml"
 DATA, KEPT = "/var/lib/frustumscreen", "/var/lib/hil-kept"  # the other tests' packs and words are put aside and brought back
 PRESSED_S = 4.0  # a button is held for two seconds; a slow machine sees it late
-RELEASED_S = 1.0
 
 
 @long
@@ -44,18 +44,8 @@ class Delivery(StickTest):
 
     def confirm(self, until):
         """Shows the staff's picture, and holds the first button on its first page until then."""
-        self.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
-        self.hold((FIRST,), until)
-
-    def hold(self, buttons, until):
-        for button in buttons:
-            self.bench.buttons.tell("hold", button)
-        try:
-            until()
-        finally:
-            for button in buttons:
-                self.bench.buttons.tell("release", button)
-        self.bench.machine.let_run(RELEASED_S)
+        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        hold(self.bench, (FIRST,), until)
 
     def boot(self):
         return self.bench.machine.read("/proc/sys/kernel/random/boot_id")
@@ -67,7 +57,7 @@ class Delivery(StickTest):
         boot = self.boot()
         self.assertEqual(self.asked("unsigned", {REQUEST: ASKS}), {REQUEST: ("not_written", "unsigned")})
         self.confirm(lambda: self.bench.machine.let_run(PRESSED_S))
-        self.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
+        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
         self.assertEqual(self.boot(), boot)
         self.assertIn("places = 9", self.bench.machine.read(kept_calibration.FILE))
         self.assertIn("184000", self.bench.machine.read(DAY))

@@ -1,11 +1,14 @@
-"""A kiosk's copy: out onto a stick with a signed request, and into a kiosk that knows nothing of the museum."""
+"""A kiosk's copy: out onto a stick with a signed request or by the staff's buttons, and into a kiosk that knows nothing of the museum."""
 
 import pathlib
 import subprocess
+import tomllib
 
 import kept_calibration
 from bench import SETTINGS, eventually
+from family import RELEASED_S, hold
 from stick_bench import LIBRARY, StickTest, pulled_packs
+from test_calibration import FIRST, LAST, NEXT
 from test_stick_report import REPORT_S, files_on
 
 REQUEST = "frustumscreen-request.toml"
@@ -18,6 +21,8 @@ CALIBRATION = f"cat {kept_calibration.FOLDER}/calibration-*.toml"
 # Only that the table says so would need words: tests/exhibit. The state of delivery: test_delivery.py.
 FORGET = f"{kept_calibration.FORGET}; rm -f {DAY} {SETTINGS}.* {LIBRARY}/set.txt; rm -rf {LIBRARY}/packs"
 RESTART_S = 90.0
+PAGES_TO_COPY = 6  # of the staff's picture, from the first
+STAGES = ("found", "copying", "may_take_out", "done", "failed")
 
 
 class StickCopy(StickTest):
@@ -74,7 +79,38 @@ class StickCopy(StickTest):
         self.assertIn(b"Amphora", self.written["counts.csv"])
         self.assertEqual(self.written["001-nautilus-cup.fspack"], pack.read_bytes())
 
-    def test_3_in(self):
+    def test_3_out_by_the_staffs_buttons(self):
+        self.assertIsNotNone(self.written, "there is no copy")
+        own = {REQUEST: b"", "letter.txt": b"mine\n"}
+        stick = self.make("waits", "vfat", own)
+        self.plug("waits", stick)
+        self.assertEqual(pulled_packs(self.outcome()), {REQUEST: ("pending", "unsigned")})
+        eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        self.assertEqual(files_on(stick), own, "before the button nothing is written")
+        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        for _ in range(PAGES_TO_COPY):
+            self.bench.buttons.tell("press", NEXT, "300ms")
+            self.bench.machine.let_run(RELEASED_S)
+        hold(self.bench, (FIRST,), lambda: self.stage(*STAGES, timeout_s=REPORT_S))
+        told = pulled_packs(self.outcome(REPORT_S))
+        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
+        eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
+        self.pull("waits")
+        folder = next(name for name, outcome in told.items() if outcome == ("written", "none"))
+        self.assertTrue(self.last.endswith(".staff"), self.last)
+        self.assertNotIn(REQUEST, told, "it is offered once")
+        found = files_on(stick)
+        for name, content in own.items():
+            self.assertEqual(found.pop(name), content, f"{name} is not as it was")
+        self.assertEqual({pathlib.PurePath(name).parent.name for name in found}, {folder})
+        written = {pathlib.PurePath(name).name: content for name, content in found.items()}
+        self.assertEqual(set(written), set(self.written))
+        for name in set(written) - {"settings.toml", "counts.csv", COPY}:  # visits go on
+            self.assertEqual(written[name], self.written[name], name)
+        # Comments are left out.
+        self.assertEqual(*(tomllib.loads(files["settings.toml"].decode()) for files in (written, self.written)))
+
+    def test_4_in(self):
         self.assertIsNotNone(self.written, "there is no copy")
         before = self.bench.main_process()
         self.bench.machine.check(FORGET)
@@ -91,7 +127,7 @@ class StickCopy(StickTest):
         self.assertIn("184000", self.bench.machine.read(DAY))
         self.bench.status_says("display", "is lit", RESTART_S)
 
-    def test_4_in_again(self):
+    def test_5_in_again(self):
         before = self.bench.main_process()
         copy = self.folder / COPY
         told, _ = self.put("again", {COPY: copy, f"{COPY}.minisig": copy.with_name(f"{COPY}.minisig")})

@@ -26,6 +26,7 @@ echo "open $status"
 grep -E 'frustumscreen-(stick|report)' /proc/self/mounts | cut -d ' ' -f 2,4 | sed "s#$1/run/##" || true
 echo ---
 """
+CONFIRMED = "run/frustumscreen-report/stick1.confirmed"
 PLACES = ("frustumscreen-stick/", "frustumscreen-report/")
 FLAGS = "nosuid,nodev,noexec"
 
@@ -139,6 +140,41 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         self.write("sys/class/block/sda1/ro", b"1\n")
         self.assert_left_alone(*self.run_in(f"echo what >{COPY}")[:2])
         self.assertIn("write-protected", self.told(COPY)[1])
+
+    def confirm(self):
+        self.write("run/frustumscreen-report/stick1.confirm", b"")
+
+    def test_a_request_that_waits_for_the_staff_has_no_folder(self):
+        for files in (f"touch {COPY}", f"touch {COPY}; mkdir {REQUEST}"):
+            with self.subTest(files):
+                self.assert_left_alone(*self.run_in(files)[:2])
+                self.assertIsNone(self.told())
+        status, _, after = self.run_in(f"touch {COPY} {REQUEST}", 'cat run/frustumscreen-report/stick1.name; "$3" close stick1')
+        self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-report-2031-05-04-120000"), "a report goes to any stick")
+        self.assertFalse((self.top / CONFIRMED).exists())
+
+    def test_the_staff_confirm_once(self):
+        self.confirm()
+        status, _, after = self.run_in(f"touch {COPY} {REQUEST}", f'cat run/frustumscreen-report/stick1.name {CONFIRMED}; "$3" close stick1')
+        self.assertEqual((status, after.split()), (0, ["NAME=frustumscreen-1a2b3c-2031-05-04-120000", "CONFIRMED=--confirmed"]))
+        self.assertTrue((self.top / CONFIRMED).exists(), "the importer is told too")
+        self.assert_left_alone(*self.run_in(f"touch {COPY}")[:2])
+        self.assertFalse((self.top / CONFIRMED).exists(), "it is over")
+
+    def test_an_empty_request_with_a_signature_waits_for_nobody(self):
+        for more in (f"touch {COPY}.minisig", f"ln -s {COPY} {COPY}.minisig"):
+            with self.subTest(more):
+                status, _, after = self.run_in(f"touch {COPY}; {more}", 'cat run/frustumscreen-report/stick1.name; "$3" close stick1')
+                self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-1a2b3c-2031-05-04-120000"))
+
+    def test_what_is_in_the_way_is_told_before_the_staff_confirm(self):
+        self.write("sys/class/block/sda1/ro", b"1\n")
+        for confirmed in (False, True):
+            with self.subTest(confirmed=confirmed):
+                if confirmed:
+                    self.confirm()
+                self.assert_left_alone(*self.run_in(f"touch {COPY}")[:2])
+                self.assertIn("write-protected", self.told(COPY)[1])
 
     def test_sticks_that_ask_for_nothing(self):
         for files in ("true", f"mkdir {REQUEST}", f"ln -s mine {REQUEST}; touch mine", f"head -c 4097 /dev/zero >{REQUEST}", "touch frustumscreen-report.toml.txt",

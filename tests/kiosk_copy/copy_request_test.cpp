@@ -106,6 +106,29 @@ TEST_F(SignedRequest, CountsForTheMachineThatItNames) {
     EXPECT_EQ(refusal(), library::ImportRefusal::WrongKey);
 }
 
+/// An empty one asks for nothing by itself, nor for what a signature would: it waits for the staff's buttons.
+TEST_F(SignedRequest, AnEmptyOneWithoutASignatureWaitsForTheStaff) {
+    const std::string name(library::copy_request_name);
+    EXPECT_FALSE(library::waits_for_staff(stick)) << "there is none";
+    stick.put(name, "");
+    EXPECT_TRUE(library::waits_for_staff(stick));
+    EXPECT_EQ(refusal(), library::ImportRefusal::Unsigned);
+    EXPECT_TRUE(library::lines_of_stick_report(stick, std::nullopt, false).empty());
+    ASSERT_EQ(library::lines_of_stick_report(stick, std::nullopt, true).size(), 1U)
+        << "the writer left no word";
+    for (const std::string text : {"\n", "what = [\"packs\"]\n"}) {
+        stick.put(name, text);
+        EXPECT_FALSE(library::waits_for_staff(stick)) << text;
+        EXPECT_EQ(library::lines_of_stick_report(stick, std::nullopt, false).size(), 1U);
+    }
+    sign("", key);
+    EXPECT_FALSE(library::waits_for_staff(stick));
+    EXPECT_EQ(refusal(), library::ImportRefusal::NotAPack) << "it says nothing of what is wanted";
+    const CopyRequest all = whole_copy();
+    EXPECT_TRUE(all.settings && all.calibration && all.counts && all.packs && all.by_staff);
+    EXPECT_FALSE(all.reset) << "the state of delivery needs a signature too";
+}
+
 TEST_F(SignedRequest, IsNotParsedBeforeItsSignatureIsRight) {
     sign("what = [\n", key);
     EXPECT_EQ(refusal(), library::ImportRefusal::NotAPack);

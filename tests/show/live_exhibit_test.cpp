@@ -1,16 +1,22 @@
 // The staff picture, over an exhibit that only records its calls.
 
+#include "app/library/report_request.h"
 #include "app/render/read_back.h"
 #include "app/show/live_exhibit.h"
+#include "firmware_host/base/file.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/buttons.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
 
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace frustumscreen::show {
 namespace {
@@ -167,6 +173,61 @@ TEST_F(Live, TheTrackersNumbersAreLiveAndKeepAPace) {
     }
     EXPECT_GE(drawn, 5);
     EXPECT_LE(drawn, 8) << "once more as the pressed button goes out";
+}
+
+/// From the importer's report by the page's button to the run loop, and back.
+TEST_F(Live, AStickThatWaitsIsCopiedToByTheStaffsButton) {
+    const TemporaryFolder own;
+    settings.exhibit.import_report = own.path() / "report.json";
+    const auto tell = [&](const std::string& id, library::ImportStage stage,
+                          const std::vector<library::ImportedPack>& lines) {
+        library::ImportReport report;
+        report.import_id = id;
+        report.stage = stage;
+        report.packs = lines;
+        const std::string json = library::write_import_report(report);
+        ASSERT_TRUE(write_file(settings.exhibit.import_report, as_bytes(json)));
+    };
+    show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingShow>(record),
+                                         sample::exhibit(3, {"en", "de"}), "a driver",
+                                         residency::PromptReader::Answer::Always);
+    status.copies = true;
+    frame(chord);
+    for (int page = 0; page < 6; ++page) {
+        turn_page();
+    }
+    std::vector<std::vector<glm::u8vec4>> seen;
+    const auto is_new = [&] {
+        now += seconds(1);
+        frame();
+        now += seconds(1);
+        frame();
+        seen.push_back(picture().texels);
+        return std::count(seen.begin(), seen.end(), seen.back()) == 1;
+    };
+    constexpr std::array held{settings::Command::HoldFirst};
+    EXPECT_TRUE(is_new());
+    frame(held);
+    EXPECT_FALSE(show->state().copy) << "no stick waits";
+    frame();
+    tell("stick1", library::ImportStage::Found, {});
+    EXPECT_TRUE(is_new());
+    tell("stick1", library::ImportStage::Done, {library::copy_offer()});
+    EXPECT_TRUE(is_new());
+    frame(held);
+    EXPECT_TRUE(show->state().copy);
+    frame();
+    EXPECT_FALSE(show->state().copy) << "once";
+    EXPECT_TRUE(is_new());
+    frame(held);
+    EXPECT_FALSE(show->state().copy) << "it is being written";
+    tell("stick1.staff", library::ImportStage::Done,
+         {{.file = "frustumscreen-1a2b3c-2031",
+           .title = "",
+           .outcome = library::ImportOutcome::Written,
+           .refusal = {},
+           .reason = ""}});
+    EXPECT_TRUE(is_new());
 }
 
 TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace frustumscreen::show {
 namespace {
@@ -72,7 +73,8 @@ protected:
         facts.panel = "buttons: its buttons are there";
         facts.sound = "sound: its sound goes to plughw:CARD=PCH,DEV=0";
         facts.prop = {240.0, 1.0, 0.04, 0.01};
-        facts.speaks = facts.calibrates = true;
+        facts.speaks = facts.calibrates = facts.copies = true;
+        facts.copy.said = "frustumscreen-1a2b3c-2026-05-01-120000";
     }
     /// The text read by zbarimg; empty for several codes or none.
     [[nodiscard]] std::string read(const image::Image8& picture) const {
@@ -159,7 +161,8 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
                 view.presses.fill(123);
                 view.kept = k % 2 == 0;
                 view.stays = k % 3 == 0;
-                view.resets = k % 2 == 0;
+                view.resets = view.copies = k % 2 == 0;
+                facts.copy.stage = static_cast<exhibit::CopyStage>((k + buttons) % 7);
                 const image::Image8 below = staff_background(view, scene, *typesetter);
                 const image::Image8 shown = page(view);
                 const int edge = height / 50;
@@ -180,6 +183,31 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
             }
         }
     }
+}
+
+TEST_F(StaffPicture, ThePageOfTheCopySaysHowFarItIs) {
+    set_size(1280, 800);
+    exhibit::StaffView view;
+    view.page = exhibit::StaffPage::Copy;
+    std::vector<std::vector<glm::u8vec4>> seen;
+    const auto is_new = [&] {
+        seen.push_back(page(view).texels);
+        return std::count(seen.begin(), seen.end(), seen.back()) == 1;
+    };
+    for (int stage = 0; stage <= static_cast<int>(exhibit::CopyStage::Failed); ++stage) {
+        facts.copy.stage = static_cast<exhibit::CopyStage>(stage);
+        EXPECT_TRUE(is_new()) << stage;
+    }
+    facts.copy.said = "the stick is full; make room, or take another stick";
+    EXPECT_TRUE(is_new()) << "why it failed";
+    facts.copy = {.stage = exhibit::CopyStage::Writing, .percent = 40};
+    EXPECT_TRUE(is_new());
+    facts.copy = {.stage = exhibit::CopyStage::Offered};
+    view.copies = true;
+    EXPECT_TRUE(is_new()) << "which button";
+    facts.copies = false;
+    view.copies = false;
+    EXPECT_TRUE(is_new()) << "a kiosk that writes to no stick";
 }
 
 TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {

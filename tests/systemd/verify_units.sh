@@ -86,7 +86,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     locked_in frustumscreen-ntfs@stick1p1.service 34
     # The image's additions for its updates.
     cp -r "$own/systemd/system/." "$units" && cp -r "$own/frustumscreen" "$root/usr/lib/"
-    for name in update@stick1p1 update-told@stick1p1 report-open@stick1p1 report@stick1p1 report-close@stick1p1 next-try reset; do
+    for name in update@stick1p1 update-told@stick1p1 report-open@stick1p1 report@stick1p1 report-close@stick1p1 next-try reset copy; do
         instance=$units/frustumscreen-$name.service
         [[ -e $instance ]] || cp "$units/frustumscreen-${name%%@*}@.service" "$instance"
         said=$(systemd-analyze verify --root="$root" "$instance" 2>&1) || true
@@ -97,6 +97,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     locked_in frustumscreen-update-told@stick1p1.service 13
     locked_in frustumscreen-next-try.service 19
     locked_in frustumscreen-reset.service 19
+    locked_in frustumscreen-copy.service 13
     locked_in frustumscreen-report@stick1p1.service 6
     locked_in frustumscreen-report-open@stick1p1.service 41
     locked_in frustumscreen-report-close@stick1p1.service 41

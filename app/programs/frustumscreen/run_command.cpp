@@ -202,6 +202,11 @@ show::LoopOptions loop_options(const RunRequest& request, const RunMode& mode, c
             ask_for("the state of delivery", "stick", file, journal);
         };
     }
+    if (!request.copy_file.empty()) {
+        options.copy = [&file = request.copy_file, &journal] {
+            ask_for("a copy onto the stick", "stick", file, journal);
+        };
+    }
     options.mode = watch::word_of(mode.mode);
     options.settings = Sentence(mode.used.instead);
     return options;

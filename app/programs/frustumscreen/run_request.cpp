@@ -28,6 +28,9 @@ std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequ
     app.add_option("--reset-file", request.reset_file,
                    "file to create when the staff confirm a reset to the state of delivery, which a signed "
                    "stick has requested; the service then resets the kiosk");
+    app.add_option("--copy-file", request.copy_file,
+                   "file to create when the staff confirm a copy of the kiosk onto a stick that waits for "
+                   "it; the service then has it written");
     app.add_option("--mode-file", request.places.mode_file,
                    "file with the watchdog's mode: normal, last_good_set, plain or built_in");
     app.add_option("--shipped", request.places.shipped,

@@ -19,6 +19,7 @@ struct RunRequest {
     std::filesystem::path staff_socket;
     std::filesystem::path calibrate_file;
     std::filesystem::path reset_file;
+    std::filesystem::path copy_file;
     std::filesystem::path record;
     show::ArtifactShowOptions show;
     show::Trust trust = show::Trust::Newest; ///< in the installed sets

@@ -29,6 +29,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -77,7 +78,8 @@ Nanoseconds processor_time() {
 /// An id that differs for each stick, even after a restart with the clock set back: time and process id.
 std::string import_id(const ImportArguments& arguments) {
     if (!arguments.id.empty()) {
-        return printable(arguments.id);
+        return printable(arguments.id) +
+               std::string(arguments.confirmed ? library::staff_import_ending : std::string_view());
     }
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return fmt::format("{}-{}", std::chrono::duration_cast<std::chrono::milliseconds>(now).count(),
@@ -142,9 +144,10 @@ std::optional<library::ImportedPack> take_copy_of(FileTree& stick, WritableTree&
     return kiosk_copy::take_kiosk_copy(stick, {settings, **calibration, arguments.counts}, today);
 }
 
-void leave_mark(const ImportArguments& arguments, std::string_view name) {
+void leave_mark(const ImportArguments& arguments, std::string_view name, std::string_view text = "") {
     if (!arguments.report.empty()) {
-        if (const Result<void> marked = write_file(arguments.report.parent_path() / name, {}); !marked) {
+        if (const Result<void> marked = write_file(arguments.report.parent_path() / name, as_bytes(text));
+            !marked) {
             complain("frustumscreen-import", marked.error());
         }
     }
@@ -208,7 +211,19 @@ std::vector<library::ImportedPack> stick_report_of(FileTree& stick, const Import
     const std::optional<library::ImportReport> written = library::read_import_report(arguments.stick_report);
     std::error_code ignored;
     std::filesystem::remove(arguments.stick_report, ignored);
-    return library::lines_of_stick_report(stick, written ? std::optional(written->packs) : std::nullopt);
+    return library::lines_of_stick_report(stick, written ? std::optional(written->packs) : std::nullopt,
+                                          arguments.confirmed);
+}
+
+/// A copy that the staff may confirm, once for each time that a stick is put in. What cannot be written is not offered.
+void offer_copy(FileTree& stick, const ImportArguments& arguments, library::ImportRequest& request) {
+    const bool fails =
+        std::any_of(request.stick_report.begin(), request.stick_report.end(),
+                    [](const auto& line) { return line.outcome == library::ImportOutcome::NotWritten; });
+    if (!arguments.confirmed && !fails && library::waits_for_staff(stick)) {
+        leave_mark(arguments, "copy-asked", request.import_id);
+        request.kiosk.push_back(library::copy_offer());
+    }
 }
 
 /// Reports that nothing of the stick was read except what `request` tells of.
@@ -250,6 +265,7 @@ library::ImportReport import_from(const ImportArguments& arguments) {
     request.writes_reports = !arguments.stick_report.empty();
     if (stick && request.writes_reports) {
         request.stick_report = stick_report_of(**stick, arguments);
+        offer_copy(**stick, arguments, request);
     }
     const Result<void> trusted = read_trust(arguments, request);
     library::wait_for_readers(arguments.report, request.import_id, arguments.report_stands_s);

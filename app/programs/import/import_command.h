@@ -28,12 +28,14 @@ struct ImportArguments {
     /// (kiosk_copy/take_kiosk_copy.h). Empty: none is.
     std::filesystem::path calibration, counts;
     std::filesystem::path report; ///< file; empty: none
-    /// File with the outcome of the report that another program wrote to the stick; it is removed. Empty: this kiosk writes none.
+    /// File with the outcome of the report that another program wrote to the stick; it is removed. Empty: this kiosk
+    /// writes none. A file copy-asked beside the report names the import whose stick waits for the staff's buttons.
     std::filesystem::path stick_report;
     std::string label;            ///< label of the stick
     std::string id;               ///< id of this import; empty: a new one
     double report_stands_s = 0.0; ///< least age of another import's finished report before it is replaced
     bool allow_unsigned = false;
+    bool confirmed = false; ///< the staff have confirmed a copy onto this stick; it was written before
     bool json = false;
 };
 

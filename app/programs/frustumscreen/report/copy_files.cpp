@@ -8,6 +8,7 @@
 #include "app/library/trusted_keys.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/settings.h"
+#include "app/settings/settings_to_share.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/host_name.h"
@@ -38,10 +39,13 @@ std::optional<std::chrono::sys_days> today_of(const CopyPlaces& places, std::chr
     return library::day_here(clock, set ? set->latest_day : "");
 }
 
-Result<void> add_settings(const CopyPlaces& places, kiosk_copy::KioskCopy& copy,
-                          std::vector<report::ReportFile>& texts) {
+Result<void> add_settings(const kiosk_copy::CopyRequest& request, const CopyPlaces& places,
+                          kiosk_copy::KioskCopy& copy, std::vector<report::ReportFile>& texts) {
     TRY(const Bytes bytes, read_file(places.config, library::max_stick_settings_bytes));
     copy.settings = std::string(as_text(bytes));
+    if (request.by_staff) {
+        TRY(copy.settings, settings::settings_without_comments(*copy.settings));
+    }
     texts.push_back({"settings.toml", *copy.settings});
     return {};
 }
@@ -104,6 +108,10 @@ Outcome<std::optional<kiosk_copy::CopyRequest>> copy_asked_for(const CopyPlaces&
     if (!request && request.error().number == ENOENT) {
         return std::optional<kiosk_copy::CopyRequest>(); // so damaged settings are no obstacle to a report
     }
+    if (library::waits_for_staff(**stick)) {
+        return places.confirmed ? std::optional(kiosk_copy::whole_copy())
+                                : std::optional<kiosk_copy::CopyRequest>();
+    }
     const Result<settings::CheckedSettings> settings = settings::load_settings(places.config);
     if (!settings) {
         return failed(settings.error());
@@ -116,7 +124,7 @@ Result<CopyFiles> copy_files(const kiosk_copy::CopyRequest& request, const CopyP
     CopyFiles files;
     kiosk_copy::KioskCopy copy;
     if (request.settings) {
-        TRY_VOID(add_settings(places, copy, files.texts));
+        TRY_VOID(add_settings(request, places, copy, files.texts));
     }
     if (request.calibration) {
         TRY_VOID(add_calibration(places, copy, files.texts));

@@ -1,8 +1,9 @@
-/// The files that a signed request asks for: a copy of this machine's exhibit, for a person to read and for another kiosk
-/// to take.
+/// The files that a request asks for, a signed one or one that the staff's buttons confirmed: a copy of this machine's
+/// exhibit, for a person to read and for another kiosk to take.
 ///
 /// Names    settings.toml, calibration.toml and counts.csv are for a person; kiosk.fsk is the same for a kiosk
 ///          (kiosk_copy.h); packs are NUMBER-ID.fspack, in the order of the set that is shown.
+/// Persons  a copy by the buttons, which nobody signed for, has no comments in its settings: they may name people.
 /// Threads  the main one; reads files.
 /// Errors   one sentence.
 #pragma once
@@ -20,6 +21,7 @@ namespace frustumscreen::programs {
 
 struct CopyPlaces {
     std::filesystem::path stick; ///< with the request; empty: no request
+    bool confirmed = false;      ///< by the staff's buttons, where the request waits for them
     std::filesystem::path config;
     std::filesystem::path counts;
     std::filesystem::path calibration = "/var/lib/frustumscreen/calibration";

@@ -50,9 +50,15 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--faults", places.faults, "folder of the watchdog's fault records").capture_default_str();
     app.add_option("--journal", places.journal, "folder of the journal (default: this machine's)");
     add_status_places(app, places.status);
-    app.add_option("--stick", request.copy.stick,
-                   "folder of the stick: an empty frustumscreen-report.toml on it requests the report, a "
-                   "signed frustumscreen-request.toml a kiosk copy");
+    const CommandOption stick =
+        app.add_option("--stick", request.copy.stick,
+                       "folder of the stick: an empty frustumscreen-report.toml on it requests the report, a "
+                       "signed frustumscreen-request.toml a kiosk copy");
+    app.add_flag(
+           "--confirmed", request.copy.confirmed,
+           "the staff's buttons have confirmed an empty frustumscreen-request.toml, which then requests "
+           "a kiosk copy without a signature")
+        .needs(stick);
     app.add_option("--calibration", request.copy.calibration, "folder of the calibrations, for --stick")
         .capture_default_str();
     app.add_option("--library", request.copy.library, "folder of the installed set, for --stick")
@@ -257,7 +263,8 @@ int report_command(int argc, char** argv) {
         return *status;
     }
     library::ImportReport told;
-    told.import_id = printable(request.id);
+    told.import_id = printable(request.id) +
+                     std::string(request.copy.confirmed ? library::staff_import_ending : std::string_view());
     if (!request.import_report.empty()) {
         library::wait_for_readers(request.import_report, told.import_id, request.report_stands_s);
         leave(request.import_report, told);
