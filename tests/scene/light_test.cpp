@@ -209,7 +209,7 @@ TEST(Light, AKnownArtifactDimsWithThePlacesThroughWhichRaysMeetIt) {
     for (int k = 0; k < 150; ++k) {
         const Pose pose(random);
         // The shipped light reaches nearly every place that is seen; half of the poses want more.
-        by_faces.reference = by_artifact.reference = (k % 2 == 0 ? 1.0 : 1.3) * settings::even_light(shipped);
+        by_faces.reference = by_artifact.reference = (k % 2 == 0 ? 1.0 : 1.7) * settings::even_light(shipped);
         const double faces = reference_light(all_faces(prop, pose.eye), pose.lens, by_faces);
         const double seen = reference_light(all_faces(prop, pose.eye), pose.lens, by_artifact);
         const RayCast rays(prop, artifact, pose.eye, pose.lens);
@@ -241,10 +241,9 @@ TEST(Light, AKnownArtifactDimsGraduallyAsTheEyeMoves) {
     double before = -1.0;
     double least = 1.0;
     double most = 0.0;
-    for (int step = 0; step <= 12'000; ++step) { // over the prop, from low before it to low beside it
-        const double turn = 1e-4 * step / 0.5;
-        const glm::dvec3 eye(0.5 * std::sin(turn) * std::sin(turn), -0.5 * std::cos(turn),
-                             0.1 + 0.45 * std::abs(std::sin(turn)));
+    for (int step = 0; step <= 18'000; ++step) { // over the prop, from low before it to low behind it
+        const double turn = 1e-4 * step / 0.6;
+        const glm::dvec3 eye(0.01, -0.6 * std::cos(turn), 0.06 + 0.6 * std::sin(turn));
         const double share = reference_light(all_faces(lit.prop, eye), lit.projector(), compensation) / aim;
         if (before >= 0.0) {
             EXPECT_LT(std::abs(share - before), 1e-3) << step;
