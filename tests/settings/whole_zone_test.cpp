@@ -183,7 +183,7 @@ TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
         lost += here > 0 ? 1 : 0;
     }
     EXPECT_EQ(lost, tried);
-    EXPECT_GE(tried, 4);
+    EXPECT_GE(tried, 3) << "the table ends the wide zone at its sides";
 }
 
 TEST(WholeZone, IsWiderThanThatOfTheFacesAndWiderStillForHighEyes) {
