@@ -44,8 +44,9 @@ struct ExhibitPlace {
     geometry::PropShape prop;
     glm::dvec3 lens_m{0.0};            ///< the projector's
     std::vector<glm::dvec2> picture_m; ///< the part of the table that the projector's picture covers, convex
-    ZoneFrame zone;                    ///< none by default
-    glm::dvec2 attract_place_m{0.0};   ///< where the artifact stands while the prop's pose is unknown
+    std::vector<geometry::Plane> picture_edges{}; ///< as LitPlaces
+    ZoneFrame zone;                               ///< none by default
+    glm::dvec2 attract_place_m{0.0}; ///< where the artifact stands while the prop's pose is unknown
     std::size_t buttons =
         settings::button_commands.size();            ///< of the panel; the chord is the first and the last
     std::optional<guidance::GuidanceSetup> guidance; ///< none: no guidance

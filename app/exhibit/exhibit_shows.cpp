@@ -161,6 +161,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
               .table_from_prop = drawn.table_from_prop,
               .eye_m = tracked_state.eye_m,
               .lens_m = place_.lens_m,
+              .picture_edges = place_.picture_edges,
               .obstacles = std::span(obstacles).first(count),
               .caption = presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
               .quarter_turns = side_.quarter_turns()});

@@ -128,9 +128,9 @@ std::optional<PresentedHotspot> HotspotLabels::step(MonotonicTime now, const Inp
                               .hidden = hidden,
                               .label = place.rectangle,
                               .pictures = input.obstacles});
-    const bool seen =
-        is_seen(labelled.at, eye_in_prop, *input.prop,
-                faces_lit_from(*input.prop, prop_from_table.point(input.lens_m)), occluder_of(*input.set));
+    const LitPlaces lit{faces_lit_from(*input.prop, prop_from_table.point(input.lens_m)), input.picture_edges,
+                        input.table_from_prop};
+    const bool seen = is_seen(labelled.at, eye_in_prop, *input.prop, lit, occluder_of(*input.set));
     const double presence_goal = goal == key_ && seen && shown.line ? 1.0 : 0.0;
     presence_ += std::clamp(presence_goal - presence_, -passed, passed);
     const double facing_eye = brightness_facing(labelled.at, eye_in_prop);

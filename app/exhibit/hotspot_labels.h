@@ -1,7 +1,8 @@
 /// The label of a hotspot: its place beside the prop, the line that leads to it, and the brightness of both.
 ///
 /// Shows one hotspot at a time. The label is dark exactly where the hotspot's point faces away from the eye. It fades
-/// where another part of the artifact hides the point, where the point is not lit, and when another hotspot is shown.
+/// where another part of the artifact hides the point, where the place of the prop through which it is seen is not
+/// lit, and when another hotspot is shown.
 ///
 /// Frames   as named; metres.
 /// Time     `now` never goes back.
@@ -71,6 +72,7 @@ public:
         geometry::RigidTransform table_from_prop;
         glm::dvec3 eye_m{0.0};                                 ///< table frame
         glm::dvec3 lens_m{0.0};                                ///< table frame
+        std::span<const geometry::Plane> picture_edges;        ///< as LitPlaces
         std::span<const typography::TableRectangle> obstacles; ///< everything else on the table
         std::optional<typography::TableRectangle> caption;     ///< also in `obstacles`
         int quarter_turns = 0;                                 ///< the reader's side
@@ -97,7 +99,7 @@ private:
     bool changing_ = false;
 };
 
-/// The prop's faces that the lens lights, as a set.
+/// The prop's faces that are turned to the lens, as a set.
 [[nodiscard]] std::uint32_t faces_lit_from(const geometry::PropShape& prop, const glm::dvec3& lens_in_prop_m);
 
 } // namespace frustumscreen::exhibit

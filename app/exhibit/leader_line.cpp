@@ -125,14 +125,19 @@ std::optional<LeaderLine> with_bend(const LeaderLineNeeds& needs, const Way& way
 } // namespace
 
 bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const geometry::PropShape& prop,
-             std::uint32_t lit_faces, const Occluder& artifact) {
+             const LitPlaces& lit, const Occluder& artifact) {
     const glm::dvec3 to_point = hotspot.point_m - eye_m;
     if (!(glm::dot(to_point, hotspot.normal) < 0.0)) {
         return false; // faces away
     }
     geometry::PropHit entry;
     if (!geometry::intersect(prop, eye_m, to_point, entry) || entry.t > 1.0 ||
-        (lit_faces >> entry.face & 1U) == 0) {
+        (lit.faces >> entry.face & 1U) == 0) {
+        return false;
+    }
+    const glm::dvec3 place = lit.table_from_prop.point(eye_m + entry.t * to_point);
+    if (!std::all_of(lit.picture_edges.begin(), lit.picture_edges.end(),
+                     [&](const geometry::Plane& edge) { return edge.distance(place) >= 0.0; })) {
         return false;
     }
     const glm::dvec3 end = hotspot.point_m + artifact.tolerance_m * hotspot.normal;

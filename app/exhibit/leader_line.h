@@ -1,7 +1,7 @@
 /// Hotspots: a point on the artifact's surface, a label beside the prop, and a thin line between them.
 ///
 /// A hotspot is seen if the ray from the eye to it meets the surface from outside, meets no other part of the
-/// artifact before, and enters the prop through a lit face. Rays are cast at one of the pack's coarser levels
+/// artifact before, and enters the prop at a lit place. Rays are cast at one of the pack's coarser levels
 /// (triangle_tree.h): the ray's end is lifted off the surface by a tolerance, which must be at least that level's
 /// error.
 ///
@@ -43,9 +43,17 @@ struct Occluder {
     double tolerance_m = 0.0;                          ///< in the prop frame; at least the triangles' error
 };
 
-/// `eye_m`: prop frame. `lit_faces`: bit k is face k of the prop (FaceReader).
+/// The places of the prop that the projector lights: those of a face that is turned to it, inside its picture.
+struct LitPlaces {
+    std::uint32_t faces = 0; ///< bit k is face k of the prop
+    /// The picture's edges, table frame; normals point into the picture (picture_planes.h). None: it has no end.
+    std::span<const geometry::Plane> picture_edges{};
+    geometry::RigidTransform table_from_prop{};
+};
+
+/// `eye_m`: prop frame.
 [[nodiscard]] bool is_seen(const Hotspot& hotspot, const glm::dvec3& eye_m, const geometry::PropShape& prop,
-                           std::uint32_t lit_faces, const Occluder& artifact);
+                           const LitPlaces& lit, const Occluder& artifact);
 
 struct LeaderLine {
     std::array<glm::dvec2, 3> points_m{}; ///< from the prop to the label, table frame

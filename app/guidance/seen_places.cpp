@@ -70,6 +70,14 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
+double area_of(std::span<const glm::dvec2> polygon) {
+    double area = 0.0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        area += 0.5 * cross(polygon[k], polygon[(k + 1) % polygon.size()]);
+    }
+    return std::abs(area);
+}
+
 /// The picture plane of a pinhole at distance 1.
 struct View {
     View(const glm::dvec3& at, const glm::dvec3& along) : eye(at), forward(along) {
@@ -84,6 +92,8 @@ struct View {
         return glm::dvec2(glm::dot(way, right), glm::dot(way, up)) /
                std::fmax(glm::dot(way, forward), nearest_m);
     }
+    /// The direction from the eye to a point of the picture.
+    [[nodiscard]] glm::dvec3 ray(const glm::dvec2& at) const { return forward + at.x * right + at.y * up; }
     glm::dvec3 eye;
     glm::dvec3 forward;
     glm::dvec3 right{0.0};
@@ -163,9 +173,9 @@ SeenOutline::SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::
     count_ = convex(std::span(points).first(hull.size()), outline_).size();
 }
 
-double SeenOutline::area_through(const FacePart& part) const {
+template <typename Use> void SeenOutline::clip_to(const FacePart& part, const Use& use) const {
     if (part.empty() || count_ < 3) {
-        return 0.0;
+        return;
     }
     const View view(eye_, forward_);
     const std::size_t sides = part.corners().size();
@@ -202,12 +212,30 @@ double SeenOutline::area_through(const FacePart& part) const {
         }
         count = kept;
     }
-    const auto& seen = chains.at(sides % 2);
+    use(view, std::span<const glm::dvec2>(chains.at(sides % 2)).first(count));
+}
+
+double SeenOutline::area_through(const FacePart& part) const {
     double area = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        area += 0.5 * cross(seen.at(k), seen.at((k + 1) % count));
-    }
-    return std::abs(area);
+    clip_to(part, [&](const View&, std::span<const glm::dvec2> seen) { area = area_of(seen); });
+    return area;
+}
+
+SeenOutline::Through SeenOutline::through(const geometry::PropFace& face, const glm::dvec3& point) const {
+    Through result;
+    clip_to(FacePart(face.corners), [&](const View& view, std::span<const glm::dvec2> seen) {
+        const double all = area_of(std::span(outline_).first(count_));
+        result.share = all > 0.0 ? area_of(seen) / all : 0.0;
+        for (const glm::dvec2& at : seen) {
+            const glm::dvec3 ray = view.ray(at);
+            const double towards = -glm::dot(face.plane.normal, ray);
+            if (towards > 0.0) {
+                const glm::dvec3 place = view.eye + face.plane.distance(view.eye) / towards * ray;
+                result.farthest_m = std::fmax(result.farthest_m, glm::distance(place, point));
+            }
+        }
+    });
+    return result;
 }
 
 } // namespace frustumscreen::guidance

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "app/geometry/per_corner.h"
+#include "app/geometry/prop_shape.h"
 
 #include <glm/glm.hpp>
 
@@ -63,8 +64,17 @@ public:
     SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::span<const glm::dvec3> hull);
     /// Area in that picture of what is seen through a part of a face.
     [[nodiscard]] double area_through(const FacePart& part) const;
+    /// The artifact as it is seen through a face.
+    struct Through {
+        double share = 0.0;      ///< of all that the eye sees of it, by area in that picture
+        double farthest_m = 0.0; ///< from a point to the farthest place of the face through which it is seen
+    };
+    [[nodiscard]] Through through(const geometry::PropFace& face, const glm::dvec3& point) const;
 
 private:
+    /// Calls `use` with the picture's plane, and there the corners of what is seen through the part.
+    template <typename Use> void clip_to(const FacePart& part, const Use& use) const;
+
     glm::dvec3 eye_;
     glm::dvec3 forward_;
     std::array<glm::dvec2, 2 * max_corners> outline_; ///< convex, counter-clockwise; `count_` points

@@ -40,11 +40,9 @@ scene::SceneRequest request_of(const settings::Settings& settings, const OpenerO
 
 /// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
 Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& artifact) {
-    // As many corners as a frame has time for; 64 hold a ball with 3 % to spare.
-    constexpr std::size_t max_corners = 64;
     exhibit::CatalogueEntry& entry = artifact.texts.entry;
-    TRY(entry.hull,
-        pack::hull_in(artifact.outline.description, settings::make_prop(settings.prop), max_corners));
+    TRY(entry.hull, pack::hull_in(artifact.outline.description, settings::make_prop(settings.prop),
+                                  scene::max_corners_in_frame));
     if (!settings::shows_zone_frame(settings)) {
         return {};
     }

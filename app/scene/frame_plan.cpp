@@ -282,8 +282,8 @@ void plan_table(const Shared& shared, FramePlan& plan) {
     }
 }
 
-/// All of the prop's faces count, also those without the artifact: the first triangle that comes to show on a
-/// face must not change the brightness of the others.
+/// All of the prop's faces count: the first triangle that comes to show on a face must not make the brightness of
+/// the others jump.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
     if (plan.faces.empty()) {
         return; // the eye or the lens may be inside the prop

@@ -7,10 +7,11 @@
 /// brightness at every place of every face, in every pose and for every eye, and never jumps. Within a face
 /// only d changes, so the gain of a pixel is scale * d^3, exactly.
 ///
-/// Where a face that the eye sees gets less than the reference, no gain can help: the projector is at its
-/// maximum. Then the whole artifact dims with that face, weighted by how much of the face the eye sees, but
-/// not below `min_share`; a face that gets even less dims alone. A face lit at a grazing angle fades out,
-/// because there a pixel becomes a long stripe.
+/// Where a place through which the eye sees the artifact gets less than the reference, no gain can help: the
+/// projector is at its maximum. Then the whole artifact dims with the face's darkest such place, weighted by how
+/// much of the artifact is seen through the face, but not below `min_share`; a face that gets even less dims alone.
+/// Without a known artifact the face's darkest corner counts, weighted by how much of the face the eye sees. A face
+/// lit at a grazing angle fades out, because there a pixel becomes a long stripe.
 ///
 /// Frames   prop P, metres. Light in units of the light on a surface square to the projector at 1 m.
 /// Threads  pure; any.
@@ -22,7 +23,10 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace frustumscreen::scene {
 
@@ -31,7 +35,12 @@ struct LightCompensation {
     double reference = 0.25;
     /// Lower limit for dimming the artifact as a whole, 0..1; 1: it never dims.
     double min_share = 0.3;
+    /// The corners of the hull of the artifact that is shown, prop frame; null: unknown.
+    std::shared_ptr<const std::vector<glm::dvec3>> hull{};
 };
+
+/// As many corners of a hull as a frame has time for; 64 hold a ball with 3 % to spare.
+inline constexpr std::size_t max_corners_in_frame = 64;
 
 /// The exhibit's compensation in this set-up. In the hand an artifact never dims as a whole, because a
 /// visitor need not correct a face that is turned away from the projector.
@@ -47,8 +56,8 @@ struct SeenFace {
     glm::dvec3 eye{0.0};
 };
 /// The light that the faces are dimmed to. `faces` are all of the prop's faces: one that the eye does not see
-/// has no effect, and one that comes into view takes effect gradually, whether or not the artifact shows on
-/// it.
+/// has no effect, and neither has one that shows nothing of a known artifact; one through which some of it comes
+/// into view takes effect gradually.
 [[nodiscard]] double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 

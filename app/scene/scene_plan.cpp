@@ -1,6 +1,7 @@
 #include "app/scene/scene_plan.h"
 
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "app/scene/prop_outline.h"
 #include "app/settings/guided.h"
 
@@ -10,7 +11,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace frustumscreen::scene {
 
@@ -377,6 +380,8 @@ Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::Pac
     plan.visibility = request.visibility;
     if (request.light) {
         plan.light = light_compensation(settings);
+        TRY(std::vector<glm::dvec3> hull, pack::hull_in(pack.description, plan.prop, max_corners_in_frame));
+        plan.light->hull = std::make_shared<const std::vector<glm::dvec3>>(std::move(hull));
         plan.highlight_code = settings.render.highlight_code;
     }
     const double pixel_m =

@@ -1,9 +1,11 @@
 #include "app/show/exhibit_place.h"
 
 #include "app/exhibit/guidance_setup.h"
+#include "app/geometry/picture_planes.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 
+#include <array>
 #include <cmath>
 
 namespace frustumscreen::show {
@@ -13,6 +15,9 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     place.prop = settings::make_prop(settings.prop);
     place.lens_m = settings.projector.table_from_projector.translation;
     place.picture_m = settings::picture_on_table(settings, 0.0);
+    const std::array<geometry::Plane, 4> edges =
+        geometry::picture_planes(settings.projector.pinhole, settings.projector.table_from_projector);
+    place.picture_edges.assign(edges.begin(), edges.end());
     place.attract_place_m = settings::lit_rectangle(settings).centre_m;
     place.buttons = settings.panel.buttons();
     if (settings::guides_visitors(settings)) {

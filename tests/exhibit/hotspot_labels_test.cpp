@@ -1,10 +1,12 @@
 // Labels of hotspots, through the exhibit: shown exactly where a cast ray meets the point.
 
+#include "app/geometry/picture_planes.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -74,11 +76,12 @@ HotspotSet hotspots_of(const Blocks& blocks) {
 }
 
 /// The tellable lists one hotspot more than exist.
-Exhibit make_exhibit(const HotspotSet& set) {
+Exhibit make_exhibit(const HotspotSet& set, const std::vector<geometry::Plane>& picture_edges = {}) {
     const Tellable tellable{{}, std::vector<Nanoseconds>(set.hotspots.size() + 1, std::chrono::seconds(1))};
     CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, {2, tellable}, {}, set};
     ExhibitPlace place = sample::place();
     place.lens_m = {0.0, 0.0, 1.4};
+    place.picture_edges = picture_edges;
     return {{entry}, place, "en", start};
 }
 
@@ -170,6 +173,69 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
     EXPECT_GT(seen, 60);
     EXPECT_GT(turned_away, 60);
     EXPECT_GT(hidden, 20);
+}
+
+/// The point where a ray from outside enters the prop, by bisection from a point inside.
+glm::dvec3 entry_of(const geometry::PropShape& prop, glm::dvec3 outside, glm::dvec3 inside) {
+    for (int halving = 0; halving < 60; ++halving) {
+        const glm::dvec3 middle = 0.5 * (outside + inside);
+        const bool is_inside =
+            std::all_of(prop.bounds.begin(), prop.bounds.end(),
+                        [&](const geometry::Plane& plane) { return plane.distance(middle) <= 0.0; });
+        (is_inside ? inside : outside) = middle;
+    }
+    return inside;
+}
+
+/// At the picture's edge a face that is turned to the lens is lit in part: a label is shown only if the place through
+/// which its point is seen is in the picture.
+TEST(HotspotLabels, AreDarkWhereTheRayEntersThePropBesideThePicture) {
+    const Blocks blocks;
+    const HotspotSet set = hotspots_of(blocks);
+    const geometry::PropShape prop = sample::place().prop;
+    // From 1.4 m above, the picture covers 0.7 x 0.4 m of the table.
+    const geometry::Pinhole pinhole{1400, 800, 2800.0, 2800.0, 700.0, 400.0};
+    const glm::dvec3 lens(0.0, 0.0, 1.4);
+    const auto edges = geometry::picture_planes(pinhole, {glm::dquat(0.0, 1.0, 0.0, 0.0), lens});
+    Shower shower{make_exhibit(set, {edges.begin(), edges.end()})};
+    Shower by_faces{make_exhibit(set)};
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    int shown = 0;
+    int beside = 0;
+    int shown_by_faces = 0; // beside the picture
+    for (int k = 0; k < 400; ++k) {
+        const std::size_t which = static_cast<std::size_t>(k) % set.hotspots.size();
+        shower.tracked_state.table_from_prop = {glm::angleAxis(3.14159 * u(random), glm::dvec3(0, 0, 1)),
+                                                {0.35 * u(random), 0.2 * u(random), 0.0}};
+        shower.tracked_state.eye_m = {0.8 * u(random), 0.8 * u(random), 0.6 + 0.3 * u(random)};
+        by_faces.tracked_state = shower.tracked_state;
+        for (Shower* each : {&shower, &by_faces}) {
+            each->point_out(which);
+            each->wait(milliseconds(1200));
+        }
+        const geometry::RigidTransform& table_from_prop = shower.tracked_state.table_from_prop;
+        const geometry::RigidTransform prop_from_table = table_from_prop.inverse();
+        const glm::dvec3 eye = prop_from_table.point(shower.tracked_state.eye_m);
+        const Hotspot& at = set.hotspots[which].at;
+        if (!(glm::dot(eye - at.point_m, at.normal) > 0.0) ||
+            blocks.meets(eye, at.point_m + tolerance_m * at.normal)) {
+            EXPECT_FALSE(shower.shown.hotspot) << k;
+            continue;
+        }
+        const glm::dvec3 place = table_from_prop.point(entry_of(prop, eye, at.point_m));
+        const double x_px = 2800.0 * place.x / (1.4 - place.z) + 700.0; // the lens looks straight down
+        const double y_px = -2800.0 * place.y / (1.4 - place.z) + 400.0;
+        const bool in_picture = x_px >= 0.0 && x_px <= 1400.0 && y_px >= 0.0 && y_px <= 800.0;
+        const bool turned = looks_through_a_lit_face(prop, eye, prop_from_table.point(lens), at.point_m);
+        EXPECT_FALSE(shower.shown.hotspot && !(in_picture && turned)) << k;
+        beside += turned && !in_picture ? 1 : 0;
+        shown_by_faces += by_faces.shown.hotspot && !in_picture ? 1 : 0;
+        shown += shower.shown.hotspot ? 1 : 0;
+    }
+    EXPECT_GT(beside, 15);
+    EXPECT_GT(shown_by_faces, 10);
+    EXPECT_GT(shown, 60);
 }
 
 /// The label goes dark without a fade, in the very step in which the point turns away.

@@ -116,7 +116,7 @@ Agreement compare(const Mesh& truth, const Mesh& drawn, double tolerance_m, int 
         const auto truly_seen = [&](double tolerance) {
             return cosine > 0.0 && first_hit(truth, eye, way / distance) > distance - tolerance;
         };
-        const bool seen = is_seen(hotspot, eye, prop, all_faces, artifact);
+        const bool seen = is_seen(hotspot, eye, prop, {all_faces}, artifact);
         const bool expected = truly_seen(1e-5);
         (expected ? agreement.seen : agreement.unseen) += 1;
         if (seen != expected) {
@@ -187,9 +187,9 @@ TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
             (farthest > 0.0 ? outside : inside) = middle;
         }
         ASSERT_LT(face, prop.faces.size());
-        EXPECT_TRUE(is_seen(hotspot, eye, prop, 1U << face, nothing));
-        EXPECT_FALSE(is_seen(hotspot, eye, prop, ~(1U << face), nothing));
-        EXPECT_FALSE(is_seen({point, -hotspot.normal}, eye, prop, all_faces, nothing));
+        EXPECT_TRUE(is_seen(hotspot, eye, prop, {1U << face}, nothing));
+        EXPECT_FALSE(is_seen(hotspot, eye, prop, {~(1U << face)}, nothing));
+        EXPECT_FALSE(is_seen({point, -hotspot.normal}, eye, prop, {all_faces}, nothing));
         ++seen;
     }
     EXPECT_EQ(seen, 2000);

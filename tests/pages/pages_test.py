@@ -4,10 +4,12 @@
 """
 
 import json
+import math
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import accepted
@@ -113,12 +115,52 @@ class Teeth(unittest.TestCase):
 
 
 class Zone(unittest.TestCase):
-    """The zone that designers.md promises is the one that the shipped settings give."""
+    """The zones that pages promise are those that the settings give."""
+
+    def lit_zone(self, settings):
+        ran = subprocess.run([BUILD / "bin/frustumscreen", "config", "--config", SOURCE / "config" / settings, "--json"],
+                             capture_output=True, text=True, check=True)
+        return json.loads(ran.stdout)["lit_zone"]
+
+    def size_cm(self, settings):
+        return " x ".join(f"{200 * half:.0f}" for half in self.lit_zone(settings)["whole"]["all_eyes"]["rectangle_half_m"]) + " cm"
+
+    def test_the_wide_zone_is_as_wide_as_promised(self):
+        whole = self.lit_zone("wide.toml")["whole"]
+        for half, least_m in zip(whole["all_eyes"]["rectangle_half_m"], (0.5, 0.25)):
+            self.assertGreaterEqual(2 * half, least_m)
+        self.assertGreaterEqual(whole["artifact_m"][2], 0.12)
+        shipped, wide = self.size_cm("kiosk.toml"), self.size_cm("wide.toml")
+        for name, promised in (("docs/guide/build.md", f"| {shipped} | {wide} |"), ("docs/designers.md", f"the first is {wide} "),
+                               ("docs/measurements.md", f"`wide.toml` | 97 x 60 | {wide[:-3]} |"),
+                               ("config/wide.toml", f"{wide}, in place of {shipped[:-3]},")):
+            self.assertIn(promised, (SOURCE / name).read_text(encoding="utf-8"), name)
+
+    def test_the_built_in_amphora_is_whole_all_over_the_wide_zone(self):
+        lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
+        for step in range(1200):
+            x, y = (step % 5 - 2) * 0.125, (step // 5 % 5 - 2) * 0.0625  # up to the edges of 50 x 25 cm
+            half_yaw, azimuth, elevation = 0.7 * step, 2.4 * step, math.radians(15 + 60 * (step % 4) / 3)
+            away = 0.35 + 0.5 * (step % 3)
+            eye = (x + away * math.cos(elevation) * math.cos(azimuth), y + away * math.cos(elevation) * math.sin(azimuth),
+                   away * math.sin(elevation))
+            for station, numbers in ((1, (x, y, 0, math.cos(half_yaw), 0, 0, math.sin(half_yaw))), (2, (*eye, 1, 0, 0, 0))):
+                lines.append(",".join([f"{100000 * step}", f"{station}", *(f"{number:.6f}" for number in numbers), "1"]))
+        with tempfile.TemporaryDirectory() as folder:
+            poses = pathlib.Path(folder) / "poses.csv"
+            poses.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            losing = {}
+            for settings in ("wide.toml", "kiosk.toml"):
+                ran = subprocess.run([BUILD / "bin/frustumscreen", "guide", "--config", SOURCE / "config" / settings, "--pack",
+                                      BUILD / "kiosk/built_in.fspack", "--poses", poses, "--json"], capture_output=True, text=True, check=True)
+                told = [json.loads(line) for line in ran.stdout.splitlines()]
+                self.assertEqual(len(told), 1200)
+                losing[settings] = [line for line in told if not line["whole"]]
+        self.assertEqual(losing["wide.toml"], [])
+        self.assertGreater(len(losing["kiosk.toml"]), 20)
 
     def test_the_promised_zone_is_the_computed_one(self):
-        ran = subprocess.run([BUILD / "bin/frustumscreen", "config", "--config", SOURCE / "config/kiosk.toml", "--json"],
-                             capture_output=True, text=True, check=True)
-        lit = json.loads(ran.stdout)["lit_zone"]
+        lit = self.lit_zone("kiosk.toml")
         page = (SOURCE / "docs/designers.md").read_text(encoding="utf-8")
         rows = (("for all eyes", lit["whole"]["all_eyes"]), ("for eyes as high as", lit["whole"]["eyes_like_default"]),
                 ("so that every face", lit["any_eye"]))

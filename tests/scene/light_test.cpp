@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <random>
 
 namespace frustumscreen::scene {
@@ -99,6 +103,157 @@ TEST(Light, AFaceThatTheEyeDoesNotSeeCountsForNothing) {
         lit.projector(), {aim, 0.1});
     EXPECT_LT(above, aim);
     EXPECT_GT(above, aim / 1.2) << "it counts in part";
+}
+
+/// A box as the artifact.
+struct BoxArtifact {
+    glm::dvec3 low{-0.05, -0.035, 0.0};
+    glm::dvec3 high{0.05, 0.035, 0.1};
+
+    [[nodiscard]] std::shared_ptr<const std::vector<glm::dvec3>> hull() const {
+        std::vector<glm::dvec3> corners;
+        for (unsigned k = 0; k < 8; ++k) {
+            corners.emplace_back((k & 1U) != 0 ? high.x : low.x, (k & 2U) != 0 ? high.y : low.y,
+                                 (k & 4U) != 0 ? high.z : low.z);
+        }
+        return std::make_shared<const std::vector<glm::dvec3>>(std::move(corners));
+    }
+    /// True if the ray meets the box: the distances at which it is between each pair of sides overlap.
+    [[nodiscard]] bool meets(const glm::dvec3& eye, const glm::dvec3& ray) const {
+        const glm::dvec3 a = (low - eye) / ray;
+        const glm::dvec3 b = (high - eye) / ray;
+        const glm::dvec3 in = glm::min(a, b);
+        const glm::dvec3 out = glm::max(a, b);
+        return std::max({in.x, in.y, in.z}) < std::min({out.x, out.y, out.z});
+    }
+};
+
+/// For each face of the prop: the share of the rays to the artifact that enter through it, and the least light that one
+/// of them meets there. The rays are a grid in the picture of a pinhole at the eye.
+struct RayCast {
+    std::array<double, 5> share{};
+    std::array<double, 5> light{};
+    double darkest = 1e9; ///< of all places through which the artifact is seen
+
+    RayCast(const geometry::PropShape& prop, const BoxArtifact& artifact, const glm::dvec3& eye,
+            const glm::dvec3& lens) {
+        light.fill(1e9);
+        const glm::dvec3 forward = glm::normalize(0.5 * (artifact.low + artifact.high) - eye);
+        const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.1, 0.2, 1.0)));
+        const glm::dvec3 up = glm::cross(right, forward);
+        constexpr int across = 300;
+        const double half = 0.09 / glm::distance(eye, 0.5 * (artifact.low + artifact.high));
+        int rays = 0;
+        for (int k = 0; k < across * across; ++k) {
+            const double x = half * ((k % across + 0.5) / across * 2.0 - 1.0);
+            const double y = half * ((std::floor(k / across) + 0.5) / across * 2.0 - 1.0);
+            const glm::dvec3 ray = forward + x * right + y * up;
+            if (!artifact.meets(eye, ray)) {
+                continue;
+            }
+            ++rays;
+            // The last of the planes that the ray passes from outside.
+            double t = -1.0;
+            std::size_t face = 0;
+            for (std::size_t each = 0; each < prop.faces.size(); ++each) {
+                const geometry::Plane& plane = prop.faces[each].plane;
+                const double at = -plane.distance(eye) / glm::dot(plane.normal, ray);
+                if (plane.distance(eye) > 0.0 && at > t) {
+                    t = at;
+                    face = each;
+                }
+            }
+            const glm::dvec3 to_lens = lens - (eye + t * ray);
+            const double received =
+                glm::dot(prop.faces[face].plane.normal, to_lens) / std::pow(glm::length(to_lens), 3.0);
+            share.at(face) += 1.0;
+            light.at(face) = std::min(light.at(face), received);
+            darkest = std::min(darkest, received);
+        }
+        for (double& each : share) {
+            each /= rays;
+        }
+    }
+};
+
+/// A random eye and place of the shipped prop, up to the table's edges.
+struct Pose {
+    glm::dvec3 eye{0.0};  ///< prop frame
+    glm::dvec3 lens{0.0}; ///< prop frame
+
+    explicit Pose(std::mt19937& random) {
+        std::uniform_real_distribution<double> u(-1.0, 1.0);
+        const geometry::RigidTransform table_from_prop{
+            glm::angleAxis(std::numbers::pi * u(random), glm::dvec3(0, 0, 1)),
+            {0.29 * u(random), 0.14 * u(random), 0.0}};
+        lens = table_from_prop.inverse().point({0.0, 0.0, 1.5});
+        const double azimuth = std::numbers::pi * u(random);
+        const double elevation = 0.8 + 0.5 * u(random);
+        eye = (0.75 + 0.35 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
+                                                     std::cos(elevation) * std::sin(azimuth),
+                                                     std::sin(elevation));
+    }
+};
+
+/// The rays decide: the artifact dims for the places through which rays to it enter, and not for dark corners.
+TEST(Light, AKnownArtifactDimsWithThePlacesThroughWhichRaysMeetIt) {
+    const settings::Settings shipped;
+    const geometry::PropShape prop = settings::make_prop(shipped.prop);
+    const BoxArtifact artifact;
+    LightCompensation by_faces{settings::even_light(shipped), 0.3};
+    LightCompensation by_artifact = by_faces;
+    by_artifact.hull = artifact.hull();
+    std::mt19937 random(7);
+    int other = 0;
+    int dimmed = 0;
+    for (int k = 0; k < 150; ++k) {
+        const Pose pose(random);
+        // The shipped light reaches nearly every place that is seen; half of the poses want more.
+        by_faces.reference = by_artifact.reference = (k % 2 == 0 ? 1.0 : 1.7) * settings::even_light(shipped);
+        const double faces = reference_light(all_faces(prop, pose.eye), pose.lens, by_faces);
+        const double seen = reference_light(all_faces(prop, pose.eye), pose.lens, by_artifact);
+        const RayCast rays(prop, artifact, pose.eye, pose.lens);
+        double expected = 1.0;
+        for (std::size_t face = 0; face < prop.faces.size(); ++face) {
+            const double reached = std::clamp(rays.light.at(face) / by_artifact.reference, 0.3, 1.0);
+            expected = std::min(expected, std::pow(reached, std::min(1.0, 4.0 * rays.share.at(face))));
+        }
+        EXPECT_NEAR(seen / by_artifact.reference, expected, 0.005) << k;
+        if (rays.darkest >= by_artifact.reference) {
+            EXPECT_EQ(seen, by_artifact.reference) << k << ": each ray gets the light that is aimed at";
+            other += faces < 0.99 * by_artifact.reference ? 1 : 0;
+        }
+        dimmed += expected < 0.99 ? 1 : 0;
+    }
+    EXPECT_GT(other, 10) << "by its corners a face would have dimmed the artifact";
+    EXPECT_GT(dimmed, 20);
+}
+
+/// A step of a tenth of a millimetre changes the light by at most a thousandth, also while the artifact comes to show
+/// on another face.
+TEST(Light, AKnownArtifactDimsGraduallyAsTheEyeMoves) {
+    const Lit lit; // a steep prop: its sides get a third of the top's light
+    const double aim = 0.9 * settings::received_light(lit.prop.faces[4].plane, {0, 0, 0.12}, lit.projector());
+    BoxArtifact artifact;
+    artifact.low = {-0.04, -0.04, 0.0};
+    artifact.high = {0.04, 0.04, 0.1};
+    const LightCompensation compensation{aim, 0.3, artifact.hull()};
+    double before = -1.0;
+    double least = 1.0;
+    double most = 0.0;
+    for (int step = 0; step <= 18'000; ++step) { // over the prop, from low before it to low behind it
+        const double turn = 1e-4 * step / 0.6;
+        const glm::dvec3 eye(0.01, -0.6 * std::cos(turn), 0.06 + 0.6 * std::sin(turn));
+        const double share = reference_light(all_faces(lit.prop, eye), lit.projector(), compensation) / aim;
+        if (before >= 0.0) {
+            EXPECT_LT(std::abs(share - before), 1e-3) << step;
+        }
+        least = std::min(least, share);
+        most = std::max(most, share);
+        before = share;
+    }
+    EXPECT_LT(least, 0.5);
+    EXPECT_GT(most, 0.9) << "from above the artifact is seen through the top";
 }
 
 TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {

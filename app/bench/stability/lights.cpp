@@ -3,10 +3,12 @@
 #include "app/bench/stability/themes.h"
 #include "app/scene/light.h"
 #include "app/settings/light_range.h"
+#include "app/settings/whole_zone.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -34,7 +36,9 @@ public:
     explicit Table(const settings::Settings& settings)
         : projector_(settings.projector), prop_(settings::make_prop(settings.prop)),
           compensation_(scene::light_compensation(settings)), eye_(settings.eye),
-          reach_m_(settings::reach_on_table(settings.prop, settings.table)) {}
+          reach_m_(settings::reach_on_table(settings.prop, settings.table)) {
+        compensation_.hull = std::make_shared<const std::vector<glm::dvec3>>(settings::usual_artifact(prop_));
+    }
 
     [[nodiscard]] Pose random_pose(std::mt19937& random) const {
         std::uniform_real_distribution<double> share(-1.0, 1.0);

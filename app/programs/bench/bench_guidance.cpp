@@ -21,7 +21,7 @@ struct Arguments {
 using NamedSetups = std::vector<std::pair<std::string, guidance::GuidanceSetup>>;
 NamedSetups without_and_with_artifact(const std::string& name, const settings::Settings& settings) {
     NamedSetups setups{{name, exhibit::guidance_setup(settings)},
-                       {name + ", an artifact in it", exhibit::guidance_setup(settings)}};
+                       {name + " with an artifact", exhibit::guidance_setup(settings)}};
     setups.back().second.hull = settings::usual_artifact(setups.back().second.prop);
     return setups;
 }
