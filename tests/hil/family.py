@@ -18,7 +18,7 @@ PATIENCE_S = 10.0  # for a process that was told to end, before it is killed
 
 
 class Ended(KeyboardInterrupt):
-    """A signal asks for the end."""
+    """Raised when a signal asks the program to end."""
 
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
@@ -30,7 +30,7 @@ def _raise_ended(number, _frame):
 
 
 def descendants():
-    """The process numbers of all living descendants, orphans too, because the subreaper gets them."""
+    """The process numbers of all living descendants, including orphans, which the subreaper adopts."""
     children = {}
     for file in pathlib.Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):

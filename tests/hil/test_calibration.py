@@ -31,7 +31,7 @@ PLACES = (((0.0, 0.0, 0.0), 0.0), ((0.07, 0.03, 0.0), 0.5), ((-0.08, -0.02, 0.0)
 
 
 class Calibration(HilTest):
-    # So many crosses, because aiming counts by the pixel, and pixels are large here: 1.25 mm.
+    # This many crosses, because aiming is as exact as a pixel, and pixels are large here: 1.25 mm.
     settings = USUAL + f"\n[calibration]\nsensor_height_m = {SENSOR_M}\ntouches = 25\n"
     after = f"rm -rf {FOLDER}/*"  # the other tests' table is as their settings say
     truth = TrueTable(WIDTH, 0.4)
@@ -79,7 +79,7 @@ class Calibration(HilTest):
         self.hears("Staff: measure the whole table", 3 * START_S)  # crosses are chosen first
 
     def hold(self, buttons, until):
-        """As a person does: until the table answers. A slow machine sees the buttons late."""
+        """Holds the button until the table answers, as a person does. A slow machine notices the button late."""
         for button in buttons:
             self.bench.buttons.tell("hold", button)
         try:
@@ -96,7 +96,7 @@ class Calibration(HilTest):
         self.bench.buttons.tell("press", button, "300ms")
 
     def touch(self, crosses, before):
-        """Lays the prop on one cross after the other. `before`: touches that were made already."""
+        """Lays the prop on each cross in turn. `before`: the number of earlier touches."""
         for number, cross in enumerate(crosses, before + 1):
             self.hears(f"Touch {number} of {before + len(crosses)} Lay")
             self.assert_lit(cross["u_px"], cross["v_px"])
@@ -108,7 +108,7 @@ class Calibration(HilTest):
         self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
 
     def hears(self, words, timeout_s=START_S):
-        """Waits until the table says so; the journal has its words, and now and then a line on a device."""
+        """Waits until the table shows these words. The journal has the table's words, and sometimes a line about a device."""
         said = [""]
 
         def is_said():
@@ -127,7 +127,7 @@ class Calibration(HilTest):
     # The truth.
 
     def crosses(self):
-        """Those that the kiosk shows, first and if the verdict asks for more: they follow from its settings alone."""
+        """The crosses that the kiosk shows, the first ones and the further ones: its settings alone determine them."""
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
             config.write_text(self.settings, encoding="utf-8")
