@@ -1,4 +1,4 @@
-/// Leaves the table of a test that measures, for `frustumscreen-bench report`: in the folder that FRUSTUMSCREEN_FIGURES
+/// Writes the table of a test that measures, for `frustumscreen-bench report`, into the folder that FRUSTUMSCREEN_FIGURES
 /// names. Without that variable nothing is written.
 #pragma once
 

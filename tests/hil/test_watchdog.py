@@ -102,7 +102,7 @@ class Watchdog(HilTest):
         machine = self.bench.machine
         self.show("nautilus-cup")
         eventually(lambda: machine.read(LAST_GOOD) == USUAL, BACK_S, "good settings are not kept")
-        # END removes the watchdog's folder, and with it the mode.
+        # When the watchdog stops, systemd removes its folder, and with it the mode.
         self.addCleanup(machine.run, f"{END}; systemctl restart --no-block {UNIT}")
         self.addCleanup(machine.write, SETTINGS, USUAL)
         machine.write(SETTINGS, SPOILT)
@@ -131,7 +131,7 @@ class Watchdog(HilTest):
     def test_driver_that_crashes_at_each_start(self):
         """Plain drawing shows the museum's own set, and the place of the crash is reported and kept."""
         machine = self.bench.machine
-        # END removes the watchdog's folder, and with it the mode.
+        # When the watchdog stops, systemd removes its folder, and with it the mode.
         self.addCleanup(machine.run, f"{END}; rm -f /run/hil/crash-driver; rm -rf {CRASHES}; systemctl restart --no-block {UNIT}")
         machine.check("touch /run/hil/crash-driver")
         self.broken()

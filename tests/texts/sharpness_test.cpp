@@ -155,7 +155,8 @@ TEST_F(Sharpness, letters_are_those_that_freetype_draws) {
     }
 }
 
-// Leaves the table `texts` of docs/measurements.md (docs/bench.md says how).
+// Writes the table `texts` of docs/measurements.md: `ctest -C long -R texts_figures`, with FRUSTUMSCREEN_FIGURES
+// (docs/bench.md).
 TEST_F(Sharpness, DISABLED_figures) {
     std::string csv = "language,texels_per_em,spread_texels,atlas_bytes,rms_at_20_px,worst_at_20_px,"
                       "sharpness_at_20_px,rms_at_60_px,worst_at_60_px,sharpness_at_60_px\n";

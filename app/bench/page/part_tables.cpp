@@ -85,7 +85,7 @@ Result<TableCells> text_rows(std::span<const MeasuredRun> runs) {
     return rows;
 }
 
-/// The figure of a use of the frames in `rows`, with that many decimals; empty if it was not measured, or is none.
+/// The figure in `column` with one decimal, times `factor`; empty if it was not measured or is 0.
 Result<std::string> camera_cell(const CsvTable& table, const std::vector<std::size_t>& rows,
                                 std::string_view column, double factor, const char* unit) {
     if (rows.empty()) {
