@@ -8,6 +8,7 @@
 #include "app/bench/setup/zones_by_throw.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -319,6 +320,26 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
     put("bakes/star/bakes.csv", bakes_csv({&bake, 1}));
     expect_table("bakes", "| model | levels | processor s | memory MB | pack MB |\n|---|---|---|---|---|\n"
                           "| star | 3 | 1.5 | 2 | 0.25 |\n");
+}
+
+/// No table of docs/measurements.md is written by hand, and none is missing there.
+TEST(ReportTables, ThePageHasAllOfThemAndNoOther) {
+    const std::string page = text_of(source_dir() + "/docs/measurements.md");
+    const auto marked = marked_tables(page, "measurements.md");
+    ASSERT_TRUE(marked) << marked.error().message;
+    std::set<std::string> on_page, known;
+    for (const MarkedTable& table : *marked) {
+        on_page.insert(table.name);
+    }
+    for (const ReportTable& table : all_report_tables()) {
+        known.insert(table.name);
+    }
+    EXPECT_EQ(on_page, known);
+    for (std::size_t row = page.find("\n|"); row != std::string::npos; row = page.find("\n|", row + 1)) {
+        EXPECT_TRUE(std::any_of(marked->begin(), marked->end(), [row](const MarkedTable& table) {
+            return table.begin <= row + 1 && row + 1 < table.end;
+        })) << page.substr(row + 1, 60);
+    }
 }
 
 TEST(ReportTables, NamesAreThoseOfOneTableEach) {
