@@ -1,7 +1,7 @@
 /// The tables of docs/measurements.md that `frustumscreen-bench report` writes, each from the CSV files that one
 /// command or test left in a folder.
 ///
-/// Cost     in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
+/// Cost     of a picture: in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
 /// Threads  pure; any.
 /// Errors   of csv_table.h.
 #pragma once
