@@ -6,8 +6,8 @@
 /// Frames   the prop's: origin at the middle of its bottom, +Z up; the sheet is the plane z = 0, its upper
 ///          side the prop's back (+Y).
 /// Units    metres.
-/// Layout   ten tags as large as the room allows, 5 cm at most: in a ring around the prop, or, where there is
-///          no room in front of the prop and behind it, in two columns beside it.
+/// Layout   ten tags as large as the space allows, 5 cm at most: in a ring around the prop, or, where there is
+///          no space in front of the prop and behind it, in two columns beside it.
 /// Errors   one sentence: the prop is too large or too small for the sheet.
 /// Threads  pure; any.
 #pragma once

@@ -4,7 +4,7 @@
 ///          block heights and turns are exchanged while the mean variance over the zone falls. A rough model
 ///          is enough: the information of a cross hardly depends on the projector's exact position.
 /// Reach    The prop stands on the table, or on boards that stand on it, so its middle stays half its width
-///          away from the table's edges. If a table has no room for that, the crosses still spread over a
+///          away from the table's edges. If a table has no space for that, the crosses still spread over a
 ///          tenth of the picture's width, and the prop hangs over the edge.
 /// Threads  pure; any.
 #pragma once

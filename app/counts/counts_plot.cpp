@@ -159,7 +159,7 @@ void draw_figures(Sheet& sheet, const CountsSummary& summary) {
     }
 }
 
-/// Draws names of months, and of days if there is room for them.
+/// Draws names of months, and of days if there is space for them.
 void draw_days(Sheet& sheet, const Grid& grid) {
     double free_from = 0.0;
     const bool names_days = grid.column > 4.0;

@@ -4,7 +4,7 @@
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: a sign or a sentence without room is not shown.
+/// Errors   none: a sign or a sentence without space is not shown.
 #pragma once
 
 #include "app/exhibit/advice_sign.h"

@@ -27,7 +27,7 @@ constexpr double arc_half_angle = 0.62;
 constexpr double arc_half_width_m = 0.006;
 constexpr double arc_head_m = 0.018;
 
-/// The arc's picture lies below its centre: from the lowest point of the arc up to its ends, with room for the head.
+/// The arc's picture lies below its centre: from the lowest point of the arc up to its ends, with space for the head.
 constexpr double arc_low_m = -arc_radius_m - arc_head_m;
 const double arc_high_m = -arc_radius_m * std::cos(arc_half_angle) + 1.6 * arc_head_m;
 const double arc_half_m = arc_radius_m * std::sin(arc_half_angle) + 1.6 * arc_head_m;
@@ -187,7 +187,7 @@ bool clear_of(const typography::TablePolygon& shadow, const std::array<glm::dvec
     return typography::clearance(ordered, shadow.corners()) > 0.0;
 }
 
-/// The place of an arrow: in front of the prop, or farther along the way if there is room; otherwise beside the prop.
+/// The place of an arrow: in front of the prop, or farther along the way if there is space; otherwise beside the prop.
 std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ahead, double phase,
                                     const typography::TablePolygon& shadow,
                                     std::span<const glm::dvec2> area) {
@@ -219,7 +219,7 @@ bool inside(std::span<const glm::dvec2> area, const std::array<glm::dvec2, 4>& c
     return true;
 }
 
-/// The place of an arc around the shadow, on the reader's side if there is room.
+/// The place of an arc around the shadow, on the reader's side if there is space.
 std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise, double phase,
                                   const typography::TablePolygon& shadow, std::span<const glm::dvec2> area,
                                   double readers_angle) {

@@ -1,7 +1,7 @@
 /// Guidance as a picture on the table: a sign beside the prop that needs no words and moves calmly.
 ///
 /// An arrow glides in the direction in which the prop should go; an arc turns beside it; a leaning prop stands up.
-/// The sign lies outside the prop's shadow and inside the projector's picture. Without room it is not shown.
+/// The sign lies outside the prop's shadow and inside the projector's picture. Without space it is not shown.
 ///
 /// Frames   table T, metres; pictures have row 0 at the top, coverage 255 = white, linear light.
 /// Time     a closed form of the time since the advice began.

@@ -3,7 +3,7 @@
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: a caption without room is not shown.
+/// Errors   none: a caption without space is not shown.
 #pragma once
 
 #include "app/exhibit/catalogue.h"

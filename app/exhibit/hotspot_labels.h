@@ -7,7 +7,7 @@
 /// Frames   as named; metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: a label without room, or without a way for its line, is not shown.
+/// Errors   none: a label without space, or without a way for its line, is not shown.
 #pragma once
 
 #include "app/exhibit/leader_line.h"

@@ -1,16 +1,16 @@
 /// The place of a notice on the table: beside the prop and beside everything shown to visitors, to which it gives
 /// way.
 ///
-/// A notice fades in at the best place, stays while it has room, and fades out before the next one. After losing its
-/// place it returns once it has had room for half a second, so that a sliding prop does not make it appear and
+/// A notice fades in at the best place, stays while it has space, and fades out before the next one. After losing its
+/// place it returns once it has had space for half a second, so that a sliding prop does not make it appear and
 /// vanish. It prefers a place beside everything else; then the place of a picture to choose that is not shown; then
 /// the caption's place, where the caption dims meanwhile. Pictures to choose from, words and signs of guidance are
-/// never covered: a notice waits until there is room.
+/// never covered: a notice waits until there is space.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
-/// Errors   none: without room, nothing is shown.
+/// Errors   none: without space, nothing is shown.
 #pragma once
 
 #include "app/exhibit/notice_image.h"
@@ -66,7 +66,7 @@ private:
 
     typography::CaptionPlacer placer_;
     SharedNotice lies_; ///< the one that the placer holds
-    /// Things that the notice must not overlap. If there is no room, the next value is tried.
+    /// Things that the notice must not overlap. If there is no space, the next value is tried.
     enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
     Beside beside_ = Beside::All;
     double share_ = 0.0; ///< of its light; falls while another is wanted

@@ -3,7 +3,7 @@
 /// A change of artifact fades the old one out and the new one in (app/exhibit/fade.h); a change of language fades
 /// only the caption. A change requested during a fade-in begins after it, and a caption never fades in the middle of
 /// an artifact's fade, nor an artifact in the middle of a caption's: changes are at least 0.5 s apart, whatever is
-/// pressed. The picture therefore flashes at most twice a second, which leaves room for the staff picture to come and
+/// pressed. The picture therefore flashes at most twice a second, which leaves time for the staff picture to come and
 /// go. WCAG 2.3.1 and ITU-R BT.1702 allow three flashes, to protect photosensitive people. A press still shows at
 /// once: either the picture dims, or it is already changing.
 ///

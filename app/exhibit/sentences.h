@@ -5,7 +5,7 @@
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `find` and `place` allocate nothing.
-/// Errors   none: an unknown key, or a sentence without room, shows nothing.
+/// Errors   none: an unknown key, or a sentence without space, shows nothing.
 #pragma once
 
 #include "app/typography/captions.h"

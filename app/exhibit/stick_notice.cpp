@@ -80,7 +80,7 @@ std::vector<WordCount> count_words(const std::vector<const library::ImportedPack
     return counts;
 }
 
-/// As many single packs as leave room for the combined lines.
+/// As many single packs as leave space for the combined lines.
 std::vector<NoticeLine> lines_of(const library::ImportReport& report, std::size_t most) {
     std::vector<const library::ImportedPack*> packs;
     for (const library::ImportedPack& pack : report.packs) {

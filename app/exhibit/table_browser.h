@@ -8,7 +8,7 @@
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. The constructor lays out all four sides; `step` allocates nothing.
-/// Errors   none: a table without room shows nothing.
+/// Errors   none: a table without space shows nothing.
 #pragma once
 
 #include "app/exhibit/dwell.h"

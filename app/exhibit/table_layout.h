@@ -7,11 +7,11 @@
 /// on the table moves a place.
 ///
 /// Method   all pictures have one size. They lie in even rows, symmetric about the line from the reader to the prop
-///          (table_places.h), unless an asymmetric page has room for half as many again. The most artifacts on a page
+///          (table_places.h), unless an asymmetric page has space for half as many again. The most artifacts on a page
 ///          take priority, then the larger pictures.
 /// Frames   table T, metres.
 /// Threads  pure; any. `lay_out_table` takes some milliseconds and allocates: before the first frame, for each side.
-/// Errors   none: a table without room has no places.
+/// Errors   none: a table without space has no places.
 #pragma once
 
 #include "app/geometry/prop_shape.h"

@@ -28,7 +28,7 @@
 
 namespace frustumscreen::guidance {
 
-/// The environment of guidance: the prop, its light and its room to move.
+/// The environment of guidance: the prop, its light and its space to move.
 struct GuidanceSetup {
     geometry::PropShape prop;
     geometry::Pinhole projector;

@@ -20,7 +20,7 @@ constexpr std::size_t cells = std::size_t{relief::block_cells} * relief::block_c
 constexpr std::uint64_t bytes_of_block =
     corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4);
 
-/// Side of the smallest square with room for `count` elements; at least 1.
+/// Side of the smallest square with space for `count` elements; at least 1.
 int side_of(std::size_t count) {
     return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
 }

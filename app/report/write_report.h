@@ -1,11 +1,11 @@
 /// Writes the files of a report into a folder of their own on a stick.
 ///
-/// Order    the room for all is looked for first. Each file is written under another name, synced and renamed; the
+/// Order    the space for all is looked for first. Each file is written under another name, synced and renamed; the
 ///          folder is synced last. Whenever the stick is pulled out, each file that has its name is whole.
 /// Large    files are copied piece by piece from another folder, after the texts.
 /// Others   no name is touched that the folder has already.
 /// Threads  one caller.
-/// Errors   one sentence for the table: no room, write-protected, pulled out.
+/// Errors   one sentence for the table: no space, write-protected, pulled out.
 #pragma once
 
 #include "app/library/import_failure.h"

@@ -22,7 +22,7 @@ scene::SceneRequest request_of(const settings::Settings& settings, const OpenerO
                                const pack::PackOutline& outline) {
     scene::SceneRequest request;
     request.technique = options.technique;
-    request.room = options.samples;
+    request.sample_headroom = options.samples;
     request.cull_kinds = options.cull_kinds;
     request.max_blocks_on_gpu = options.max_blocks_on_gpu;
     request.visibility = scene::visibility_of(settings);

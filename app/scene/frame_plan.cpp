@@ -141,7 +141,7 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
 
-/// Returns false if the plan has no room for it.
+/// Returns false if the plan has no space for it.
 bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
     if (plan.relief_draw_count == plan.relief_draws.size()) {
         return false;

@@ -60,7 +60,7 @@ std::int64_t LitTiles::pixels() const {
     return sum;
 }
 
-/// Joins the run to an equal run in the row above; returns false if there is no room.
+/// Joins the run to an equal run in the row above; returns false if there is no space.
 bool LitTiles::add(const PixelRectangle& run) {
     const PixelRectangle inside = intersected(run, bounds_);
     for (std::size_t k = 0; k < count_; ++k) {

@@ -218,8 +218,8 @@ int samples_of(const SceneRequest& request, const QualityLevel& quality_level) {
     if (quality_level.relief && !quality_level.on_gpu) {
         return 1;
     }
-    const bool has_headroom = request.live && request.room > 1;
-    return has_headroom ? request.room : std::max(quality_level.samples, request.room);
+    const bool has_headroom = request.live && request.sample_headroom > 1;
+    return has_headroom ? request.sample_headroom : std::max(quality_level.samples, request.sample_headroom);
 }
 
 void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {

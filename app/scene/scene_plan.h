@@ -71,10 +71,9 @@ struct SceneRequest {
     std::uint32_t max_blocks_on_gpu = 0;
     bool light = true;
     int samples = 0; ///< a pixel; 0 = what the pack asks for
-    /// Sample headroom: samples a pixel that the render target can hold wherever the prop stands; a smaller
-    /// part of the picture may take more. Without headroom (1), and for pictures from poses, the target holds
-    /// what the pack asks for.
-    int room = 1;
+    /// Samples a pixel that the render target can hold wherever the prop stands; a smaller part of the picture
+    /// may take more. Without headroom (1), and for pictures from poses, the target holds what the pack asks for.
+    int sample_headroom = 1;
     unsigned cull_kinds = AllCullKinds;
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can reach
     bool table_pictures = false;       ///< other artifacts lie on the table

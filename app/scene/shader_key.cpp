@@ -70,7 +70,7 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     RenderNeeds both{.samples = std::max(a.samples, b.samples),
                      .draws = a.draws,
                      .relief_draws = std::max(a.relief_draws, b.relief_draws)};
-    if (a.samples <= 1 || b.samples <= 1) { // one sample needs no room
+    if (a.samples <= 1 || b.samples <= 1) { // one sample needs no space
         both.outline = a.samples > 1 ? a.outline : b.outline;
     } else if (a.outline && b.outline) {
         both.outline = united(*a.outline, *b.outline);

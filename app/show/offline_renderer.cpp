@@ -34,7 +34,7 @@ Result<scene::ScenePlan> plan_offline(const OfflineSetup& setup, const pack::Pac
     request.live = false;
     request.light = options.light;
     request.samples = samples_of(options, pack.description);
-    request.room = render::default_samples;
+    request.sample_headroom = render::default_samples;
     request.cull_kinds = options.cull_kinds;
     if (!options.views.empty()) {
         request.visibility = scene::visibility_of(settings, options.views);

@@ -95,7 +95,7 @@ public:
                                                   const exhibit::Presentation& presentation,
                                                   const glm::dvec3& eye_m, const render::RenderTarget& target,
                                                   render::Redraw redraw) = 0;
-    /// As in Show; the caller has checked that the mark has room.
+    /// As in Show; the caller has checked that the mark has space.
     virtual void set_mark(const std::optional<drift::ShownMark>& /*mark*/) {}
     /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}

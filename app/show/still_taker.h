@@ -36,7 +36,7 @@ private:
     display::Display& display_;
     std::optional<Nanoseconds> length_;
     MonotonicTime start_;
-    std::vector<Still> stills_; ///< room for all of them
+    std::vector<Still> stills_; ///< space for all of them
     std::size_t taken_ = 0;
 };
 

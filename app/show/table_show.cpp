@@ -229,7 +229,7 @@ void TableShow::place_card(const exhibit::PlacedPicture& placed, const exhibit::
     }
 }
 
-/// `within`: in the middle of the square, if there is room; otherwise below it.
+/// `within`: in the middle of the square, if there is space; otherwise below it.
 void TableShow::place_title(const exhibit::PlacedPicture& placed, const Title& title, bool within,
                             double brightness, residency::OnTable& on_table) const {
     const typography::TableRectangle& square = placed.place.picture;

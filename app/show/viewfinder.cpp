@@ -48,13 +48,13 @@ Walk walk_of(const glm::ivec2& frame, int quarter_turns) {
 
 } // namespace
 
-glm::ivec2 viewfinder_room(const geometry::Pinhole& projector) {
+glm::ivec2 viewfinder_area_px(const geometry::Pinhole& projector) {
     return {std::min(Viewfinder::max_width, projector.width / 3),
             std::min(Viewfinder::max_height, projector.height * 3 / 10)};
 }
 
 Viewfinder::Viewfinder(const settings::Settings& settings)
-    : Viewfinder(viewfinder_room(settings.projector.pinhole), turns_of(settings)) {}
+    : Viewfinder(viewfinder_area_px(settings.projector.pinhole), turns_of(settings)) {}
 
 void Viewfinder::use(const camera::CameraFrame& frame) {
     if (!wanted_.load(std::memory_order_relaxed)) {
@@ -66,7 +66,7 @@ void Viewfinder::use(const camera::CameraFrame& frame) {
     }
     const bool lies = quarter_turns_ % 2 != 0;
     const glm::ivec2 turned(lies ? frame.height : frame.width, lies ? frame.width : frame.height);
-    const glm::ivec2 squares = (turned + room_ - 1) / room_;
+    const glm::ivec2 squares = (turned + area_px_ - 1) / area_px_;
     const int by = std::max({1, squares.x, squares.y});
     size_ = turned / by;
     shrink(frame, by);
@@ -112,9 +112,9 @@ bool Viewfinder::take(image::Image8& picture) {
         return false;
     }
     changed_ = false;
-    const glm::ivec2 corner((room_.x - size_.x) / 2, room_.y - size_.y);
-    for (int y = 0; y < room_.y; ++y) {
-        for (int x = 0; x < room_.x; ++x) {
+    const glm::ivec2 corner((area_px_.x - size_.x) / 2, area_px_.y - size_.y);
+    for (int y = 0; y < area_px_.y; ++y) {
+        for (int x = 0; x < area_px_.x; ++x) {
             const glm::ivec2 at = glm::ivec2(x, y) - corner;
             const bool is_frame = at.x >= 0 && at.y >= 0 && at.x < size_.x && at.y < size_.y;
             const std::uint8_t code =

@@ -23,29 +23,30 @@
 namespace frustumscreen::show {
 
 /// The largest part of a projector's picture that it takes, in pixels.
-[[nodiscard]] glm::ivec2 viewfinder_room(const geometry::Pinhole& projector);
+[[nodiscard]] glm::ivec2 viewfinder_area_px(const geometry::Pinhole& projector);
 
 class Viewfinder {
 public:
     static constexpr int max_width = 320, max_height = 240;
 
-    /// `room`: in pixels, after the turn. `quarter_turns`: of the frame, clockwise.
-    Viewfinder(const glm::ivec2& room, int quarter_turns) : room_(room), quarter_turns_(quarter_turns) {}
+    /// `area_px`: the largest size of the picture, after the turn. `quarter_turns`: of the frame, clockwise.
+    Viewfinder(const glm::ivec2& area_px, int quarter_turns)
+        : area_px_(area_px), quarter_turns_(quarter_turns) {}
     explicit Viewfinder(const settings::Settings& settings);
 
     void use(const camera::CameraFrame& frame);
 
     /// Call in every frame.
     void want(bool wanted);
-    /// Draws the latest frame into the upper part of `picture`, which is as wide as the room and at least as high:
-    /// the frame at the middle of the room's lower edge, black around it. False: nothing has changed since the last
+    /// Draws the latest frame into the upper part of `picture`, which is as wide as the area and at least as high:
+    /// the frame at the middle of the area's lower edge, black around it. False: nothing has changed since the last
     /// call.
     [[nodiscard]] bool take(image::Image8& picture);
 
 private:
     void shrink(const camera::CameraFrame& frame, int by);
 
-    glm::ivec2 room_;
+    glm::ivec2 area_px_;
     int quarter_turns_;
     std::atomic<bool> wanted_{false};
     bool wiped_ = true; ///< used by the render thread only

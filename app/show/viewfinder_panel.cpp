@@ -28,9 +28,9 @@ std::string viewfinder_line(const RunStatus& status) {
 }
 
 ViewfinderPanel::ViewfinderPanel(const geometry::Pinhole& projector)
-    : room_(viewfinder_room(projector)),
-      place_(glm::ivec2(projector.width, projector.height) - room_ - glm::ivec2(0, line_px) - margin_px),
-      picture_(room_.x, room_.y + line_px, black), upload_(picture_.width, picture_.height) {}
+    : area_px_(viewfinder_area_px(projector)),
+      place_(glm::ivec2(projector.width, projector.height) - area_px_ - glm::ivec2(0, line_px) - margin_px),
+      picture_(area_px_.x, area_px_.y + line_px, black), upload_(picture_.width, picture_.height) {}
 
 void ViewfinderPanel::set_line(std::string line, const typography::Typesetter& typesetter) {
     if (line == line_) {
@@ -40,10 +40,10 @@ void ViewfinderPanel::set_line(std::string line, const typography::Typesetter& t
     line_is_new_ = true;
     const std::array paragraphs{typography::Paragraph{
         .text = line_, .em_px = em_px, .bold = false, .brightness = 1.0, .space_before_px = 0.0}};
-    typography::Canvas canvas(image::Image8(room_.x, line_px, black));
-    canvas.coverage(typesetter.set(paragraphs, room_.x - 8.0), {4, 4}, typography::Colour(255));
+    typography::Canvas canvas(image::Image8(area_px_.x, line_px, black));
+    canvas.coverage(typesetter.set(paragraphs, area_px_.x - 8.0), {4, 4}, typography::Colour(255));
     std::copy(canvas.image().texels.begin(), canvas.image().texels.end(),
-              picture_.texels.begin() + static_cast<std::ptrdiff_t>(room_.x) * room_.y);
+              picture_.texels.begin() + static_cast<std::ptrdiff_t>(area_px_.x) * area_px_.y);
 }
 
 bool ViewfinderPanel::follow(Viewfinder& viewfinder) {
@@ -59,7 +59,7 @@ bool ViewfinderPanel::follow(Viewfinder& viewfinder) {
 
 void ViewfinderPanel::forget() {
     if (has_seen_) {
-        std::fill_n(picture_.texels.begin(), static_cast<std::ptrdiff_t>(room_.x) * room_.y, black);
+        std::fill_n(picture_.texels.begin(), static_cast<std::ptrdiff_t>(area_px_.x) * area_px_.y, black);
         upload_.put(picture_);
         has_seen_ = false;
     }

@@ -34,7 +34,7 @@ public:
     void show(unsigned framebuffer) { upload_.show_again(framebuffer, place_); }
 
 private:
-    glm::ivec2 room_;
+    glm::ivec2 area_px_;
     glm::ivec2 place_;      ///< of its upper left corner in the projector's picture
     image::Image8 picture_; ///< the camera's picture above, the line below
     render::PictureUpload upload_;

@@ -212,9 +212,10 @@ void drawing_fields(auto& fields, auto& status) {
     fields.field("technique", status.technique,
                  "as asked for: `auto`, `finest`, `level0`, ..., `relief`, `relief96`, ..., `relief-gpu`, "
                  "`relief96-gpu`, ...; `auto` chooses by itself");
-    fields.field("level", status.level,
-                 "what is drawn: `level0`, ..., or a relief: `relief96`, ..., cast on the processor, or "
-                 "`relief96-gpu`, ..., drawn by the GPU");
+    fields.field(
+        "level", status.level,
+        "what is drawn: `level0`, ..., or a relief: `relief96`, ..., rasterized on the processor, or "
+        "`relief96-gpu`, ..., drawn by the GPU");
     fields.field("samples", status.samples, "samples a pixel: more make smoother outlines",
                  Metric{"samples_per_pixel", "Samples that are drawn for a pixel."});
     fields.field("language", status.language, "of the caption");

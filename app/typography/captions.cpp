@@ -144,8 +144,8 @@ double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     return std::min(min_distance_to_edges(a, b), min_distance_to_edges(b, a));
 }
 
-CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> room, double border_m, Nanoseconds settles)
-    : room_(room.begin(), room.end()), border_m_(border_m), settles_(settles) {}
+CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> picture_m, double border_m, Nanoseconds settles)
+    : picture_m_(picture_m.begin(), picture_m.end()), border_m_(border_m), settles_(settles) {}
 
 void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
     assert(sizes_m.size() <= max_shapes);
@@ -173,16 +173,16 @@ bool CaptionPlacer::on_obstacle(const TableRectangle& rectangle, std::span<const
     });
 }
 
-bool CaptionPlacer::inside_room(const TableRectangle& rectangle) const {
-    for (std::size_t k = 0; k < room_.size(); ++k) {
-        const glm::dvec2 edge = glm::normalize(room_[(k + 1) % room_.size()] - room_[k]);
+bool CaptionPlacer::inside_picture(const TableRectangle& rectangle) const {
+    for (std::size_t k = 0; k < picture_m_.size(); ++k) {
+        const glm::dvec2 edge = glm::normalize(picture_m_[(k + 1) % picture_m_.size()] - picture_m_[k]);
         for (const glm::dvec2& corner : rectangle.corners()) {
-            if (cross(edge, corner - room_[k]) < border_m_) {
+            if (cross(edge, corner - picture_m_[k]) < border_m_) {
                 return false;
             }
         }
     }
-    return room_.size() >= 3;
+    return picture_m_.size() >= 3;
 }
 
 std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& shadow,
@@ -191,7 +191,7 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
                                                            std::span<const TableRectangle> obstacles) const {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high(-std::numeric_limits<double>::infinity());
-    for (const glm::dvec2& corner : room_) {
+    for (const glm::dvec2& corner : picture_m_) {
         low = glm::min(low, corner);
         high = glm::max(high, corner);
     }
@@ -212,7 +212,7 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
             const TableRectangle rectangle{first + 1e-9 + offset * grid_m, size};
             double cost =
                 glm::distance(rectangle.centre_m, wanted) + cost_of_later_shape * static_cast<double>(shape);
-            if (cost >= best_cost || !inside_room(rectangle) || on_obstacle(rectangle, obstacles)) {
+            if (cost >= best_cost || !inside_picture(rectangle) || on_obstacle(rectangle, obstacles)) {
                 continue;
             }
             const double clear = clearance(rectangle.corners(), shadow.corners());
@@ -233,7 +233,7 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
 }
 
 void CaptionPlacer::turn_to(int quarter_turns) {
-    for (glm::dvec2& corner : room_) {
+    for (glm::dvec2& corner : picture_m_) {
         corner = turned(corner, quarter_turns_ - quarter_turns);
     }
     quarter_turns_ = quarter_turns;

@@ -66,9 +66,9 @@ struct CaptionPlace {
 
 class CaptionPlacer {
 public:
-    /// `room`: the convex part of the table that the picture covers; captions stay `border_m` inside. A
+    /// `picture_m`: the convex part of the table that the picture covers; captions stay `border_m` inside. A
     /// caption that had to leave its place reappears only once its new place has been free for `settles`.
-    explicit CaptionPlacer(std::span<const glm::dvec2> room, double border_m = 0.008,
+    explicit CaptionPlacer(std::span<const glm::dvec2> picture_m, double border_m = 0.008,
                            Nanoseconds settles = {});
 
     /// Sets another caption; its shapes (one for each width it was wrapped to) are in falling preference, at
@@ -98,13 +98,13 @@ private:
     [[nodiscard]] std::optional<Choice> choose(const TablePolygon& shadow, const TablePolygon* hidden,
                                                const glm::dvec2& prop_m,
                                                std::span<const TableRectangle> obstacles) const;
-    [[nodiscard]] bool inside_room(const TableRectangle& rectangle) const;
+    [[nodiscard]] bool inside_picture(const TableRectangle& rectangle) const;
     /// Both in the table's frame or both in the reader's.
     [[nodiscard]] static bool on_obstacle(const TableRectangle& rectangle,
                                           std::span<const TableRectangle> obstacles);
 
-    std::vector<glm::dvec2> room_; ///< in the reader's frame
-    int quarter_turns_ = 0;        ///< rotation of that frame
+    std::vector<glm::dvec2> picture_m_; ///< in the reader's frame
+    int quarter_turns_ = 0;             ///< rotation of that frame
     double border_m_;
     Nanoseconds settles_;
     bool comes_again_ = false; ///< it had to leave a place

@@ -102,7 +102,7 @@ int set_software(snd_pcm_t* pcm, const SetUp& set_up) {
         return error;
     }
     const std::unique_ptr<snd_pcm_sw_params_t, FreeSoftware> params(raw);
-    // Playback starts when the queue is full; the device wakes us when the queue has room for a period. The
+    // Playback starts when the queue is full; the device wakes us when the queue has space for a period. The
     // device's own buffer may be longer than the queue.
     const snd_pcm_uframes_t wake_at = std::min(set_up.buffer - set_up.queue + set_up.period, set_up.buffer);
     return Calls()

@@ -1,7 +1,7 @@
 /// The dialogue with one open device: set-up, verification, streaming. Bytes in, bytes out; no I/O.
 ///
 /// Time     always a parameter, so a session runs under a simulated clock.
-/// Threads  one caller; allocates nothing once `samples` has enough room.
+/// Threads  one caller; allocates nothing once `samples` has enough space.
 #pragma once
 
 #include "firmware_host/tracker/sequence_checker.h"

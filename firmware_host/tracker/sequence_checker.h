@@ -4,7 +4,7 @@
 /// Frame    tracker K.
 /// Time     `arrival` is the time at which the bytes came; a sample's time is the device's, mapped to the
 ///          monotonic clock.
-/// Threads  one caller; allocates nothing once `samples` has enough room.
+/// Threads  one caller; allocates nothing once `samples` has enough space.
 #pragma once
 
 #include "firmware_host/tracker/device_clock.h"

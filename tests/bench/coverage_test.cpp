@@ -5,7 +5,7 @@
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bake/shapes.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>

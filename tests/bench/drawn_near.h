@@ -1,4 +1,4 @@
-/// Fixture for the bench's tests that draw: the picture of near_stage.h's small projector.
+/// Fixture for the bench's tests that draw: the picture of near_settings.h's small projector.
 #pragma once
 
 #include "app/bench/measures/measure.h"
@@ -6,7 +6,7 @@
 #include "app/bench/truth/truth.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "app/bench/measures/edge_sparkle.h"
 #include "assets_baked/bake/bake.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>

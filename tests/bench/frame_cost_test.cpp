@@ -4,7 +4,7 @@
 #include "app/bench/truth/truth.h"
 #include "app/pack/pack_file.h"
 #include "assets_baked/bake/bake.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>

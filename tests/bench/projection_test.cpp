@@ -2,7 +2,7 @@
 #include "app/bench/techniques/peers.h"
 #include "app/render/read_back.h"
 #include "firmware_host/display/surfaceless_display.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 #include "tests/simulation/pixels_covered.h"
 

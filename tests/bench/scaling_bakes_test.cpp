@@ -19,6 +19,7 @@ TEST(ScalingBakes, ReadsWhatABakeSaysOfItself) {
     EXPECT_EQ(bake->processor_seconds, 6.5);
     EXPECT_EQ(bake->shown_mean_mm, 0.25);
     EXPECT_EQ(bake->min_mean_mm, 0.125);
+    EXPECT_EQ(bake->levels, 2U);
 }
 
 TEST(ScalingBakes, AnotherReportIsRefused) {

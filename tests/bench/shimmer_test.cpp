@@ -1,5 +1,5 @@
 #include "app/bench/measures/shimmer.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 
 #include <gtest/gtest.h>

@@ -217,6 +217,23 @@ class Table(unittest.TestCase):
         self.assertRegex(left.stderr, r"(?s)Staff: put the picture right.*Staff: measure the whole table.*Nothing was changed")
         self.assertEqual([each.name for each in (self.folder / "kept").iterdir()], ["calibration-0001.toml"])
 
+    def test_from_the_start_no_touch_up_is_offered(self):
+        self.write([])
+        self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.4))
+        (self.folder / "kept").mkdir()
+        (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(1280, 0.4).calibration(SENSOR_M))
+        self.config.write_text(self.config.read_text().replace("script = []", "script = [{ at_s = 0.3, button = 0 }]"))
+        note = "--anew is now --from-start, and does the same"
+        for option, is_old in (("--from-start", False), ("--anew", True)):
+            left = self.run_program("table", option, "--config", self.config, "--headless")
+            self.assertEqual(left.returncode, 1)
+            self.assertIn("Staff: measure the whole table", left.stderr)
+            self.assertNotIn("Staff: put the picture right", left.stderr)
+            self.assertEqual(left.stderr.count(note), int(is_old))
+        self.assertNotIn("--anew", self.run_program("table", "--help").stdout)
+        both = self.run_program("table", "--from-start", "--touch-up", "--config", self.config)
+        self.assertEqual(both.returncode, 2)
+
     def test_back_leaves_it_and_changes_nothing(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.0))

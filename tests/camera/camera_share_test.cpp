@@ -3,18 +3,21 @@
 // the exhibit's own code from the kernel's buffer on.
 //
 // No camera place suits all uses: tags and drift marks are detected on a table seen from above, heads in a
-// room seen from the table's far edge. Figures of docs/measurements.md: `ctest -C long -R camera_share`.
+// room seen from the table's far edge. The table `camera` of docs/measurements.md: `ctest -C long -R camera_share`,
+// with FRUSTUMSCREEN_FIGURES (docs/bench.md).
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/programs/devices/wiring.h"
 #include "app/tags/tag_reader.h"
 #include "app/visitor/visitor_reader.h"
 #include "firmware_host/camera/camera_driver.h"
+#include "tests/base/write_figures.h"
 #include "tests/camera/fake_v4l2.h"
 #include "tests/drift/table_scene.h"
 #include "tests/simulators/tags/skirt.h"
 #include "tests/simulators/visitor/room_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 #include <turbojpeg.h>
@@ -207,9 +210,11 @@ private:
     CameraDriver driver_;
 };
 
-void print(const char* on, const Spent& spent) {
-    std::printf("| %s | %.1f | %.1f | %.1f %% | %.1f | %.1f |\n", on, spent.frame_ms, spent.used_hz,
-                100.0 * spent.share, spent.poses_hz, spent.heads_hz);
+constexpr const char* figures_header = "use,max_share,frame_ms,used_hz,share,poses_hz,heads_hz\n";
+
+std::string figures_line(std::string_view use, double max_share, const Spent& spent) {
+    return fmt::format("{},{:.2f},{:.2f},{:.2f},{:.4f},{:.2f},{:.2f}\n", use, max_share, spent.frame_ms,
+                       spent.used_hz, spent.share, spent.poses_hz, spent.heads_hz);
 }
 
 /// Each frame takes 16 ms, so 15 or 16 of 30 are used: each gives a pose and a head.
@@ -230,22 +235,21 @@ TEST(CameraShare, DISABLED_TheFigures) {
     const std::vector<Picture> table = table_pictures(30);
     const Room room = room_of(width, height);
     std::printf("a frame has %.0f kB\n", 1e-3 * static_cast<double>(table.front().size()));
+    std::string csv = figures_header;
     for (const double max_share : {1.0, programs::max_camera_share}) {
-        std::printf("| on, of one core at most %.2f | ms a frame | frames used a second | of one core | "
-                    "poses a second | heads a "
-                    "second |\n|---|---|---|---|---|---|\n",
-                    max_share);
         const auto spent = [&](On on) { return Kiosk(table, room, on, max_share).run(); };
-        print("nothing: decoded and judged", spent({}));
-        print("tags", spent({.tags = true}));
-        print("visitor", spent({.visitor = true}));
-        print("drift, during a look", spent({.drift = true}));
+        csv += figures_line("none: decoded and judged", max_share, spent({}));
+        csv += figures_line("tags", max_share, spent({.tags = true}));
+        csv += figures_line("visitor", max_share, spent({.visitor = true}));
+        csv += figures_line("drift while it looks", max_share, spent({.drift = true}));
         const Spent all = spent({true, true, true});
-        print("all three", all);
+        csv += figures_line("all three", max_share, all);
         EXPECT_LT(all.share, max_share + 0.02);
         EXPECT_GT(all.poses_hz, 5.0);
         EXPECT_GT(all.heads_hz, 5.0);
     }
+    std::printf("%s", csv.c_str());
+    write_figures("camera_share.csv", csv);
 }
 
 } // namespace

@@ -34,7 +34,7 @@ def kept_text(number):
 
 
 def kept_number(text):
-    """The number of a whole text; None: it is not whole."""
+    """The number of a complete text; None: the text is incomplete."""
     found = re.search(r"end (\d+)\n$", text)
     return int(found[1]) if found and text == kept_text(int(found[1])) else None
 
@@ -114,13 +114,13 @@ def _tries(name):
 
 
 def _order(name):
-    """As systemd-boot sorts: what has tries left first, then the newest."""
+    """The order of systemd-boot: versions with tries left come first, then the newest."""
     version, left = _tries(name)
     return left == 0, [-int(part) for part in version.split(".")]
 
 
 def _read(path):
-    """Its bytes; None: there is no such file. A folder in its place is damage, and so are these bytes to all that looks at them."""
+    """The file's bytes; None: the file does not exist. A folder of that name is damage, so its bytes fail every check."""
     return path.read_bytes() if path.is_file() else b"\xff" if path.exists() else None
 
 
@@ -329,7 +329,7 @@ def _are_lines(data):
 
 
 class Must:
-    """The marks of a log: `least`: acknowledged; `most`: begun."""
+    """The marks of a log. `least`: the last write that was acknowledged; `most`: the last one that began."""
 
     def __init__(self):
         self.phase, self.least, self.most = "", {}, {}

@@ -26,7 +26,7 @@ struct Table {
     typography::CaptionPlacer placer;
     glm::dvec3 lens_m = lens;
 
-    explicit Table(const std::vector<glm::dvec2>& room) : placer(room) {}
+    explicit Table(const std::vector<glm::dvec2>& picture_m) : placer(picture_m) {}
     typography::CaptionPlace step(MonotonicTime now, const geometry::RigidTransform& pose) {
         placer.update(now, typography::hidden_by_prop(prop, pose, lens_m),
                       typography::hidden_by_prop(prop, pose, eye), glm::dvec2(pose.translation));
@@ -114,8 +114,8 @@ TEST(Captions, AShownCaptionNeverOverlapsThePropHoweverItJumps) {
 }
 
 TEST(Captions, AtRestACaptionIsShownInFrontOfTheVisitorOnBothSetUps) {
-    for (const auto& [room, height] : {std::pair{shipped_table, 1.2}, std::pair{near_table, 0.9}}) {
-        Table table(room);
+    for (const auto& [picture_m, height] : {std::pair{shipped_table, 1.2}, std::pair{near_table, 0.9}}) {
+        Table table(picture_m);
         table.lens_m.z = height;
         const std::array<glm::dvec2, 2> sizes{glm::dvec2(0.30, 0.05), glm::dvec2(0.07, 0.15)};
         table.placer.set_shapes(sizes);

@@ -86,7 +86,7 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     for (const auto& [sign, count] : shown) {
         all += count;
     }
-    EXPECT_GT(all, advised * 9 / 10); // there is no room if the prop fills the picture
+    EXPECT_GT(all, advised * 9 / 10); // there is no space if the prop fills the picture
 }
 
 TEST(Signs, AnArrowPointsTheWay) {
@@ -101,7 +101,7 @@ TEST(Signs, AnArrowPointsTheWay) {
         const auto shadow = typography::hidden_by_prop(place.prop, {}, place.lens_m);
         const auto sign = place_sign(guidance, MonotonicTime(seconds(1)), *shadow, place.picture_m, 0);
         if (!sign) {
-            continue; // the shipped prop leaves little room above and below it
+            continue; // the shipped prop leaves little space above and below it
         }
         const glm::dvec2 along = point_of(*sign, 1.0, 0.5) - point_of(*sign, 0.0, 0.5);
         EXPECT_NEAR(std::remainder(std::atan2(along.y, along.x) - azimuth, 2.0 * std::numbers::pi), 0.0,

@@ -254,7 +254,7 @@ TEST(NoticePlace, it_gives_way_to_what_comes) {
     EXPECT_TRUE(table.wait(milliseconds(800), notice));
 }
 
-/// The only room is where the prop passes, every 0.6 s.
+/// The only space is where the prop passes, every 0.6 s.
 TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     const SharedNotice small = notice_of({{0.2, 0.05}});
     Table table;
@@ -277,7 +277,7 @@ TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     ASSERT_TRUE(again);
     EXPECT_EQ(again->brightness, 1.0);
     for (int k = 0; k < 200;
-         ++k) { // the notice stays while it fits: the prop approaches and leaves, with enough room
+         ++k) { // the notice stays while it fits: the prop approaches and leaves, with enough space
         table.pose.translation.y = k % 30 < 15 ? -0.003 : 0.0;
         const auto stays = table.wait(milliseconds(20), small);
         ASSERT_TRUE(stays);

@@ -8,7 +8,7 @@
 namespace frustumscreen::exhibit {
 namespace {
 
-/// A caption finds room in the area that is left for it.
+/// A caption finds space in the area that is left for it.
 TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
     std::mt19937_64 random(17);
     int tried = 0;

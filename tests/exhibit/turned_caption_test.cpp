@@ -12,12 +12,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
-                      glm::dvec2(-0.4, 0.25)};
+const std::array picture_m{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
+                           glm::dvec2(-0.4, 0.25)};
 const std::array sizes{glm::dvec2(0.16, 0.05)};
 
 struct Reader {
-    typography::CaptionPlacer placer{room};
+    typography::CaptionPlacer placer{picture_m};
     MonotonicTime now{};
 
     Reader() { placer.set_shapes(sizes); }

@@ -60,7 +60,7 @@ class Mock:
 
 
 class Patience:
-    """How long to wait: measured in time that the guest was granted, and longer if its start took longer."""
+    """The time to wait, in time that the host granted the guest; longer if the guest started slowly."""
 
     usual_start_s = 30.0
     factor = 1.0
@@ -138,14 +138,14 @@ class Bench:
         same when others come."""
         if settings == self._settings:
             return
-        # First stopped, then started: a handshake with the tracker is not cut off in the middle.
+        # Stop, then start: a restart could cut off a handshake with the tracker in the middle.
         self.machine.check(f"systemctl stop {UNIT}; {self._after}")
         self.machine.write(SETTINGS, settings)
         self.machine.check(f"{before}; systemctl start --no-block {UNIT}")
         self._settings, self._after = settings, after
 
     def status(self):
-        """The status file; None: there is none now."""
+        """The contents of the status file; None: the file does not exist."""
         text = self.machine.read(STATUS_FILE)
         try:
             return json.loads(text) if text else None
@@ -190,7 +190,7 @@ class Bench:
         return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s)
 
     def picture_where(self, is_it, what, timeout_s=20.0):
-        """The same of what was presented and is_it() says yes to."""
+        """The same for a presented picture that is_it() accepts."""
         last = [None]
 
         def presented():
@@ -239,7 +239,7 @@ class Bench:
     # Evidence.
 
     def evidence_of(self, test):
-        """The folder for what a failed test has seen."""
+        """The folder for the evidence of a failed test."""
         return self.out / test.id().split(".")[-1]
 
     def keep_evidence(self, folder):

@@ -42,7 +42,7 @@ class View:
 
 
 def looks(pitch, yaw):
-    """A camera that looks so far up from the table's plane, with its picture's top up. `yaw`: 0 looks along +Y."""
+    """A camera tilted up from the table's plane by this angle, its picture's top up. `yaw`: 0 looks along +Y."""
     ahead = (-math.sin(yaw) * math.cos(pitch), math.cos(yaw) * math.cos(pitch), math.sin(pitch))
     right = (math.cos(yaw), math.sin(yaw), 0.0)
     down = (ahead[1] * right[2] - ahead[2] * right[1], ahead[2] * right[0] - ahead[0] * right[2], ahead[0] * right[1] - ahead[1] * right[0])
@@ -152,7 +152,7 @@ class _Ball:
 
 
 def body(eye, looked_at):
-    """Somebody with the point between the eyes there, whose head is bent by half of the way down."""
+    """A person with the point between the eyes at this place, the head bent half of the way down."""
     x, y, z = plus(looked_at, eye, -1.0)
     pitch = 0.5 * math.atan2(-z, math.hypot(x, y))
     ahead = (x * math.cos(pitch) / math.hypot(x, y), y * math.cos(pitch) / math.hypot(x, y), -math.sin(pitch))
@@ -170,7 +170,7 @@ def body(eye, looked_at):
 
 
 def room_seen(view, people=()):
-    """A room with a patterned wall, the table before it, and who is there: balls of `body`."""
+    """A room with a patterned wall, the table in front of it, and people made of the balls of `body`."""
     luma = bytearray()
     balls = [(ball.seen_from(view.place), ball.code) for ball in people]
     for v in range(view.height):

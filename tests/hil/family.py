@@ -31,7 +31,7 @@ def hold(bench, buttons, until):
 
 
 class Ended(KeyboardInterrupt):
-    """A signal asks for the end."""
+    """Raised when a signal asks the program to end."""
 
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
@@ -43,7 +43,7 @@ def _raise_ended(number, _frame):
 
 
 def descendants():
-    """The process numbers of all living descendants, orphans too, because the subreaper gets them."""
+    """The process numbers of all living descendants, including orphans, which the subreaper adopts."""
     children = {}
     for file in pathlib.Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):

@@ -55,11 +55,11 @@ class HilTest(unittest.TestCase):
         bench.status_says("display", LIT)
 
     def broken(self):
-        """From here on it is counted how long it takes until the screen is lit again."""
+        """Starts the measurement of the time until the screen is lit again."""
         self.broken_s, self.broken_uptime_s = self.bench.machine.granted_s(), self.uptime_s()
 
     def tell_lit(self):
-        """Prints how long it was dark; and by the guest's own clock, which a busy host makes wait, whose time that was."""
+        """Prints the time until the screen was lit again, and by the guest's own clock the times of the restart and of the start."""
         if self.broken_s is None:
             return
         dark_s = self.bench.machine.granted_s() - self.broken_s
@@ -94,7 +94,7 @@ class HilTest(unittest.TestCase):
         return seen
 
     def assert_at(self, place_m, rotation=UPRIGHT, artifact=None):
-        """With the prop there, the picture is where `render` draws it."""
+        """Compares the place of the exhibit's picture for this pose with that of `render`."""
         pose = (*place_m, *rotation)
         picture = self.bench.picture_of(pose)
         artifact = artifact or self.bench.status()["artifact"]

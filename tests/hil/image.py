@@ -42,7 +42,7 @@ def write_data(disk, files):
     begin, _ = partition(disk, DATA_PARTITION)
     folders = sorted({str(parent) for path in files for parent in pathlib.PurePath(path).parents if parent.name})
     commands = [f"mkdir {folder}" for folder in folders] + [f"write {source} {path}" for path, source in files.items()]
-    # debugfs has no status for a command that fails; a folder that is there is no fault.
+    # debugfs reports no failure in its exit status. It is no error if a folder exists already.
     run("debugfs", "-w", "-f", "-", f"{disk}?offset={begin}", input="\n".join(commands), text=True, capture_output=True)
 
 
@@ -89,7 +89,7 @@ def start_files(out, unsigned=None):
 
 
 def vkms(say):
-    """The kernel's virtual display as a module, for the image's kernel; kept."""
+    """Builds the kernel's virtual display as a module for the image's kernel, and keeps it."""
     kept = (PRODUCT / "kept.tsv").read_text(encoding="utf-8")
     version = kept.split("usr/lib/modules/", 1)[1].split("/", 1)[0]
     module = CACHE / f"vkms-{version}.ko"

@@ -64,7 +64,7 @@ class JsonLines:
         return json.loads(line.lstrip(b"\xff"))
 
     def event_came(self, name):
-        """Whether this event came since it was last asked for."""
+        """True if this event came since the last call."""
         came = name in self._events
         self._events.discard(name)
         return came
@@ -83,7 +83,7 @@ class JsonLines:
 
 @dataclass
 class Given:
-    """Two clocks of the guest that stand while a busy host makes it wait."""
+    """Two clocks of the guest that stop while a busy host makes the guest wait."""
 
     granted_s: float  # time in which none of its processors waited for the host's
     rested_s: float  # the part of it in which none of its processors had work
@@ -139,7 +139,7 @@ class Machine:
         self._given, self._asked = Given(0.0, 0.0), self._scheduled()
 
     def last_lines(self, count=40):
-        """The end of what the guest says on its serial line; where a shell listens there, it is asked first."""
+        """The end of the guest's output on its serial line. A shell that listens there is queried first."""
         try:
             with socket.socket(socket.AF_UNIX) as line:
                 line.connect(os.fspath(self.sockets / "serial"))
@@ -195,7 +195,7 @@ class Machine:
         self._monitor.event_came("RESET")
 
     def resets_within(self, timeout_s):
-        """Whether the machine is reset in this time; its monitor tells."""
+        """True if the machine is reset within this time, by its monitor's events."""
         deadline = self.granted_s() + timeout_s
         while True:
             self.monitor("query-status")
@@ -264,7 +264,7 @@ class Machine:
         return self.given().granted_s
 
     def let_run(self, seconds):
-        """Waits until the host has granted the guest so many seconds more."""
+        """Waits until the host has granted the guest this many more seconds."""
         until = self.granted_s() + seconds
         while self.granted_s() < until:
             time.sleep(0.05)

@@ -43,7 +43,7 @@ class Server:
         self.path.unlink(missing_ok=True)
 
     def pause(self, kind):
-        """Before a command is answered; others may be answered meanwhile."""
+        """Called before the server answers a command; other commands may be answered meanwhile."""
 
     def _accept(self):
         while True:
@@ -137,7 +137,7 @@ class Disk(Server):
         super().stop()
 
     def cut(self):
-        """The power fails: of what was not flushed, a share of the sectors that chance says has arrived."""
+        """Cuts the power: a random share of the sectors that were not flushed is on the disk."""
         with self._lock:
             self._cut()
 
@@ -152,7 +152,7 @@ class Disk(Server):
                     self._durable[place + at:place + at + SECTOR] = data[at:at + SECTOR]
 
     def survived(self, image):
-        """Writes what the cut disk holds."""
+        """Writes the contents of the disk after the cut."""
         assert self.is_cut.is_set()
         pathlib.Path(image).write_bytes(self._durable)
 

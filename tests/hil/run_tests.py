@@ -110,7 +110,7 @@ def made(out, unsigned):
 
 
 def run(tests, bench, keep):
-    """Whether all passed, and what was seen on the way."""
+    """The result of the tests, and the evidence that they collected."""
     HilTest.bench, HilTest.longest_s = bench, 0.0
     try:
         say("starting the machine")

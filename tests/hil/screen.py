@@ -198,5 +198,5 @@ def probe(picture):
 
 
 def safe_probe(picture):
-    """The same of the safe picture."""
+    """The code in the corner of the safe picture."""
     return _code(picture, 3, 4)

@@ -22,12 +22,12 @@ LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
 UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*' 'frustumscreen-report@*' 'frustumscreen-report-open@*' 'frustumscreen-report-close@*'"
-# Checks what remains of a stick: first the cheap checks, which nearly always suffice, then systemd.
+# Finds leftovers of a stick: first by cheap checks, which nearly always suffice, then by systemd.
 QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
 # The installed set, and every pack against its name, which is its SHA-256.
-# Each pack there is what its name says, but for one that an import clears away while it is read.
+# Each pack matches its name, except one that an import removes while it is read.
 LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIBRARY}/packs 2>/dev/null && ls | grep -q fspack$ || exit 0; "
         'for pack in *.fspack; do sum=$(sha256sum "$pack" 2>&1) && [ "${sum%% *}" = "${pack%.fspack}" ] || [ ! -e "$pack" ] || { echo "$sum"; exit 1; }; done')
 QUIET_S = 240.0
@@ -36,7 +36,7 @@ TOLD_PIXELS = 300  # two short lines of words
 
 
 class StickTest(HilTest):
-    """The kiosk knows a key; what is installed at the end of a class is cleared away."""
+    """Tells the kiosk a key, and removes the installed packs at the end of a class."""
 
     @classmethod
     def setUpClass(cls):
@@ -53,7 +53,7 @@ class StickTest(HilTest):
 
     @classmethod
     def add_key(cls, name, public):
-        """The exhibit need not start again for it: it is the importer that asks for keys."""
+        """The exhibit need not start again: only the importer uses the keys."""
         cls.keys += f'\n[[exhibit.keys]]\nname = "{name}"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
         cls.bench.machine.write(SETTINGS, cls.settings + cls.keys)
 
@@ -98,7 +98,7 @@ class StickTest(HilTest):
 
     @classmethod
     def clear_library(cls):
-        """Nothing was ever installed; the exhibit goes on with what it shows."""
+        """Resets the library to its state before any import; the exhibit goes on with its artifacts."""
         cls.bench.machine.check(f"rm -rf {LIBRARY}/set.txt {LIBRARY}/packs {LIBRARY}/shown/* {REPORT_FILE}")
 
     def image(self, name):
@@ -132,7 +132,7 @@ class StickTest(HilTest):
         return seen[0]
 
     def outcome(self, timeout_s=IMPORT_S):
-        """The outcome of the next stick."""
+        """Waits for the outcome of the next stick, and returns it."""
         report = self.stage("done", "failed", timeout_s=timeout_s)
         self.last = report["import_id"]
         return report
@@ -159,7 +159,7 @@ class StickTest(HilTest):
 
 
 class ToldStickTest(StickTest):
-    """With words, so that the table says what is done with a stick."""
+    """Tests with the exhibit's words, so that the table reports on a stick."""
 
     settings = USUAL.replace("captions = false", 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"')
 
@@ -183,7 +183,7 @@ class LongStickTest(StickTest):
     def setUp(self):
         super().setUp()
         self.clear_library()
-        # Between two sticks that a person puts in the kernel need not wait for one that spins up.
+        # A memory stick does not spin up, so the kernel need not wait between two of them.
         self.bench.machine.check("echo 0 > /sys/module/usb_storage/parameters/delay_use || true")
         self.process, self.frames = self.life(), -1
 
@@ -206,7 +206,7 @@ class LongStickTest(StickTest):
         eventually(lambda: screen.count(screen.lit(self.bench.screendump())) > LIT_PIXELS, 20.0, "the table is dark")
 
     def forget(self):
-        """Takes the last report away, so that the next import need not let it stand for its readers."""
+        """Removes the last report, so that the next import does not wait for its readers."""
         self.bench.machine.check(f"rm -f {REPORT_FILE}")
         self.last = None
 

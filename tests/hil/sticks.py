@@ -61,7 +61,7 @@ def _rotate_sum(data, left_out=()):
 
 
 def _exfat_entries(name, size, cluster):
-    """The directory entries of one file, whose clusters lie one behind the other."""
+    """The directory entries of one file whose clusters are contiguous."""
     letters = name.encode("utf-16-le")
     names = [letters[at:at + 30].ljust(30, b"\0") for at in range(0, len(letters), 30)]
     then = 0x00210000  # 1980-01-01
@@ -148,7 +148,7 @@ def _places_to_damage(boot, kind):
 
 
 def damage(image, kind, chance):
-    """Overwrites with noise what says where this file system's files lie."""
+    """Overwrites the tables that locate this file system's files with noise."""
     with open(image, "r+b") as disk:
         place, size = _places_to_damage(disk.read(1 << 13), kind)
         disk.seek(place)

@@ -13,8 +13,7 @@ import tempfile
 import tomllib
 
 import screen
-from bench import EYE_M, PLACE_TOLERANCE_M, UPRIGHT, USUAL, WIDTH, eventually
-from family import RELEASED_S, hold
+from bench import EYE_M, PLACE_TOLERANCE_M, RELEASED_S, UPRIGHT, USUAL, WIDTH, eventually
 from hil_test import PIXELS, START_S, HilTest, long
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "calibration"))
@@ -31,7 +30,7 @@ PLACES = (((0.0, 0.0, 0.0), 0.0), ((0.07, 0.03, 0.0), 0.5), ((-0.08, -0.02, 0.0)
 
 
 class Calibration(HilTest):
-    # So many crosses, because aiming counts by the pixel, and pixels are large here: 1.25 mm.
+    # This many crosses, because aiming is as exact as a pixel, and pixels are large here: 1.25 mm.
     settings = USUAL + f"\n[calibration]\nsensor_height_m = {SENSOR_M}\ntouches = 25\n"
     after = f"rm -rf {FOLDER}/*"  # the other tests' table is as their settings say
     truth = TrueTable(WIDTH, 0.4)
@@ -72,10 +71,10 @@ class Calibration(HilTest):
     # The technician.
 
     def begin(self):
-        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         self.press(NEXT)  # to the page of the picture's place
         self.bench.machine.let_run(RELEASED_S)
-        hold(self.bench, (FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
+        self.bench.hold((FIRST,), lambda: eventually(self.has_begun, 20.0, "nothing begins while the first button is held"))
         self.hears("Staff: measure the whole table", 3 * START_S)  # crosses are chosen first
 
     def has_begun(self):
@@ -85,7 +84,7 @@ class Calibration(HilTest):
         self.bench.buttons.tell("press", button, "300ms")
 
     def touch(self, crosses, before):
-        """Lays the prop on one cross after the other. `before`: touches that were made already."""
+        """Lays the prop on each cross in turn. `before`: the number of earlier touches."""
         for number, cross in enumerate(crosses, before + 1):
             self.hears(f"Touch {number} of {before + len(crosses)} Lay")
             self.assert_lit(cross["u_px"], cross["v_px"])
@@ -97,7 +96,7 @@ class Calibration(HilTest):
         self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
 
     def hears(self, words, timeout_s=START_S):
-        """Waits until the table says so; the journal has its words, and now and then a line on a device."""
+        """Waits until the table shows these words. The journal has the table's words, and sometimes a line about a device."""
         said = [""]
 
         def is_said():
@@ -116,7 +115,7 @@ class Calibration(HilTest):
     # The truth.
 
     def crosses(self):
-        """Those that the kiosk shows, first and if the verdict asks for more: they follow from its settings alone."""
+        """The crosses that the kiosk shows, the first ones and the further ones: its settings alone determine them."""
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
             config.write_text(self.settings, encoding="utf-8")

@@ -38,13 +38,13 @@ class Watching:
         eventually(self.process, 20.0, "frustumscreen camera does not start")
 
     def process(self):
-        """Its number."""
+        """The process number of `frustumscreen camera`; None: it does not run."""
         found = self._machine.run("for p in /proc/[0-9]*; do [ \"$(cat $p/comm 2>/dev/null)\" != frustumscreen ] || "
                                   "! grep -q camera $p/cmdline || echo ${p#/proc/}; done").output.split()
         return int(found[-1]) if found else None
 
     def said(self):
-        """All states that it has told so far."""
+        """All states that the exhibit has reported so far."""
         return [line.removeprefix("frustumscreen: ") for line in (self._machine.read(SAID) or "").splitlines()]
 
     def says(self, words, after=0):
@@ -119,7 +119,7 @@ class Camera(HilTest):
                          [("exposure", "locked", 8.0), ("gain", "locked", 32.0), ("white balance", "locked", 4600.0)])
         # Controls that the device received; exposure in tenths of a millisecond, its mode 1 manual
         self.assertEqual([before[key] for key in ("auto_exposure", "exposure", "auto_white_balance")], [1, 80, 0])
-        # The ramp's ends and middle, by which the bytes are right
+        # The ramp's ends and middle show that the bytes were read correctly.
         self.assertAlmostEqual(report["brightness"]["median"], 120, delta=6)
         self.assertLess(report["brightness"]["darkest"], 45)
         self.assertGreater(report["brightness"]["brightest"], 195)

@@ -31,7 +31,7 @@ def pose_of(place_m, yaw):
 
 
 class CameraUse(HilTest):
-    """The exhibit with a camera, of this view, that sees `at_first()` from the beginning."""
+    """The exhibit with a camera of this view, which sees `at_first()` at the start."""
 
     view: View
 
@@ -70,7 +70,7 @@ class CameraUse(HilTest):
 
 @long
 class Tags(CameraUse):
-    """A camera above the table, aslant."""
+    """A camera above the table that looks at it obliquely."""
 
     view = View(*SMALL, 210.0, looks(math.radians(-81.0), 0.1), (0.02, -0.17, 1.1))
     tags = skirt(0.30, 0.09, 4)
@@ -120,7 +120,7 @@ class Tags(CameraUse):
         self.bench.status_says("prop_by", "tracker")
 
     def assert_shown_near(self, where):
-        """The picture lies where `render` has it for the true pose, which the exhibit knows by the tags alone."""
+        """The picture lies where `render` draws it for the true pose. Only the tags tell the exhibit this pose."""
         pose = pose_of(*where)
 
         def is_near(placed):
@@ -188,7 +188,7 @@ class Visitor(CameraUse):
         self.assert_at(CENTRE_M)
 
     def across_m(self, eye):
-        """How far an eye is off across the true one's line to the prop."""
+        """The error of an eye's position across the true eye's line to the prop."""
         line = [a - b for a, b in zip(self.looked_at_m, self.eye_m)]
         off = [a - b for a, b in zip(eye, self.eye_m)]
         along = sum(a * b for a, b in zip(line, off)) / math.hypot(*line)
@@ -274,7 +274,7 @@ class Drift(CameraUse):
             self.assertFalse(status["drifted"])
 
     def drift_says(self, words, looks):
-        """Waits for so many looks; asks seldom, because each question makes the guest's processor wait."""
+        """Waits for this many looks. It seldom asks, because each question delays the guest."""
         begun = self.bench.machine.granted_s()
         deadline = begun + (looks + 2) * self.look_s * Patience.factor
         status = None

@@ -35,7 +35,7 @@ class Delivery(StickTest):
         machine.check(f"systemctl start --no-block {UNIT}")
 
     def asked(self, name, files):
-        """What the table is told of a stick with these files; it is pulled out again."""
+        """Puts in a stick with these files, pulls it out again, and returns what the table says about it."""
         self.plug(name, self.make(name, "vfat", files))
         told = pulled_packs(self.outcome())
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")

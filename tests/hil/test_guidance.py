@@ -165,7 +165,7 @@ class Guidance(HilTest):
             self.bench.buttons.tell("release", LANGUAGE)
 
     def test_advice_in_the_language_of_the_button(self):
-        """All of it while the tracker drops, doubles and mixes up its samples."""
+        """The same while the tracker drops, doubles and reorders its samples."""
         self.take_language("en")
         self.addCleanup(self.bench.tracker.tell, "good")
         for fault in FAULTS:
@@ -201,7 +201,7 @@ class Guidance(HilTest):
         self.assertTrue(self.words_are_there("en"), "the words are gone although they were not followed")
 
     def test_help_comes_before_its_time(self):
-        """Sooner than the stages would, all from the moment when the prop is pushed: the exhibit cannot know it earlier."""
+        """The help button gives all stages at once, counted from the push: the exhibit cannot know of it earlier."""
         self.take_language("en")
         pushed = self.artifact_at_its_place()
         since = len(self.heard())
@@ -227,6 +227,6 @@ class Guidance(HilTest):
         self.hears("en", since)
 
     def artifact_at_its_place(self):
-        """Whether the screen shows the artifact where the prop was pushed."""
+        """True if the screen shows the artifact at the place to which the prop was pushed."""
         there = screen.lit(self.bench.rendered([(*LEFT_OF_THE_LIGHT, *UPRIGHT)], "amphora")[0])
         return lambda: screen.share_outside(there, screen.grown(screen.lit(self.bench.screendump()), 4, WIDTH)) < 0.05

@@ -7,7 +7,7 @@ import screen
 from bench import CONNECTOR, USUAL, eventually
 from hil_test import HilTest, LIT, START_S
 
-# The prop lies still, so no use keeps it awake for two minutes.
+# The prop lies still. A prop in use would keep the exhibit awake for two minutes.
 TIMED = USUAL.replace('kind = "usb"', 'kind = "none"') + "\n[hours]\n" + "".join(
     f'{day} = ["10:00-18:00"]\n'
     for day in ("monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"))

@@ -48,7 +48,7 @@ FAULTS = {
     "slow_boot": (("slow-boot",), "booting", False),
     "sensor_missing": (("sensor-missing 1",), "sensor is missing", False),
 }
-# "noise" has the first four at once; the drivers' own tests have all of these too
+# "noise" combines the first four. The tests of the drivers cover all of these faults, too.
 LONG = ("drop", "corrupt", "duplicate", "reorder", "warn", "nak_questions", "filter_stays", "wrong_units", "distortion", "nak",
         "sensor_missing", "built_in_test", "slow_boot", "stall")
 
@@ -104,7 +104,7 @@ class Allowed:
         return self._inside(rows, self._turning)
 
     def fading(self, rows):
-        """True if it is one of the two, or a darker picture of either, of which less is seen."""
+        """True if the picture is one of the two, or a darker version of one of them."""
         return screen.share_outside(rows, self._anywhere) <= BESIDE_SHARE
 
 

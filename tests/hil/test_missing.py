@@ -33,7 +33,7 @@ class Anew(HilTest):
 
 @long
 class Missing(Anew):
-    # The second sound card of this machine is one at USB, which a test plugs in.
+    # This machine's second sound card is a USB device that a test plugs in.
     settings = USUAL + '\n[sound]\ndevice = "plughw:1,0"\n'
 
     def setUp(self):
@@ -104,7 +104,7 @@ class Missing(Anew):
 @long
 class StickAtTheStart(StickTest, Anew):
     def test_stick_is_in_from_the_start(self):
-        """It is taken as one that is put in later; after one more start its artifact is there still."""
+        """The exhibit takes such a stick like one that is put in later, and still has its artifact after another start."""
         self.plug("early", self.make("early", "vfat", {"nautilus-cup.fspack": self.signed("nautilus-cup", 1)}))
         self.start_anew()
         self.last = None

@@ -22,7 +22,7 @@ class Safe(HilTest):
     def setUp(self):
         super().setUp()
         self.addCleanup(self.bench.machine.run, f"rm -f {REASON}; echo detect > {CONNECTOR}; systemctl start --no-block {UNIT}")
-        # It would bring the exhibit back; it comes again with that.
+        # The watchdog would bring the exhibit back. It starts again together with the exhibit.
         self.bench.machine.check("systemctl stop frustumscreen-watchdog.service")
         self.bench.machine.check(f"mkdir -p {REASON.rsplit('/', 1)[0]}")
         self.bench.machine.write(REASON, FIRST)
@@ -55,7 +55,7 @@ class Safe(HilTest):
         eventually(lambda: screen.safe_probe(self.bench.screendump()) not in (None, first), SHOWN_S, "its code stands")
 
     def alive(self):
-        """How many pictures it says that it has shown."""
+        """The number of pictures that it reports as shown."""
         text = self.bench.machine.read(ALIVE)
         return int(text.split()[0]) if text else 0
 

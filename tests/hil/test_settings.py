@@ -47,7 +47,7 @@ class SettingsByStick(StickTest):
         self.assertEqual(self.put("first", self.brought), ("taken", "none"))
         eventually(lambda: self.bench.main_process() not in (before, "0"), RESTART_S, "the exhibit is not started again")
         self.bench.status_says("artifact", "^nautilus-cup$", RESTART_S)
-        # The table tells of the stick after the restart.
+        # The table reports on the stick after the restart.
         eventually(lambda: self.lit_beside_prop() > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
         eventually(lambda: self.lit_beside_prop() == 0, TOLD_S, "what was told stays on the table")
         self.assert_at(CENTRE_M, artifact="nautilus-cup")

@@ -33,7 +33,7 @@ class Stick(ToldStickTest):
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
         self.assertTrue(stick.read_bytes() == held, "something was written to the stick")
-        # On the screen, while the exhibit goes on: the picture of the artifact that the stick brought.
+        # The screen shows the artifact from the stick, and the exhibit was not restarted.
         told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
         self.assertEqual(told["stage"], "done")
         eventually(lambda: self.told_on_table("stick_told") > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
@@ -61,7 +61,7 @@ class Stick(ToldStickTest):
         report = self.outcome()
         self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
         self.assertEqual(self.installed(), [("nautilus-cup", 1)])
-        # and once more, to its end
+        # The second time the stick stays in until the import ends.
         self.plug("again", self.image("slow"))
         self.assertEqual(pulled_packs(self.outcome()), {"vase.fspack": ("taken", "none")})
         self.assertEqual(self.installed(), [("nautilus-cup", 1), ("Vase", 2)])

@@ -18,7 +18,7 @@ DAY = "/var/lib/frustumscreen/counts/2026-01-05.json"
 VISITS = ('{"frustumscreen_counts": 1, "day": "2026-01-05", "hours": [{"hour": 10, "visits": 3, "ms": 184000}], '
           '"artifacts": [{"name": "Amphora", "visits": 3, "ms": 184000}], "languages": [{"name": "en", "visits": 3, "ms": 184000}]}\n')
 CALIBRATION = f"cat {kept_calibration.FOLDER}/calibration-*.toml"
-# Only that the table says so would need words: tests/exhibit. The state of delivery: test_delivery.py.
+# The table's sentences need words: tests/exhibit has them. test_delivery.py has the state of delivery.
 FORGET = f"{kept_calibration.FORGET}; rm -f {DAY} {SETTINGS}.* {LIBRARY}/set.txt; rm -rf {LIBRARY}/packs"
 RESTART_S = 90.0
 PAGES_TO_COPY = 6  # of the staff's picture, from the first
@@ -42,12 +42,12 @@ class StickCopy(StickTest):
 
     @classmethod
     def sign(cls, pack, serial):
-        """Files that are no packs get a signature beside them."""
+        """Signs a file that is no pack: the signature is a file beside it."""
         super().sign(pack, serial)
         return pack.with_name(pack.name + ".minisig") if pack.suffix != ".fspack" else pack
 
     def put(self, name, files, timeout_s=REPORT_S):
-        """The report on a stick with these files, and its contents afterwards."""
+        """Puts in a stick with these files; returns the report, and the stick's contents afterwards."""
         stick = self.make(name, "vfat", files)
         self.plug(name, stick)
         told = pulled_packs(self.outcome(timeout_s))

@@ -17,7 +17,7 @@ MOST_MIB = 64.0
 MOST_WORK_S = 2.0
 REFERENCE_STEPS = 300_000  # counted by the shell, which the image has too, to compare the processors
 MEASURED = "/run/measured"
-# The largest that each unit of a stick has taken of memory, and its time of the processor, looked at until it is gone.
+# The maximum memory and the processor time of each unit that handles a stick, sampled until the unit ends.
 MEASURE = f"""while sleep 0.2; do
     for unit in /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*@*; do
         {{ read -r peak <$unit/memory.peak && read -r _ used <$unit/cpu.stat; }} 2>/dev/null && echo $unit $peak $used
@@ -26,7 +26,7 @@ done"""
 
 
 def many_files(folder, _):
-    """More than are looked through, in folders, because mkfs.ext4 is slow in large ones."""
+    """More files than the importer accepts, in several folders, because mkfs.ext4 is slow with large folders."""
     for number in range(100):
         (folder / f"{number}").mkdir()
         for file in range(300):
@@ -58,7 +58,7 @@ class HostileSticks(LongStickTest):
 
     @classmethod
     def processor_slowdown(cls):
-        """How much slower the emulated processor is at the moment, by a program that only computes."""
+        """The factor by which the emulated processor is slower now, measured by a program that only computes."""
         command = f"k=0; while [ $k -lt {REFERENCE_STEPS} ]; do k=$((k + 1)); done; times"
 
         def work_s(said):

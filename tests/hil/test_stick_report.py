@@ -48,7 +48,7 @@ class StickReport(ToldStickTest):
         return self.make(name, kind, {REQUEST: b"", **self.own, **(more or {})})
 
     def assert_own_files(self, image):
-        """The report's files, after each other was found as it was."""
+        """Checks that every other file is unchanged, and returns the report's files."""
         found = files_on(image)
         for name, content in {REQUEST: b"", **self.own}.items():
             self.assertTrue(found.pop(name, None) == content, f"{name} is not as it was")
@@ -120,7 +120,7 @@ class StickReport(ToldStickTest):
         eventually(lambda: "frustumscreen-report/" not in self.bench.machine.run("cat /proc/mounts").output, 60.0, "the folder stays mounted")
         for name, content in {REQUEST: b"", **self.own}.items():
             self.assertTrue(file_on(stick, name) == content, f"{name} is not as it was")
-        # The file that was being written is cut off, and mtools says so.
+        # The stick was pulled out while this file was written: mtools reports it as cut off.
         listed = subprocess.run(["mdir", "-b", "-/", "-i", stick, "::/"], check=False, capture_output=True, text=True).stdout
         self.assertIn("/photos/cup.jpg", listed)
         self.assertNotIn("/journal.txt", listed, "all was written before: this proves nothing")

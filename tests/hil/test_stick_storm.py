@@ -27,7 +27,7 @@ IMPORT = "frustumscreen-import@cut.service"
 @long
 class StickStorm(LongStickTest):
     def take(self, serial, kind="vfat"):
-        """A whole import."""
+        """Imports one stick from beginning to end."""
         self.forget()
         disk = nbd.Disk(self.folder / "whole", self.make("whole", kind, {"vase.fspack": self.signed("amphora", serial)}))
         try:
@@ -61,7 +61,7 @@ class StickStorm(LongStickTest):
         taken, told = 0, {}
         for number in range(PULLS):
             kind = chance.choice(sticks.KINDS)
-            # Half of them anywhere, half where the importer reads, or when it has read all; the last one is whole.
+            # Half of the cuts come at any read, half where the importer reads or after it has read everything. The last stick stays in.
             first, last = chance.choice(((0.0, 1.0), (0.7, 1.1))) if number + 1 < PULLS else (1.1, 1.1)
             at_read = 1 + round(chance.uniform(first, last) * reads[kind])
             now, _, refusal = self.pull_at(kind, serial + 1, at_read)
@@ -159,7 +159,7 @@ class StickStorm(LongStickTest):
                 told.setdefault(kind, []).append(f"{report['stage']} {report['refusal']}")
                 self.pull("damaged")
                 found = set(self.installed(QUIET))
-                # A pack that was read whole in spite of the damage is rightly taken.
+                # The importer may take a pack that it could read completely in spite of the damage.
                 self.assertTrue({("amphora", 1)} <= found <= whole, f"{kind}: {found}")
                 self.assertTrue(report["stage"] == "done" or report["reason"])
                 self.goes_on()
@@ -219,7 +219,7 @@ class StickStorm(LongStickTest):
 
             disk = nbd.Disk(self.folder / "disk", image, change=change, delay_s=CHANGING_READ_S)
             self.forget()
-            # The kernel keeps nothing of what it read, so that it must ask the stick again.
+            # The kernel drops its cache, so that it must read the stick again.
             drops = self.bench.machine.spawn("while sleep 0.02; do echo 1 > /proc/sys/vm/drop_caches; done")
             try:
                 self.plug("changing", disk.path)

@@ -10,7 +10,7 @@ ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
 REPLUGS, REPLUG_S = 100, 0.1
 STORM_S = 10.0
-# what the tracker does; what the status says about it meanwhile, if that is certain
+# the tracker's action; the status's sentence meanwhile, if there is a definite one
 STORMS = {
     "replugged_100_times": ("replug 10", None),
     "8_khz": ("rate 8000", None),

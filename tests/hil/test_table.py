@@ -16,7 +16,7 @@ class Table(HilTest):
         return screen.lit(self.bench.rendered([pose], artifact)[0])
 
     def picture_beside(self, outline):
-        """The middle of what is lit beside the artifact, in metres on the table; None: nothing is."""
+        """The middle of the lit area beside the artifact, in metres on the table; None: nothing is lit."""
         shot = self.bench.screendump()
         around = screen.grown(outline, 8, shot.width)
         beside = [row & ~near for row, near in zip(screen.lit(shot), around)]

@@ -22,7 +22,7 @@ class Trackers(HilTest):
         self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def test_viper_filters_nothing(self):
-        """Both of its own filters are switched off, once it is found."""
+        """The driver switches both of the tracker's own filters off when it finds the tracker."""
         self.show(ARTIFACT)
         eventually(lambda: not any(self.bench.tracker.tell("status")["filter_levels"].values()), FOUND_S,
                    "the VIPER filters by itself")

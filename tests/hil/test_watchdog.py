@@ -52,7 +52,7 @@ class Watchdog(HilTest):
         print("  " + ", ".join(f"{fault['cause']}: {fault['step']}" for fault in self.faults()), flush=True)
 
     def assert_lives(self, timeout_s=BACK_S):
-        """The screen is lit, and its picture is another one soon."""
+        """Waits until the screen is lit and its picture changes."""
         seen = set()
 
         def lit_anew():
@@ -102,7 +102,7 @@ class Watchdog(HilTest):
         machine = self.bench.machine
         self.show("nautilus-cup")
         eventually(lambda: machine.read(LAST_GOOD) == USUAL, BACK_S, "good settings are not kept")
-        # The mode goes with the watchdog's folder.
+        # When the watchdog stops, systemd removes its folder, and with it the mode.
         self.addCleanup(machine.run, f"{END}; systemctl restart --no-block {UNIT}")
         self.addCleanup(machine.write, SETTINGS, USUAL)
         machine.write(SETTINGS, SPOILT)
@@ -129,9 +129,9 @@ class Watchdog(HilTest):
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
 
     def test_driver_that_crashes_at_each_start(self):
-        """Drawn plainly the museum's own set is on the table, and where it crashed is told and kept."""
+        """Plain drawing shows the museum's own set, and the place of the crash is reported and kept."""
         machine = self.bench.machine
-        # The mode goes with the watchdog's folder.
+        # When the watchdog stops, systemd removes its folder, and with it the mode.
         self.addCleanup(machine.run, f"{END}; rm -f /run/hil/crash-driver; rm -rf {CRASHES}; systemctl restart --no-block {UNIT}")
         machine.check("touch /run/hil/crash-driver")
         self.broken()
@@ -174,7 +174,7 @@ class Watchdog(HilTest):
 
     @long
     def test_full_disk(self):
-        """No data can be stored; the exhibit goes on, and the watchdog takes steps, but no reboot that it could not write down."""
+        """The disk is full: the exhibit goes on, and the watchdog takes steps, but no reboot that it cannot record."""
         machine = self.bench.machine
         folders = ("/var/lib/frustumscreen-watchdog", "/var/cache/frustumscreen")
         self.addCleanup(machine.run, f"{END}; systemctl stop {UNIT}; umount {' '.join(folders)}; systemctl start --no-block {UNIT}")
@@ -218,7 +218,7 @@ class Watchdog(HilTest):
         """TasksMax= holds it; the exhibit goes on, and when it is killed it comes back without the bomb."""
         machine = self.bench.machine
         machine.spawn(f"echo $$ > {GROUP}/cgroup.procs; while :; do sleep 1000 & done")
-        # The shell ends at the first process that it is refused; the others stay.
+        # The shell ends when the kernel refuses it a process; the processes that exist stay.
         eventually(lambda: int(machine.read(f"{GROUP}/pids.events").split()[1]) > 0, BACK_S, "the bomb does not go off")
         self.assertGreaterEqual(int(machine.read(f"{GROUP}/pids.current")), int(machine.read(f"{GROUP}/pids.max")) - 4)
         self.assert_untouched()
@@ -257,6 +257,6 @@ class Watchdog(HilTest):
         self.assert_lives(SYSTEM_BACK_S)
 
     def settle(self, seconds=5.0):
-        """Lets the watchdog look for so long."""
+        """Lets the watchdog observe the exhibit for this time."""
         begun = self.said()["monotonic_ns"]
         eventually(lambda: self.said().get("monotonic_ns", 0) > begun + 1e9 * seconds, 10 * seconds, "it does not look")

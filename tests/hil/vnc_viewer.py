@@ -40,7 +40,7 @@ class VncViewer:
         return data
 
     def resize(self, width, height):
-        """Tells that the window has this size now; 0 x 0: nothing can be shown in it."""
+        """Reports the window's new size; 0 x 0: the window can show nothing."""
         self._socket.sendall(struct.pack(">BxHHBxIHHHHI", SET_DESKTOP_SIZE, width, height, 1, 0, 0, 0, width, height, 0))
 
     def close(self):

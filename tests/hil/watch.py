@@ -48,7 +48,7 @@ class Watch:
     pictures: list  # some of those seen
 
     def stood(self, rests=False):
-        """How long one picture stood; `rests`: how much longer than a picture may while nothing moves."""
+        """The longest time for which one picture stood; `rests`: beyond the time that is allowed while nothing moves."""
         longest, first, stands, seen = Given(0.0, 0.0), None, None, None
         for look in self.looks:
             if first is None or look.code not in (first.code, None):
@@ -68,7 +68,7 @@ class Watch:
                          for look in self.looks)
 
     def pace_s(self):
-        """How long the guest took for a picture, as the median; 0: too few were seen."""
+        """The guest's median time for a picture; 0: there were too few pictures."""
         coded = [look for look in self.looks if look.code is not None]
         first = [look for before, look in zip(coded, coded[1:]) if look.code != before.code]
         paces = [(b.end.granted_s - a.end.granted_s) / ((b.code - a.code) % CODES) for a, b in zip(first, first[1:])]
@@ -92,7 +92,7 @@ def watch(bench, seconds):
 
 
 def froze(seen, rests=False):
-    """Says why a picture counts as frozen; empty: none did. Prints the figures."""
+    """Returns why a picture counts as frozen; empty: no picture does. Prints the figures."""
     stood, pace_s = seen.stood(rests), seen.pace_s()
     figures = (f"{'at rest' if rests else 'moving'}: a picture each {1e3 * pace_s:.0f} ms; one stood for "
                f"{1e3 * stood.granted_s:.0f} ms, while the guest rested for {1e3 * stood.rested_s:.0f}; "

@@ -4,6 +4,7 @@
 #include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -99,6 +100,31 @@ TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) 
     ASSERT_EQ(blocks.size(), 2U);
     EXPECT_LT(blocks[1], 1.1 * blocks[0]);
     EXPECT_NE(text("out.txt").find("finest relief"), std::string::npos) << text("out.txt");
+}
+
+TEST_F(BenchScaling, ABakeOfAScanLeavesItsRowAndNoPack) {
+    write_star();
+    ASSERT_EQ(run("frustumscreen-bench scaling --bakes --mesh star.obj --size 48 --out out"), 0)
+        << text("err.txt");
+    const std::string csv = text("out/bakes.csv");
+    EXPECT_TRUE(csv.starts_with("triangles,")) << csv;
+    EXPECT_NE(csv.find("\n8,"), std::string::npos) << csv; // the star's triangles
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/bench-bake.fspack"));
+    EXPECT_EQ(run("frustumscreen-bench scaling --mesh star.obj --out out"), 2) << "--mesh is for --bakes";
+    EXPECT_EQ(run("frustumscreen-bench scaling --bakes --mesh none.obj --out out"), 1);
+    EXPECT_NE(text("err.txt").find("none.obj"), std::string::npos) << text("err.txt");
+}
+
+TEST_F(BenchScaling, ThrowRatiosAreMeasuredWithoutASearch) {
+    ASSERT_EQ(run("frustumscreen-bench setup --config '" + source_dir() +
+                  "/config/kiosk.toml' --throw-ratios 1.875 1.5 --out out"),
+              0)
+        << text("err.txt");
+    // At 1.5 m the picture is 1.5 / 1.875 = 0.8 m wide and 1200 / 1920 of that deep, with 1920 / 0.8 pixels a metre.
+    const std::string csv = text("out/zones.csv");
+    EXPECT_NE(csv.find("\n1.8750,0.8000,0.5000,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",2400.0\n1.5000,1.0000,0.6250,"), std::string::npos) << csv;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/setup.csv"));
 }
 
 /// A page with the ladder's table, and the CSV of one policy.

@@ -8,7 +8,7 @@
 #include "app/relief/rasterize_blocks.h"
 #include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/box_frame.h"
-#include "tests/bench/near_stage.h"
+#include "tests/bench/near_settings.h"
 #include "tests/bench/ring.h"
 
 #include <memory>

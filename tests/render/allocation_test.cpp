@@ -12,13 +12,13 @@ TEST(Frame, AllocatesNothing) {
     }
     for (const int samples : {1, 4}) {
         Rig rig(320, 200, samples);
-        Stage stage(320, 200);
+        TestTable table(320, 200);
         std::mt19937 random(5);
         long counted = 0;
         for (int k = 0; k < 60; ++k) {
-            stage.shuffle(random);
+            table.shuffle(random);
             const long before = allocations_so_far();
-            scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{}), rig.plan);
+            scene::plan_frame(table.prop, rig.level, table.view(scene::LightCompensation{}), rig.plan);
             counted += allocations_so_far() - before;
             // In its first frames llvmpipe compiles shaders, with LLVM's C++ allocations.
             const long before_draw = allocations_so_far();

@@ -35,13 +35,13 @@ inline double grid_step_px() {
 /// How far the true point moves when the pixel's centre moves by `step_px`: the maximum over eight
 /// directions.
 template <typename Cast>
-double moves_mm(const Cast& cast, const Stage& stage, const glm::dvec2& centre,
+double moves_mm(const Cast& cast, const TestTable& table, const glm::dvec2& centre,
                 const ReferenceCast::Hit& truth, double step_px) {
     double most = 0.0;
     for (int k = 0; k < 8; ++k) {
         const double angle = k * std::numbers::pi / 4.0;
         const ReferenceCast::Hit near =
-            cast.through_pixel(stage, centre + step_px * glm::dvec2(std::cos(angle), std::sin(angle)));
+            cast.through_pixel(table, centre + step_px * glm::dvec2(std::cos(angle), std::sin(angle)));
         if (near.found) {
             most = std::max(most, 1e3 * glm::distance(near.point, truth.point));
         }
@@ -51,12 +51,13 @@ double moves_mm(const Cast& cast, const Stage& stage, const glm::dvec2& centre,
 
 /// A pixel is excused if rays close to it disagree too: the rasterizer rounds to 1/256 pixel.
 template <typename Cast>
-bool grazes(const Cast& cast, const Stage& stage, const glm::dvec2& centre, const ReferenceCast::Hit& truth) {
+bool grazes(const Cast& cast, const TestTable& table, const glm::dvec2& centre,
+            const ReferenceCast::Hit& truth) {
     constexpr double hair = 1.0 / 64.0;
     for (int k = 0; k < 8; ++k) {
         const double angle = k * std::numbers::pi / 4.0;
         const ReferenceCast::Hit near =
-            cast.through_pixel(stage, centre + hair * glm::dvec2(std::cos(angle), std::sin(angle)));
+            cast.through_pixel(table, centre + hair * glm::dvec2(std::cos(angle), std::sin(angle)));
         if (near.found != truth.found || (truth.found && glm::distance(near.point, truth.point) > 2e-3)) {
             return true;
         }
@@ -65,22 +66,22 @@ bool grazes(const Cast& cast, const Stage& stage, const glm::dvec2& centre, cons
 }
 
 template <typename Cast>
-Comparison compare(const Stage& stage, const Cast& cast, const image::ImageFloat& drawn) {
+Comparison compare(const TestTable& table, const Cast& cast, const image::ImageFloat& drawn) {
     Comparison result;
     for (int y = 0; y < drawn.height; ++y) {
         for (int x = 0; x < drawn.width; ++x) {
             const glm::dvec2 centre(x + 0.5, y + 0.5);
-            const ReferenceCast::Hit truth = cast.through_pixel(stage, centre);
+            const ReferenceCast::Hit truth = cast.through_pixel(table, centre);
             const glm::vec3& point = drawn.at(x, y);
             const bool hit = !std::isnan(point.x);
             if (hit != truth.found) {
                 ++result.mismatched;
-                result.unexcused += grazes(cast, stage, centre, truth) ? 0U : 1U;
+                result.unexcused += grazes(cast, table, centre, truth) ? 0U : 1U;
             } else if (hit) {
                 ++result.both;
                 double mm = 1e3 * glm::distance(glm::dvec3(point), truth.point);
-                if (mm > result.worst_mm && !grazes(cast, stage, centre, truth)) {
-                    mm -= moves_mm(cast, stage, centre, truth, grid_step_px());
+                if (mm > result.worst_mm && !grazes(cast, table, centre, truth)) {
+                    mm -= moves_mm(cast, table, centre, truth, grid_step_px());
                     result.worst_mm = std::max(result.worst_mm, mm);
                 }
             }

@@ -11,10 +11,10 @@ namespace {
 constexpr double edge_m = 0.12;
 
 struct CubeRig : Rig {
-    Stage stage{256, 160};
+    TestTable table{256, 160};
 
     CubeRig() : Rig(256, 160) {
-        stage.prop = prop = geometry::make_cube(edge_m);
+        table.prop = prop = geometry::make_cube(edge_m);
         level.metres_per_box = metres_per_box(pack, prop);
         plan = scene::make_plan(prop, level);
     }
@@ -22,17 +22,17 @@ struct CubeRig : Rig {
 
 TEST(Cube, EveryFaceShowsWhatARayCastShows) {
     CubeRig rig;
-    Stage& stage = rig.stage;
+    TestTable& table = rig.table;
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
     std::mt19937 random(11);
     std::set<std::string_view> shown;
     for (int pose = 0; pose < 24; ++pose) {
-        stage.hold(random);
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        table.hold(random);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         for (const scene::FacePlan& face : rig.plan.faces) {
-            shown.insert(stage.prop.faces[static_cast<std::size_t>(face.face)].name);
+            shown.insert(table.prop.faces[static_cast<std::size_t>(face.face)].name);
         }
-        const Comparison c = compare(stage, cast, rig.places());
+        const Comparison c = compare(table, cast, rig.places());
         EXPECT_LT(c.worst_mm, 0.02) << pose;
         EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
     }
@@ -41,13 +41,13 @@ TEST(Cube, EveryFaceShowsWhatARayCastShows) {
 
 TEST(Cube, UpsideDownItsBottomShowsTheArtifactFromBelow) {
     CubeRig rig;
-    Stage& stage = rig.stage;
-    stage.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};
-    stage.eye_m = {0.0, 0.0, 0.7};
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    TestTable& table = rig.table;
+    table.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};
+    table.eye_m = {0.0, 0.0, 0.7};
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     ASSERT_EQ(rig.plan.faces.size(), 1U);
-    EXPECT_EQ(stage.prop.faces[static_cast<std::size_t>(rig.plan.faces[0].face)].name, "-Z");
-    const Comparison c = compare(stage, ReferenceCast(rig.pack, rig.level.metres_per_box), rig.places());
+    EXPECT_EQ(table.prop.faces[static_cast<std::size_t>(rig.plan.faces[0].face)].name, "-Z");
+    const Comparison c = compare(table, ReferenceCast(rig.pack, rig.level.metres_per_box), rig.places());
     EXPECT_GT(c.both, 600U);
     EXPECT_EQ(c.unexcused, 0U);
 }

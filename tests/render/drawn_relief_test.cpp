@@ -11,15 +11,15 @@ namespace frustumscreen::synthetic {
 namespace {
 
 /// The point of a relief that a pixel's ray meets, in the prop frame; NaN: none.
-glm::dvec3 met_by_ray(const bake::ReliefScene& scene, const Stage& stage, double metres_per_box,
+glm::dvec3 met_by_ray(const bake::ReliefScene& scene, const TestTable& table, double metres_per_box,
                       const glm::dvec2& pixel) {
     const geometry::RigidTransform prop_from_projector =
-        stage.table_from_prop.inverse() * stage.table_from_projector;
-    const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
-    const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
+        table.table_from_prop.inverse() * table.table_from_projector;
+    const glm::dvec3 ray = prop_from_projector.direction(table.projector.ray(pixel));
+    const glm::dvec3 eye = table.table_from_prop.inverse().point(table.eye_m);
     geometry::PropHit lit;
-    if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit) ||
-        !(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
+    if (!geometry::intersect(table.prop, prop_from_projector.translation, ray, lit) ||
+        !(table.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
         return glm::dvec3(NAN);
     }
     const glm::dvec3 direction = glm::normalize(prop_from_projector.translation + lit.t * ray - eye);
@@ -42,19 +42,19 @@ TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
         const relief::BlockRelief whole = without_cuts(*rig.relief);
         const bake::ReliefScene scene(*rig.relief);
         const bake::ReliefScene whole_scene(whole);
-        Stage stage = stage_of(lens);
+        TestTable table = table_of(lens);
         std::size_t both = 0;
         std::size_t one = 0;
         std::size_t beside_covers = 0;
         std::size_t far = 0;
         for (int pose = 0; pose < 3; ++pose) {
-            stage.shuffle(random);
-            rig.one(stage, rig.drawn);
+            table.shuffle(random);
+            rig.one(table, rig.drawn);
             const image::ImageFloat places = rig.places();
             for (int y = 0; y < places.height; ++y) {
                 for (int x = 0; x < places.width; ++x) {
                     const auto ray = [&](const bake::ReliefScene& of) {
-                        return met_by_ray(of, stage, rig.drawn.metres_per_box, {x + 0.5, y + 0.5});
+                        return met_by_ray(of, table, rig.drawn.metres_per_box, {x + 0.5, y + 0.5});
                     };
                     const glm::dvec3 truth = ray(scene);
                     const bool is_there = !std::isnan(places.at(x, y).x);
@@ -82,16 +82,16 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
     for (const geometry::Lens& lens : lenses) {
         for (const int samples : {1, 16}) {
             ReliefRig rig(samples, 192, rings(), lens);
-            Stage stage = stage_of(lens);
+            TestTable table = table_of(lens);
             std::size_t lit = 0;
             std::size_t alone = 0;
             std::size_t off = 0;
             std::size_t far = 0;
             for (int pose = 0; pose < 4; ++pose) {
-                stage.shuffle(random);
-                const image::Image8 raster = rig.one(stage, rig.raster, scene::LightCompensation{});
+                table.shuffle(random);
+                const image::Image8 raster = rig.one(table, rig.raster, scene::LightCompensation{});
                 const image::ImageFloat met = rig.places();
-                const image::Image8 drawn = rig.one(stage, rig.drawn, scene::LightCompensation{});
+                const image::Image8 drawn = rig.one(table, rig.drawn, scene::LightCompensation{});
                 const image::ImageFloat places = rig.places();
                 for (std::size_t k = 0; k < raster.texels.size(); ++k) {
                     const bool in_raster = !std::isnan(met.texels[k].x);
@@ -119,12 +119,12 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
 
 TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
     ReliefRig rig(1);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(15);
-    stage.shuffle(random);
-    const image::Image8 raster = rig.one(stage, rig.raster, scene::LightCompensation{});
-    const image::Image8 drawn = rig.one(stage, rig.drawn, scene::LightCompensation{});
-    const image::Image8 middle = rig.fading(stage, rig.raster, rig.drawn, 0.5);
+    table.shuffle(random);
+    const image::Image8 raster = rig.one(table, rig.raster, scene::LightCompensation{});
+    const image::Image8 drawn = rig.one(table, rig.drawn, scene::LightCompensation{});
+    const image::Image8 middle = rig.fading(table, rig.raster, rig.drawn, 0.5);
     std::size_t differing = 0;
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
         ASSERT_TRUE(farthest_channel(middle.texels[k], raster.texels[k]) <= 1 ||
@@ -154,8 +154,8 @@ TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
 
 TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
     ReliefRig rig(1);
-    const Stage stage(320, 200);
-    const image::Image8 whole = rig.one(stage, rig.drawn);
+    const TestTable table(320, 200);
+    const image::Image8 whole = rig.one(table, rig.drawn);
     scene::LevelData data;
     data.relief = rig.relief;
     data.on_gpu = true;
@@ -168,7 +168,7 @@ TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
     EXPECT_GT(pieces, 5);
     scene::PlacedLevel other = rig.drawn;
     other.drawable = rig.renderer->store().keep(std::move(upload));
-    EXPECT_EQ(rig.one(stage, other).texels, whole.texels);
+    EXPECT_EQ(rig.one(table, other).texels, whole.texels);
 }
 
 TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
@@ -184,8 +184,8 @@ TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().id, "render.no_room_for_relief") << refused.error().message;
     EXPECT_EQ(rig.renderer->store().bytes(), before);
-    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.raster)), 1000U);
-    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.drawn)), 1000U);
+    EXPECT_GT(lit_pixels(rig.one(TestTable(320, 200), rig.raster)), 1000U);
+    EXPECT_GT(lit_pixels(rig.one(TestTable(320, 200), rig.drawn)), 1000U);
 }
 
 } // namespace

@@ -14,13 +14,13 @@ constexpr double step_m = 1e-4;
 
 class EdgeFeather : public ::testing::Test {
 protected:
-    EdgeFeather() : rig(320, 200), stage(320, 200) {
+    EdgeFeather() : rig(320, 200), table(320, 200) {
         rig.pack.textures[0] = image::Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
-        stage.eye_m = {0.0, -0.45, 0.5};
+        table.eye_m = {0.0, -0.45, 0.5};
     }
     image::Image8 draw(bool feathered) {
-        scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{aim}), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(scene::LightCompensation{aim}), rig.plan);
         if (!feathered) {
             rig.plan.feathers.clear();
         }
@@ -30,12 +30,12 @@ protected:
     /// An edge of the top in the picture; both adjacent faces show the artifact.
     [[nodiscard]] std::array<glm::dvec2, 2> front_edge_of_top() const {
         const geometry::RigidTransform projector_from_prop =
-            stage.table_from_projector.inverse() * stage.table_from_prop;
+            table.table_from_projector.inverse() * table.table_from_prop;
         std::array<glm::dvec2, 2> ends{};
         std::size_t count = 0;
-        for (const glm::dvec3& corner : stage.prop.faces[4].corners) {
+        for (const glm::dvec3& corner : table.prop.faces[4].corners) {
             if (corner.y < 0.0) {
-                ends.at(count++) = *stage.projector.pixel(projector_from_prop.point(corner));
+                ends.at(count++) = *table.projector.pixel(projector_from_prop.point(corner));
             }
         }
         return ends;
@@ -43,10 +43,10 @@ protected:
     /// The largest change of a pixel near that edge while the edge moves across it in small steps.
     int max_change(bool feathered) {
         int most = 0;
-        stage.table_from_prop.translation = {0.0, 0.0, 0.0};
+        table.table_from_prop.translation = {0.0, 0.0, 0.0};
         image::Image8 before = draw(feathered);
         for (int k = 1; k <= 40; ++k) {
-            stage.table_from_prop.translation.y = k * step_m;
+            table.table_from_prop.translation.y = k * step_m;
             const image::Image8 now = draw(feathered);
             const auto [a, b] = front_edge_of_top();
             const int x = static_cast<int>(0.5 * (a.x + b.x)); // middle of the artifact
@@ -58,7 +58,7 @@ protected:
         return most;
     }
     Rig rig;
-    Stage stage;
+    TestTable table;
 };
 
 TEST_F(EdgeFeather, APixelChangesByDegreesWhenAnEdgeCrossesIt) {
@@ -100,8 +100,8 @@ TEST_F(EdgeFeather, TheStripsCloseTheGapBetweenTheGains) {
             for (const scene::FacePlan& other : rig.plan.faces) {
                 if (&other != &own) {
                     nearest =
-                        std::min(nearest, std::abs(share * scene::gain(own.light, stage.projector, pixel) -
-                                                   scene::gain(other.light, stage.projector, pixel)));
+                        std::min(nearest, std::abs(share * scene::gain(own.light, table.projector, pixel) -
+                                                   scene::gain(other.light, table.projector, pixel)));
                 }
             }
             EXPECT_LT(nearest, 1e-4);

@@ -26,14 +26,14 @@ struct FadeRig : Rig {
         level.samples = coarse.samples = 0;
         plan = scene::make_plan(prop, level.triangles->indices.size() + coarse.triangles->indices.size(), 2);
     }
-    image::Image8 one(const Stage& stage, const scene::PlacedLevel& which) {
-        scene::plan_frame(prop, which, stage.view(scene::LightCompensation{}), plan);
+    image::Image8 one(const TestTable& table, const scene::PlacedLevel& which) {
+        scene::plan_frame(prop, which, table.view(scene::LightCompensation{}), plan);
         draw();
         return picture();
     }
     /// Fades from the fine level to the coarse one.
-    image::Image8 fading(const Stage& stage, double share) {
-        scene::plan_frame(prop, scene::fade(level, coarse, share), stage.view(scene::LightCompensation{}),
+    image::Image8 fading(const TestTable& table, double share) {
+        scene::plan_frame(prop, scene::fade(level, coarse, share), table.view(scene::LightCompensation{}),
                           plan);
         EXPECT_TRUE(draw().drawn);
         return picture();
@@ -51,14 +51,14 @@ class Fading : public ::testing::TestWithParam<int> {};
 
 TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
     FadeRig rig(GetParam());
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(11);
     for (int pose = 0; pose < 4; ++pose) {
-        stage.shuffle(random);
-        const image::Image8 from = rig.one(stage, rig.level);
-        const image::Image8 to = rig.one(stage, rig.coarse);
-        EXPECT_EQ(rig.fading(stage, 0.0).texels, from.texels);
-        EXPECT_EQ(rig.fading(stage, 1.0).texels, to.texels);
+        table.shuffle(random);
+        const image::Image8 from = rig.one(table, rig.level);
+        const image::Image8 to = rig.one(table, rig.coarse);
+        EXPECT_EQ(rig.fading(table, 0.0).texels, from.texels);
+        EXPECT_EQ(rig.fading(table, 1.0).texels, to.texels);
         std::vector<bool> arrived(from.texels.size(), false);
         std::size_t differing = 0;
         for (std::size_t k = 0; k < from.texels.size(); ++k) {
@@ -66,7 +66,7 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
         }
         ASSERT_GT(differing, 500U);
         for (const double share : {0.1, 0.3, 0.5, 0.8}) {
-            const image::Image8 middle = rig.fading(stage, share);
+            const image::Image8 middle = rig.fading(table, share);
             std::size_t coming = 0;
             std::size_t neither = 0;
             std::size_t gone_back = 0;
@@ -91,9 +91,9 @@ TEST_P(Fading, IsLeftOutByARendererThatWasMadeWithoutItsShader) {
     FadeRig rig(GetParam());
     rig.renderer = render::Renderer::create(320, 200, needs(GetParam())).value();
     rig.upload_again();
-    const Stage stage(320, 200);
-    EXPECT_GT(lit_pixels(rig.one(stage, rig.level)), 1000U);
-    EXPECT_EQ(lit_pixels(rig.fading(stage, 0.5)), 0U);
+    const TestTable table(320, 200);
+    EXPECT_GT(lit_pixels(rig.one(table, rig.level)), 1000U);
+    EXPECT_EQ(lit_pixels(rig.fading(table, 0.5)), 0U);
     EXPECT_EQ(rig.renderer->shaders(),
               scene::shaders_of(needs(GetParam()))); // no shader was compiled for the fade
 }
@@ -115,21 +115,21 @@ int bayer_rank(int x, int y, int size) {
 
 TEST(Fading, PlacesAreThoseOfARayCastOfTheLevelThatHasThePixel) {
     FadeRig rig(1);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(9);
-    stage.shuffle(random);
+    table.shuffle(random);
     const ReferenceCast fine(rig.pack, rig.level.metres_per_box);
     const ReferenceCast coarse(rig.coarse_pack, rig.level.metres_per_box);
     scene::plan_frame(rig.prop, scene::fade(rig.level, rig.coarse, 0.4),
-                      stage.view(scene::LightCompensation{}), rig.plan);
+                      table.view(scene::LightCompensation{}), rig.plan);
     const image::ImageFloat drawn = rig.places();
     std::array<int, 2> compared{};
     for (int y = 0; y < drawn.height; ++y) {
         for (int x = 0; x < drawn.width; ++x) {
             const bool arrived = bayer_rank(x % 8, y % 8, 8) < 0.4 * 64 - 0.5;
             const glm::dvec2 centre(x + 0.5, y + 0.5);
-            const ReferenceCast::Hit own = (arrived ? coarse : fine).through_pixel(stage, centre);
-            const ReferenceCast::Hit other = (arrived ? fine : coarse).through_pixel(stage, centre);
+            const ReferenceCast::Hit own = (arrived ? coarse : fine).through_pixel(table, centre);
+            const ReferenceCast::Hit other = (arrived ? fine : coarse).through_pixel(table, centre);
             // The point identifies the drawn level only where the levels are apart.
             if (!own.found || !other.found || glm::distance(own.point, other.point) < 1e-3 ||
                 std::isnan(drawn.at(x, y).x)) {
@@ -149,14 +149,14 @@ TEST(Fading, AllocatesNothing) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
     FadeRig rig(4);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(5);
     long counted = 0;
     for (int k = 0; k < 60; ++k) {
-        stage.shuffle(random);
+        table.shuffle(random);
         const long before = allocations_so_far();
         scene::plan_frame(rig.prop, scene::fade(rig.level, rig.coarse, k / 60.0),
-                          stage.view(scene::LightCompensation{}), rig.plan);
+                          table.view(scene::LightCompensation{}), rig.plan);
         counted += allocations_so_far() - before;
         const long before_draw = allocations_so_far();
         rig.draw();

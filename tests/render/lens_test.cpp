@@ -16,12 +16,12 @@ constexpr std::array<geometry::Lens, 4> lenses{geometry::Lens{0.1, 0.0}, geometr
                                                geometry::Lens{-0.12, 0.04}, geometry::Lens{0.3, -0.2}};
 
 /// A wide lens: the picture's corner is at 0.42 focal lengths, where k1 = 0.1 moves a pixel by 2.
-Stage wide(const geometry::Lens& lens) {
-    Stage stage(256, 160);
-    stage.projector.fx = stage.projector.fy = 360.0;
-    stage.projector.lens = lens;
-    stage.table_from_projector.translation.z = 0.5;
-    return stage;
+TestTable wide(const geometry::Lens& lens) {
+    TestTable table(256, 160);
+    table.projector.fx = table.projector.fy = 360.0;
+    table.projector.lens = lens;
+    table.table_from_projector.translation.z = 0.5;
+    return table;
 }
 
 /// A triangle's edge stays straight between its corners although the lens bends it: at 5 pixels length it is
@@ -33,11 +33,11 @@ TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
         Rig rig(256, 160, 1, rings(48, 24), wide(lens).projector);
         const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
         for (int pose = 0; pose < 2; ++pose) {
-            Stage stage = wide(lens);
-            stage.shuffle(random);
-            stage.table_from_projector.translation.z = 0.5;
-            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-            const Comparison c = compare(stage, cast, rig.places());
+            TestTable table = wide(lens);
+            table.shuffle(random);
+            table.table_from_projector.translation.z = 0.5;
+            scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
+            const Comparison c = compare(table, cast, rig.places());
             EXPECT_GT(c.both, 200U) << lens.k1 << ' ' << pose;
             EXPECT_LT(c.worst_mm, 0.1) << lens.k1 << ' ' << pose;
             EXPECT_EQ(c.unexcused, 0U) << lens.k1 << ' ' << pose << ": of " << c.mismatched << " mismatched";
@@ -56,20 +56,20 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
         const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
         glm::dvec2 beside(0.0);
         for (const glm::dvec2& place : places) {
-            Stage stage = wide(lens);
-            stage.table_from_prop.translation = glm::dvec3(place, 0.0);
-            stage.eye_m = {0.15, -0.3, 0.6};
-            const Mass truth = cast_mass(cast, stage);
+            TestTable table = wide(lens);
+            table.table_from_prop.translation = glm::dvec3(place, 0.0);
+            table.eye_m = {0.15, -0.3, 0.6};
+            const Mass truth = cast_mass(cast, table);
             ASSERT_GT(truth.light, 1000.0);
-            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
             rig.draw(render::Redraw::Everything);
             const Mass shown = shown_mass(rig.picture());
             EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << lens.k1;
             EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.1) << lens.k1;
             beside += (shown.centre() - truth.centre()) / 3.0;
             // Check of the test itself: without the lens the picture is displaced.
-            stage.projector.lens = {};
-            EXPECT_GT(glm::distance(cast_mass(cast, stage).centre(), truth.centre()), 0.2) << lens.k1;
+            table.projector.lens = {};
+            EXPECT_GT(glm::distance(cast_mass(cast, table).centre(), truth.centre()), 0.2) << lens.k1;
         }
         EXPECT_LT(glm::length(beside), 0.05) << lens.k1;
     }
@@ -80,13 +80,13 @@ TEST(BentPicture, CullingTakesNothingAway) {
     for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
         for (int pose = 0; pose < 12; ++pose) {
-            Stage stage = wide(lens);
-            stage.shuffle(random);
-            stage.table_from_projector.translation.z = 0.5;
+            TestTable table = wide(lens);
+            table.shuffle(random);
+            table.table_from_projector.translation.z = 0.5;
             if (pose % 4 == 3) { // at the picture's edge
-                stage.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
+                table.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
             }
-            scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+            scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
             rig.draw(render::Redraw::Everything);
             const image::Image8 culled_picture = rig.picture();
             draw_everything(rig.plan, rig.pack.levels[0].indices);
@@ -110,32 +110,32 @@ TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
         rig.pack.textures[0] = image::Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
-        Stage stage = wide(lens);
-        stage.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
-        stage.eye_m = {0.0, -0.45, 0.5};
+        TestTable table = wide(lens);
+        table.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
+        table.eye_m = {0.0, -0.45, 0.5};
         constexpr double aim = 0.5; // relative to the light at 1 m; the lens is half a metre above the table
-        scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{aim}), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(scene::LightCompensation{aim}), rig.plan);
         rig.plan.feathers.clear();
         rig.draw(render::Redraw::Everything);
         const image::Image8 picture = rig.picture();
         const geometry::RigidTransform prop_from_projector =
-            stage.table_from_prop.inverse() * stage.table_from_projector;
+            table.table_from_prop.inverse() * table.table_from_projector;
         double least = 10.0;
         double most = 0.0;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
                 geometry::PropHit lit;
-                const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray({x + 0.5, y + 0.5}));
+                const glm::dvec3 ray = prop_from_projector.direction(table.projector.ray({x + 0.5, y + 0.5}));
                 if (picture.at(x, y).g == 0 ||
-                    !geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+                    !geometry::intersect(table.prop, prop_from_projector.translation, ray, lit)) {
                     continue;
                 }
                 const glm::dvec3 to_light = -lit.t * ray;
                 const double d = glm::length(to_light);
                 const double cosine =
-                    glm::dot(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal, to_light / d);
+                    glm::dot(table.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal, to_light / d);
                 const double light = image::linear_from_srgb(picture.at(x, y).g / 255.0) * cosine / (d * d) *
-                                     light_of_pixel(stage.projector, x, y);
+                                     light_of_pixel(table.projector, x, y);
                 least = std::min(least, light);
                 most = std::max(most, light);
             }

@@ -17,21 +17,21 @@ struct Mass {
 };
 
 /// 16 rays per pixel, 4 x 4; each hit is weighted by `weight` of its position.
-template <typename Weight> Mass cast_mass(const ReferenceCast& cast, const Stage& stage, Weight weight) {
+template <typename Weight> Mass cast_mass(const ReferenceCast& cast, const TestTable& table, Weight weight) {
     Mass mass;
-    for (int y = 0; y < stage.projector.height; ++y) {
-        for (int x = 0; x < stage.projector.width; ++x) {
+    for (int y = 0; y < table.projector.height; ++y) {
+        for (int x = 0; x < table.projector.width; ++x) {
             for (int k = 0; k < 16; ++k) {
                 const glm::dvec2 at = glm::dvec2(x, y) + (glm::dvec2(k & 3, k >> 2) + 0.5) / 4.0;
-                mass.add(at, cast.through_pixel(stage, at).found ? weight(at) / 16.0 : 0.0);
+                mass.add(at, cast.through_pixel(table, at).found ? weight(at) / 16.0 : 0.0);
             }
         }
     }
     return mass;
 }
 
-inline Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
-    return cast_mass(cast, stage, [](const glm::dvec2&) { return 1.0; });
+inline Mass cast_mass(const ReferenceCast& cast, const TestTable& table) {
+    return cast_mass(cast, table, [](const glm::dvec2&) { return 1.0; });
 }
 
 inline Mass shown_mass(const image::Image8& picture) {

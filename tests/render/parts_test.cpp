@@ -26,10 +26,10 @@ struct NestedRig : Rig {
 struct NestedCast {
     ReferenceCast outer, inner;
 
-    [[nodiscard]] ReferenceCast::Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
-        const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
-        const ReferenceCast::Hit a = outer.through_pixel(stage, pixel);
-        const ReferenceCast::Hit b = inner.through_pixel(stage, pixel);
+    [[nodiscard]] ReferenceCast::Hit through_pixel(const TestTable& table, const glm::dvec2& pixel) const {
+        const glm::dvec3 eye = table.table_from_prop.inverse().point(table.eye_m);
+        const ReferenceCast::Hit a = outer.through_pixel(table, pixel);
+        const ReferenceCast::Hit b = inner.through_pixel(table, pixel);
         const bool first = a.found && (!b.found || glm::distance(a.point, eye) < glm::distance(b.point, eye));
         return first ? a : b;
     }
@@ -38,12 +38,12 @@ struct NestedCast {
 TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
     NestedRig rig;
     const NestedCast cast{{rig.pack, rig.level.metres_per_box}, {rig.inner_pack, rig.inner.metres_per_box}};
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     std::mt19937 random(7);
     for (int pose = 0; pose < 5; ++pose) {
-        stage.shuffle(random);
-        scene::plan_frame(stage.prop, rig.parts(), stage.view(), rig.plan);
-        const Comparison c = compare(stage, cast, rig.places());
+        table.shuffle(random);
+        scene::plan_frame(table.prop, rig.parts(), table.view(), rig.plan);
+        const Comparison c = compare(table, cast, rig.places());
         EXPECT_GT(c.both, 600U) << pose;
         EXPECT_LT(c.worst_mm, 0.02) << pose;
         EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
@@ -52,15 +52,15 @@ TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
 
 TEST(Parts, TheirOrderDoesNotShow) {
     NestedRig rig;
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     std::mt19937 random(22);
     for (int pose = 0; pose < 5; ++pose) {
-        stage.shuffle(random);
-        scene::plan_frame(stage.prop, rig.parts(), stage.view(scene::LightCompensation{}), rig.plan);
+        table.shuffle(random);
+        scene::plan_frame(table.prop, rig.parts(), table.view(scene::LightCompensation{}), rig.plan);
         rig.draw(render::Redraw::Everything);
         const image::Image8 picture = rig.picture();
         const std::array<scene::Part, 2> turned{rig.parts()[1], rig.parts()[0]};
-        scene::plan_frame(stage.prop, turned, stage.view(scene::LightCompensation{}), rig.plan);
+        scene::plan_frame(table.prop, turned, table.view(scene::LightCompensation{}), rig.plan);
         rig.draw(render::Redraw::Everything);
         EXPECT_EQ(rig.picture().texels, picture.texels) << pose;
     }
@@ -68,8 +68,8 @@ TEST(Parts, TheirOrderDoesNotShow) {
 
 TEST(Parts, OfOneArtifactShowItWhole) {
     Rig rig(320, 200, 4);
-    Stage stage(320, 200);
-    scene::plan_frame(stage.prop, rig.level, stage.view(scene::LightCompensation{}), rig.plan);
+    TestTable table(320, 200);
+    scene::plan_frame(table.prop, rig.level, table.view(scene::LightCompensation{}), rig.plan);
     rig.draw();
     const image::Image8 whole = rig.picture();
     std::array<scene::Part, 2> halves{scene::Part{rig.level, {}}, scene::Part{rig.level, {}}};
@@ -82,7 +82,7 @@ TEST(Parts, OfOneArtifactShowItWhole) {
             std::make_shared<scene::LevelTriangles>(scene::triangles_of(level, rig.pack.box_size));
     }
     rig.plan = scene::make_plan(rig.prop, 2 * rig.pack.levels[0].indices.size(), 2);
-    scene::plan_frame(stage.prop, halves, stage.view(scene::LightCompensation{}), rig.plan);
+    scene::plan_frame(table.prop, halves, table.view(scene::LightCompensation{}), rig.plan);
     EXPECT_GT(rig.plan.draws.size(), rig.plan.faces.size());
     EXPECT_TRUE(rig.draw(render::Redraw::Everything).drawn);
     EXPECT_EQ(rig.picture().texels, whole.texels);
@@ -95,12 +95,12 @@ TEST(Parts, AndACaptionAllocateNothing) {
     NestedRig rig;
     const scene::TextureId caption =
         rig.renderer->store().upload(image::Image<std::uint8_t>(64, 32, 255)).value();
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     std::mt19937 random(5);
     long counted = 0;
     for (int k = 0; k < 60; ++k) {
-        stage.shuffle(random);
-        scene::PlanView view = stage.view(scene::LightCompensation{});
+        table.shuffle(random);
+        scene::PlanView view = table.view(scene::LightCompensation{});
         view.caption = scene::TablePicture{{glm::dvec3(-0.2, 0.13, 0.0), glm::dvec3(-0.1, 0.13, 0.0),
                                             glm::dvec3(-0.1, 0.09, 0.0), glm::dvec3(-0.2, 0.09, 0.0)},
                                            1.0,

@@ -11,13 +11,13 @@ namespace {
 
 TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
     Rig rig(256, 160);
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
     std::mt19937 random(7);
     for (int pose = 0; pose < 8; ++pose) {
-        stage.shuffle(random);
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const Comparison c = compare(stage, cast, rig.places());
+        table.shuffle(random);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
+        const Comparison c = compare(table, cast, rig.places());
         EXPECT_GT(c.both, 600U) << pose;
         EXPECT_LT(c.worst_mm, 0.02) << pose;
         EXPECT_EQ(c.unexcused, 0U) << pose << ": of " << c.mismatched << " mismatched";
@@ -27,25 +27,25 @@ TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
 TEST(Picture, HoldsForExtremeEyesAndProjectors) {
     Rig rig(256, 160);
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
-    Stage overhead(256, 160);
+    TestTable overhead(256, 160);
     overhead.eye_m = {0.001, 0.002, 1.4};
-    Stage far(256, 160);
+    TestTable far(256, 160);
     far.eye_m = {3.0, -40.0, 20.0};
-    Stage close(256, 160);
+    TestTable close(256, 160);
     close.eye_m = {0.02, -0.13, 0.20};
-    Stage shifted(256, 160); // lens shift, different focal lengths, the prop partly outside the picture
+    TestTable shifted(256, 160); // lens shift, different focal lengths, the prop partly outside the picture
     shifted.projector.cx = 60.0;
     shifted.projector.fy *= 1.3;
     shifted.table_from_prop.translation = {-0.05, 0.03, 0.0};
-    Stage oblique(256, 160); // the projector tilts over from the visitor's side
+    TestTable oblique(256, 160); // the projector tilts over from the visitor's side
     const double lean = 0.6;
     oblique.table_from_projector.rotation =
         glm::angleAxis(lean, glm::dvec3(1, 0, 0)) * oblique.table_from_projector.rotation;
     oblique.table_from_projector.translation = {0.0, -0.9 * std::sin(lean), 0.05 + 0.9 * std::cos(lean)};
-    for (const Stage& stage : {overhead, far, close, shifted, oblique}) {
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
-        const Comparison c = compare(stage, cast, rig.places());
-        const std::string which = ::testing::PrintToString(&stage - &overhead);
+    for (const TestTable& table : {overhead, far, close, shifted, oblique}) {
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
+        const Comparison c = compare(table, cast, rig.places());
+        const std::string which = ::testing::PrintToString(&table - &overhead);
         EXPECT_GT(c.both, 300U) << which;
         EXPECT_LT(c.worst_mm, 0.02) << which;
         EXPECT_EQ(c.unexcused, 0U) << which << ": of " << c.mismatched << " mismatched";
@@ -54,14 +54,14 @@ TEST(Picture, HoldsForExtremeEyesAndProjectors) {
 
 TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
     Rig rig(128, 80);
-    Stage stage(128, 80);
+    TestTable table(128, 80);
     for (int code = 0; code < 256; ++code) {
         const auto c = static_cast<std::uint8_t>(code);
         const auto inverse = static_cast<std::uint8_t>(255 - code);
         std::fill(rig.pack.textures[0].texels.begin(), rig.pack.textures[0].texels.end(),
                   glm::u8vec4(c, inverse, 128, 255));
         rig.upload_again();
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         rig.draw(render::Redraw::Everything);
         std::size_t shown = 0;
         for (const glm::u8vec4& texel : rig.picture().texels) {
@@ -76,16 +76,16 @@ TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
 
 TEST(Picture, CullingTakesNothingAway) {
     Rig rig(320, 200);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(11);
     std::uint64_t drawn = 0;
     std::uint64_t possible = 0;
     for (int pose = 0; pose < 40; ++pose) {
-        stage.shuffle(random);
+        table.shuffle(random);
         if (pose % 4 == 3) { // at the picture's edge
-            stage.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
+            table.table_from_prop.translation += glm::dvec3(0.17, -0.08, 0.0);
         }
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         drawn += rig.plan.indices.size();
         rig.draw(render::Redraw::Everything);
         const image::Image8 culled_picture = rig.picture();
@@ -102,28 +102,28 @@ TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
     std::fill(white.textures[0].texels.begin(), white.textures[0].texels.end(), glm::u8vec4(255));
     Rig rig(256, 160, 16, white);
     const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     std::mt19937 random(5);
     for (int pose = 0; pose < 2; ++pose) {
-        const Mass truth = cast_mass(cast, stage);
+        const Mass truth = cast_mass(cast, table);
         ASSERT_GT(truth.light, 400.0);
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         rig.draw(render::Redraw::Everything);
         const Mass shown = shown_mass(rig.picture());
         EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << pose;
         EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.05) << pose;
-        stage.shuffle(random);
+        table.shuffle(random);
     }
 }
 
 TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     Rig sharp(256, 160, 1);
-    Stage stage(256, 160);
-    scene::plan_frame(stage.prop, sharp.level, stage.view(), sharp.plan);
+    TestTable table(256, 160);
+    scene::plan_frame(table.prop, sharp.level, table.view(), sharp.plan);
     sharp.draw();
     const image::Image8 one = sharp.picture();
     Rig smooth(256, 160, 4);
-    scene::plan_frame(stage.prop, smooth.level, stage.view(), smooth.plan);
+    scene::plan_frame(table.prop, smooth.level, table.view(), smooth.plan);
     smooth.draw();
     const image::Image8 four = smooth.picture();
     std::size_t same = 0;

@@ -10,8 +10,8 @@ namespace {
 
 TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
     Rig rig(320, 200);
-    Stage stage(320, 200);
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    TestTable table(320, 200);
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     const render::DrawResult drawn = rig.draw();
     const image::Image8 plain = rig.picture();
     EXPECT_FALSE(render::read_probe(plain)); // the offline renderer's pictures have none
@@ -39,10 +39,10 @@ TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
 
 TEST(Probe, NeverTouchesWhatThePictureMayLight) {
     Rig rig(320, 200);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     // The prop in the picture's top left corner.
-    stage.table_from_prop.translation = {-0.19, 0.12, 0.0};
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    table.table_from_prop.translation = {-0.19, 0.12, 0.0};
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     const render::DrawResult drawn = rig.draw();
     ASSERT_EQ(drawn.lit.x, 0);
     ASSERT_EQ(drawn.lit.y, 0);
@@ -61,8 +61,8 @@ TEST(Probe, IsNotReadFromBlackWhiteOrTinyPictures) {
 
 TEST(Rest, APictureShownAgainIsNotDrawnAgain) {
     Rig rig(320, 200, 4);
-    Stage stage(320, 200);
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    TestTable table(320, 200);
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     rig.draw();
     const image::Image8 shown = rig.picture();
     const render::DrawResult again = rig.draw(render::Redraw::Again);
@@ -75,15 +75,15 @@ TEST(Rest, APictureShownAgainIsNotDrawnAgain) {
 
 TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
     Rig rig(320, 200);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     const unsigned framebuffer = rig.display->framebuffer();
     const auto draw = [&](int age, render::Redraw redraw) {
         return rig.renderer->draw(rig.plan, {framebuffer, age}, redraw);
     };
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     draw(0, render::Redraw::Changes);
-    stage.table_from_prop.translation.x = 0.01;
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    table.table_from_prop.translation.x = 0.01;
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     draw(0, render::Redraw::Changes);
     EXPECT_FALSE(draw(2, render::Redraw::Again).redrawn.empty()); // this buffer still holds the first picture
     EXPECT_TRUE(draw(2, render::Redraw::Again).redrawn.empty());
@@ -92,16 +92,16 @@ TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
 /// Counts pixels: all others are filled with a grey that is never drawn, and must keep it.
 TEST(Rest, AMovedPropRedrawsItsOwnRectangleAlone) {
     Rig rig(640, 400);
-    Stage stage(640, 400, false);
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    TestTable table(640, 400, false);
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     const PixelRectangle before = rig.draw().lit;
     glBindFramebuffer(GL_FRAMEBUFFER, rig.display->framebuffer());
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.5F, 0.25F, 0.5F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
     const glm::u8vec4 grey = rig.picture().at(0, 0);
-    stage.table_from_prop.translation.x += 0.004;
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    table.table_from_prop.translation.x += 0.004;
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     const PixelRectangle after = scene::lit_bounds(rig.plan);
     rig.draw();
     int drawn = 0;

@@ -49,16 +49,16 @@ public:
     }
 
     /// The hit shown by `pixel`, in the prop frame.
-    [[nodiscard]] Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
+    [[nodiscard]] Hit through_pixel(const TestTable& table, const glm::dvec2& pixel) const {
         const geometry::RigidTransform prop_from_projector =
-            stage.table_from_prop.inverse() * stage.table_from_projector;
-        const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
+            table.table_from_prop.inverse() * table.table_from_projector;
+        const glm::dvec3 ray = prop_from_projector.direction(table.projector.ray(pixel));
         geometry::PropHit lit;
-        if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+        if (!geometry::intersect(table.prop, prop_from_projector.translation, ray, lit)) {
             return {};
         }
-        const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
-        if (!(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
+        const glm::dvec3 eye = table.table_from_prop.inverse().point(table.eye_m);
+        if (!(table.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
             return {};
         }
         const glm::dvec3 s = prop_from_projector.translation + lit.t * ray;

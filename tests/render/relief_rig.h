@@ -15,13 +15,13 @@ inline constexpr std::array<geometry::Lens, 4> lenses{geometry::Lens{}, geometry
                                                       geometry::Lens{-0.12, 0.04}, geometry::Lens{0.3, -0.2}};
 
 /// A lens with distortion is a wide one: 0.3 and -0.2 move the picture's corner by 3 pixels.
-inline Stage stage_of(const geometry::Lens& lens) {
-    Stage stage(320, 200);
+inline TestTable table_of(const geometry::Lens& lens) {
+    TestTable table(320, 200);
     if (!lens.is_plain()) {
-        stage.projector.fx = stage.projector.fy = 450.0;
-        stage.projector.lens = lens;
+        table.projector.fx = table.projector.fy = 450.0;
+        table.projector.lens = lens;
     }
-    return stage;
+    return table;
 }
 
 inline scene::RenderNeeds needs_with_reliefs(int samples, const geometry::Pinhole& projector) {
@@ -42,8 +42,8 @@ struct ReliefRig : Rig {
 
     explicit ReliefRig(int samples, int texels = 256, const pack::Pack& shown = rings(),
                        const geometry::Lens& lens = {})
-        : Rig(320, 200, samples, shown, scene::if_it_bends(stage_of(lens).projector)) {
-        EXPECT_TRUE(renderer->prepare(needs_with_reliefs(samples, stage_of(lens).projector)));
+        : Rig(320, 200, samples, shown, scene::if_it_bends(table_of(lens).projector)) {
+        EXPECT_TRUE(renderer->prepare(needs_with_reliefs(samples, table_of(lens).projector)));
         hit_points = render::HitPointRenderer::create(*renderer).value();
         relief = relief_of(pack, texels);
         raster = scene::placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
@@ -52,15 +52,15 @@ struct ReliefRig : Rig {
         level.samples = raster.samples = drawn.samples = samples;
         plan = scene::make_plan(prop, 2 * level.triangles->indices.size(), 2);
     }
-    image::Image8 one(const Stage& stage, const scene::PlacedLevel& which,
+    image::Image8 one(const TestTable& table, const scene::PlacedLevel& which,
                       std::optional<scene::LightCompensation> light = {}) {
-        scene::plan_frame(prop, which, stage.view(light), plan);
+        scene::plan_frame(prop, which, table.view(light), plan);
         draw(render::Redraw::Everything);
         return picture();
     }
-    image::Image8 fading(const Stage& stage, const scene::PlacedLevel& from, const scene::PlacedLevel& to,
+    image::Image8 fading(const TestTable& table, const scene::PlacedLevel& from, const scene::PlacedLevel& to,
                          double share) {
-        scene::plan_frame(prop, scene::fade(from, to, share), stage.view(scene::LightCompensation{}), plan);
+        scene::plan_frame(prop, scene::fade(from, to, share), table.view(scene::LightCompensation{}), plan);
         EXPECT_TRUE(draw(render::Redraw::Everything).drawn);
         return picture();
     }

@@ -13,11 +13,11 @@ namespace frustumscreen::synthetic {
 namespace {
 
 /// Hits through each pixel's centre, row by row.
-std::vector<ReferenceCast::Hit> hits_of(const ReferenceCast& truth, const Stage& stage) {
+std::vector<ReferenceCast::Hit> hits_of(const ReferenceCast& truth, const TestTable& table) {
     std::vector<ReferenceCast::Hit> hits;
-    for (int y = 0; y < stage.projector.height; ++y) {
-        for (int x = 0; x < stage.projector.width; ++x) {
-            hits.push_back(truth.through_pixel(stage, {x + 0.5, y + 0.5}));
+    for (int y = 0; y < table.projector.height; ++y) {
+        for (int x = 0; x < table.projector.width; ++x) {
+            hits.push_back(truth.through_pixel(table, {x + 0.5, y + 0.5}));
         }
     }
     return hits;
@@ -28,12 +28,12 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const ReferenceCast truth(rig.pack, rig.level.metres_per_box);
-        Stage stage = stage_of(lens);
+        TestTable table = table_of(lens);
         for (int pose = 0; pose < 3; ++pose) {
-            stage.shuffle(random);
-            const std::vector<ReferenceCast::Hit> hits = hits_of(truth, stage);
+            table.shuffle(random);
+            const std::vector<ReferenceCast::Hit> hits = hits_of(truth, table);
             for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
-                const image::Image8 picture = rig.one(stage, which);
+                const image::Image8 picture = rig.one(table, which);
                 const image::ImageFloat places = rig.places();
                 std::size_t both = 0;
                 std::size_t one = 0;
@@ -61,34 +61,34 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
 
 /// Light that a place needs for uniform reflected light: incident light falls with the square of the distance
 /// and with the angle of incidence.
-double evened(const Stage& stage, const glm::dvec2& pixel) {
+double evened(const TestTable& table, const glm::dvec2& pixel) {
     const geometry::RigidTransform prop_from_projector =
-        stage.table_from_prop.inverse() * stage.table_from_projector;
-    const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
+        table.table_from_prop.inverse() * table.table_from_projector;
+    const glm::dvec3 ray = prop_from_projector.direction(table.projector.ray(pixel));
     geometry::PropHit lit;
-    if (!geometry::intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+    if (!geometry::intersect(table.prop, prop_from_projector.translation, ray, lit)) {
         return 0.0;
     }
     const double d = lit.t * glm::length(ray);
-    const glm::dvec3& normal = stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal;
+    const glm::dvec3& normal = table.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal;
     return d * d / glm::dot(normal, -glm::normalize(ray));
 }
 
 TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
     ReliefRig rig(16, 256, white(rings(16, 8)));
     const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
-    Stage stage(320, 200);
-    const Mass plain = cast_mass(cast, stage);
+    TestTable table(320, 200);
+    const Mass plain = cast_mass(cast, table);
     ASSERT_GT(plain.light, 400.0);
     for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
-        const Mass shown = shown_mass(rig.one(stage, which));
+        const Mass shown = shown_mass(rig.one(table, which));
         EXPECT_NEAR(shown.light, plain.light, 0.01 * plain.light) << which.on_gpu;
         EXPECT_LT(glm::distance(shown.centre(), plain.centre()), 0.05) << which.on_gpu;
     }
-    rig.prop = stage.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
-    const Mass even = cast_mass(cast, stage, [&](const glm::dvec2& at) { return evened(stage, at); });
+    rig.prop = table.prop = geometry::make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
+    const Mass even = cast_mass(cast, table, [&](const glm::dvec2& at) { return evened(table, at); });
     for (const scene::PlacedLevel& which : {rig.raster, rig.drawn, rig.level}) {
-        const Mass lit = shown_mass(rig.one(stage, which, scene::LightCompensation{}));
+        const Mass lit = shown_mass(rig.one(table, which, scene::LightCompensation{}));
         EXPECT_LT(glm::distance(lit.centre(), even.centre()), 0.05)
             << (which.relief ? "relief" : "mesh") << which.on_gpu;
     }
@@ -96,14 +96,14 @@ TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
 
 TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
     ReliefRig rig(1);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(4);
     for (const std::optional<scene::LightCompensation> light :
          {std::optional<scene::LightCompensation>(), std::optional(scene::LightCompensation{})}) {
-        stage.shuffle(random);
-        const image::Image8 mesh = rig.one(stage, rig.level, light);
+        table.shuffle(random);
+        const image::Image8 mesh = rig.one(table, rig.level, light);
         for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
-            const image::Image8 relief = rig.one(stage, which, light);
+            const image::Image8 relief = rig.one(table, which, light);
             std::size_t lit = 0;
             std::size_t off = 0;
             glm::dvec3 sum(0.0);
@@ -131,18 +131,18 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
 TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 128, white(rings()), lens);
-        Stage stage = stage_of(lens);
+        TestTable table = table_of(lens);
         std::mt19937 random(9);
         for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
             std::size_t both = 0;
             std::size_t soft = 0;
             std::size_t off = 0;
             for (int pose = 0; pose < 10; ++pose) {
-                stage.shuffle(random);
+                table.shuffle(random);
                 const scene::LightCompensation light{pose % 2 == 0 ? 0.25 : 1.5};
-                const image::Image8 mesh = rig.one(stage, rig.level, light);
-                const image::Image8 relief = rig.one(stage, which, light);
-                scene::plan_frame(rig.prop, which, stage.view(light), rig.plan);
+                const image::Image8 mesh = rig.one(table, rig.level, light);
+                const image::Image8 relief = rig.one(table, which, light);
+                scene::plan_frame(rig.prop, which, table.view(light), rig.plan);
                 rig.plan.feathers.clear();
                 rig.draw(render::Redraw::Everything);
                 const image::Image8 sharp = rig.picture();
@@ -166,10 +166,10 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
 TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
-        const Stage stage = stage_of(lens);
-        scene::plan_frame(rig.prop, rig.raster, stage.view(scene::LightCompensation{1.5}), rig.plan);
+        const TestTable table = table_of(lens);
+        scene::plan_frame(rig.prop, rig.raster, table.view(scene::LightCompensation{1.5}), rig.plan);
         std::mt19937 random(11);
-        std::vector<glm::u8vec4> codes(static_cast<std::size_t>(stage.projector.width));
+        std::vector<glm::u8vec4> codes(static_cast<std::size_t>(table.projector.width));
         for (glm::u8vec4& each : codes) {
             each = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
         }
@@ -178,7 +178,7 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
         best.begin(rig.plan, 0);
         plain.begin(rig.plan, 0);
         std::size_t shown = 0;
-        for (int y = 0; y < stage.projector.height; ++y) {
+        for (int y = 0; y < table.projector.height; ++y) {
             std::vector<glm::u8vec4> a = codes;
             std::vector<glm::u8vec4> b = codes;
             best.light(y, 0, a);
@@ -193,13 +193,13 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
 
 TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     ReliefRig rig(1);
-    const Stage stage(320, 200);
-    const image::Image8 alone = rig.one(stage, rig.raster, scene::LightCompensation{});
+    const TestTable table(320, 200);
+    const image::Image8 alone = rig.one(table, rig.raster, scene::LightCompensation{});
     scene::TablePicture everywhere;
     everywhere.corners_m = {glm::dvec3(-0.4, 0.4, 0.0), {0.4, 0.4, 0.0}, {0.4, -0.4, 0.0}, {-0.4, -0.4, 0.0}};
     everywhere.texture = rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
     everywhere.on_prop = true;
-    scene::PlanView view = stage.view(scene::LightCompensation{});
+    scene::PlanView view = table.view(scene::LightCompensation{});
     view.on_table = {&everywhere, 1};
     scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
     rig.draw(render::Redraw::Everything);
@@ -217,7 +217,7 @@ TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
 /// give equal pixels, and the table's picture next to the prop stays unchanged whichever way a strip takes.
 TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     ReliefRig rig(2);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place_m(-0.12, 0.12);
     const scene::TextureId texture =
@@ -226,8 +226,8 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     std::size_t copied = 0;
     std::size_t beside = 0;
     for (int pose = 0; pose < 30; ++pose) {
-        stage.shuffle(random);
-        scene::PlanView view = stage.view(scene::LightCompensation{});
+        table.shuffle(random);
+        scene::PlanView view = table.view(scene::LightCompensation{});
         scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
         EXPECT_EQ(rig.draw(render::Redraw::Everything).draw_calls, 0);
         const image::Image8 alone = rig.picture();
@@ -243,15 +243,15 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
         view.on_table = {&lying, 1};
         scene::plan_frame(rig.prop, scene::PlacedLevel{}, view, rig.plan);
         const int without = rig.draw(render::Redraw::Everything).draw_calls;
-        const image::Image8 table = rig.picture();
+        const image::Image8 below = rig.picture();
         scene::plan_frame(rig.prop, rig.raster, view, rig.plan);
         const int with = rig.draw(render::Redraw::Everything).draw_calls;
         const image::Image8 both = rig.picture();
         (with > without ? drawn : copied) += 1;
         for (std::size_t k = 0; k < both.texels.size(); ++k) {
             const bool lit = alone.texels[k].r + alone.texels[k].g + alone.texels[k].b > 0;
-            beside += table.texels[k].r > 0 ? 1U : 0U;
-            ASSERT_EQ(both.texels[k], lit ? alone.texels[k] : table.texels[k]) << pose << " " << k;
+            beside += below.texels[k].r > 0 ? 1U : 0U;
+            ASSERT_EQ(both.texels[k], lit ? alone.texels[k] : below.texels[k]) << pose << " " << k;
         }
     }
     std::printf("%zu drawn, %zu copied, %zu pixels on the table\n", drawn, copied, beside);
@@ -262,11 +262,11 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
 
 TEST(Relief, LeavesNothingBehindWhereItWas) {
     ReliefRig rig(2);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(12);
     for (int pose = 0; pose < 8; ++pose) {
-        stage.shuffle(random);
-        scene::plan_frame(rig.prop, rig.raster, stage.view(scene::LightCompensation{}), rig.plan);
+        table.shuffle(random);
+        scene::plan_frame(rig.prop, rig.raster, table.view(scene::LightCompensation{}), rig.plan);
         ASSERT_TRUE(rig.draw(render::Redraw::Changes).drawn);
         const image::Image8 moved = rig.picture();
         rig.draw(render::Redraw::Everything);
@@ -279,18 +279,18 @@ TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
     for (const auto& [samples, on_gpu] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
         ReliefRig rig(samples);
         const scene::PlacedLevel& which = on_gpu ? rig.drawn : rig.raster;
-        Stage stage(320, 200);
+        TestTable table(320, 200);
         std::mt19937 random(7);
-        stage.shuffle(random);
-        const image::Image8 mesh = rig.one(stage, rig.level, scene::LightCompensation{});
-        const image::Image8 relief = rig.one(stage, which, scene::LightCompensation{});
+        table.shuffle(random);
+        const image::Image8 mesh = rig.one(table, rig.level, scene::LightCompensation{});
+        const image::Image8 relief = rig.one(table, which, scene::LightCompensation{});
         for (const bool comes : {true, false}) {
             const image::Image8& from = comes ? mesh : relief;
             const image::Image8& to = comes ? relief : mesh;
             std::size_t last = 0;
             for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-                const image::Image8 middle = comes ? rig.fading(stage, rig.level, which, share)
-                                                   : rig.fading(stage, which, rig.level, share);
+                const image::Image8 middle = comes ? rig.fading(table, rig.level, which, share)
+                                                   : rig.fading(table, which, rig.level, share);
                 std::size_t arrived = 0;
                 std::size_t neither = 0;
                 for (std::size_t k = 0; k < middle.texels.size(); ++k) {
@@ -314,13 +314,13 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
     scene::PlacedLevel other =
         scene::placed(rig.pack, coarse, rig.level.metres_per_box, rig.renderer->store().keep(coarse));
     other.samples = 1;
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(8);
-    stage.shuffle(random);
-    const image::Image8 from = rig.one(stage, rig.raster, scene::LightCompensation{});
-    const image::Image8 to = rig.one(stage, other, scene::LightCompensation{});
+    table.shuffle(random);
+    const image::Image8 from = rig.one(table, rig.raster, scene::LightCompensation{});
+    const image::Image8 to = rig.one(table, other, scene::LightCompensation{});
     ASSERT_NE(from.texels, to.texels);
-    const image::Image8 middle = rig.fading(stage, rig.raster, other, 0.5);
+    const image::Image8 middle = rig.fading(table, rig.raster, other, 0.5);
     for (std::size_t k = 0; k < middle.texels.size(); ++k) {
         ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
     }
@@ -328,11 +328,11 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
 
 TEST(Relief, IsGoneWhenItWasReleased) {
     ReliefRig rig(1);
-    const Stage stage(320, 200);
+    const TestTable table(320, 200);
     for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
-        ASSERT_GT(lit_pixels(rig.one(stage, which)), 1000U);
+        ASSERT_GT(lit_pixels(rig.one(table, which)), 1000U);
         rig.renderer->store().release(which.drawable);
-        EXPECT_EQ(lit_pixels(rig.one(stage, which)), 0U);
+        EXPECT_EQ(lit_pixels(rig.one(table, which)), 0U);
     }
 }
 
@@ -341,17 +341,17 @@ TEST(Relief, AFrameOfItAllocatesNothing) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
     ReliefRig rig(4, 96);
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(5);
-    std::vector<Stage> stages;
+    std::vector<TestTable> tables;
     for (int k = 0; k < 20; ++k) {
-        stage.shuffle(random);
-        stages.push_back(stage);
+        table.shuffle(random);
+        tables.push_back(table);
     }
     for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
         long counted = 0;
         for (int k = 0; k < 60; ++k) { // the first rounds reserve memory for the fullest view
-            const Stage& from = stages[static_cast<std::size_t>(k) % stages.size()];
+            const TestTable& from = tables[static_cast<std::size_t>(k) % tables.size()];
             const long before = allocations_so_far();
             scene::plan_frame(from.prop, which, from.view(scene::LightCompensation{}), rig.plan);
             rig.draw();

@@ -35,7 +35,7 @@ struct Rig {
     scene::PlacedLevel level;
     scene::FramePlan plan;
 
-    /// `bent_by`: the stage's projector, if its lens has distortion.
+    /// `bent_by`: the table's projector, if its lens has distortion.
     Rig(int width, int height, int samples = 1, pack::Pack shown = rings(),
         const std::optional<geometry::Pinhole>& bent_by = std::nullopt)
         : pack(std::move(shown)) {

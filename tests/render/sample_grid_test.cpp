@@ -44,14 +44,14 @@ void expect_same(const image::Image8& picture, const image::Image8& other) {
 
 /// For example a lifted prop: it is drawn completely, with fewer samples.
 TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
-    Stage stage(256, 160);
+    TestTable table(256, 160);
     const auto picture = [&](int samples, std::optional<PixelSize> outline) {
         Rig rig(256, 160);
         scene::RenderNeeds all = needs(4);
         all.outline = outline;
         EXPECT_TRUE(rig.renderer->prepare(all));
         rig.level.samples = samples;
-        scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+        scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         EXPECT_EQ(rig.plan.samples, samples);
         rig.draw(render::Redraw::Everything);
         return rig.picture();

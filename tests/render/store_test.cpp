@@ -38,8 +38,8 @@ TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
 
 TEST(Store, WhatIsReleasedIsGoneFromTheNextPicture) {
     Rig rig(320, 200);
-    const Stage stage(320, 200);
-    scene::plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
+    const TestTable table(320, 200);
+    scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
     rig.draw();
     EXPECT_GT(lit_pixels(rig.picture()), 1000U);
     rig.renderer->store().release(rig.level.drawable);
@@ -58,12 +58,12 @@ TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
     EXPECT_GE(programs, scene::shaders_of(needs(4, true)).size());
     const scene::TextureId caption =
         rig.renderer->store().upload(image::Image<std::uint8_t>(16, 16, 255)).value();
-    Stage stage(320, 200);
+    TestTable table(320, 200);
     std::mt19937 random(3);
     for (int k = 0; k < 24; ++k) {
-        stage.shuffle(random);
+        table.shuffle(random);
         scene::PlanView view =
-            stage.view(k % 2 == 0 ? std::optional(scene::LightCompensation{}) : std::nullopt);
+            table.view(k % 2 == 0 ? std::optional(scene::LightCompensation{}) : std::nullopt);
         if (k % 3 == 0) {
             view.caption = scene::TablePicture{{glm::dvec3(-0.2, 0.1, 0.0), glm::dvec3(-0.1, 0.1, 0.0),
                                                 glm::dvec3(-0.1, 0.0, 0.0), glm::dvec3(-0.2, 0.0, 0.0)},
@@ -72,7 +72,7 @@ TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
         }
         rig.level.samples = k % 4 == 0 ? 1 : 4;
         const std::array<scene::Part, 2> fading = scene::fade(rig.level, rig.level, 0.5);
-        scene::plan_frame(stage.prop, std::span(fading).first(k % 5 == 0 ? 1 : 2), view, rig.plan);
+        scene::plan_frame(table.prop, std::span(fading).first(k % 5 == 0 ? 1 : 2), view, rig.plan);
         for (const scene::Draw& draw : rig.plan.draws) {
             EXPECT_EQ(rig.renderer->shaders().count(draw.shader), 1U) << scene::name_of(draw.shader);
         }

@@ -1,4 +1,4 @@
-/// A small pack made in memory, and the stage of the render tests.
+/// A small pack made in memory, and the table of the render tests.
 #pragma once
 
 #include "app/geometry/prop_shape.h"
@@ -125,14 +125,14 @@ inline double metres_per_box(const pack::Pack& pack, const geometry::PropShape& 
 
 /// A projector above the table that looks straight down; if `near`, the prop covers about a quarter of the
 /// picture.
-struct Stage {
+struct TestTable {
     geometry::PropShape prop = geometry::make_frustum({});
     geometry::Pinhole projector;
     geometry::RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 0.9}};
     geometry::RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.1, -0.5, 0.45};
 
-    explicit Stage(int width, int height, bool near = true)
+    explicit TestTable(int width, int height, bool near = true)
         : projector{width,
                     height,
                     width / 1280.0 * (near ? 3010.0 : 1400.0),

@@ -167,7 +167,7 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOthe
     settings.render.error_tolerance_px = 100.0;
     auto display = display::SurfacelessDisplay::create(320, 200).value();
     render::Renderer renderer = render::Renderer::create(320, 200).value();
-    const synthetic::Stage stage(320, 200);
+    const synthetic::TestTable table(320, 200);
     for (const std::uint32_t max_blocks : {0U, 1U << 20U}) {
         scene::SceneRequest request;
         request.light = false;
@@ -190,7 +190,7 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOthe
         }
         EXPECT_EQ(on_gpu, max_blocks > 0 ? 1U : 0U);
         EXPECT_EQ(renderer.store().bytes() - before, planned);
-        levels.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
+        levels.measure(table.prop, table.view(), renderer, {display->framebuffer(), 0});
         for (const scene::QualityLevelTime& time : levels.times()) {
             EXPECT_GT(time.ms, 0.0);
             EXPECT_LT(time.ms, 60e3) << "it was measured";

@@ -36,7 +36,7 @@ const std::vector<scene::QualityLevelTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}
 
 struct Show {
     pack::Pack pack = two_levels();
-    Stage stage{320, 200};
+    TestTable table{320, 200};
     std::unique_ptr<display::SurfacelessDisplay> display =
         display::SurfacelessDisplay::create(320, 200).value();
     render::Renderer renderer = render::Renderer::create(320, 200).value();
@@ -45,7 +45,7 @@ struct Show {
     [[nodiscard]] Result<residency::RunLevels> upload(const std::string& technique,
                                                       double tolerance_mm = 0.28) {
         settings::Settings settings = settings::steep_table();
-        const double pixel_m = scene::pixel_on_prop_m(stage.prop, settings.projector.pinhole,
+        const double pixel_m = scene::pixel_on_prop_m(table.prop, settings.projector.pinhole,
                                                       settings.projector.table_from_projector.inverse());
         settings.render.error_tolerance_px = 1e-3 * tolerance_mm / pixel_m;
         scene::SceneRequest request;
@@ -61,7 +61,7 @@ struct Show {
     }
     [[nodiscard]] residency::RunLevels levels(const std::string& technique) {
         residency::RunLevels made = upload(technique).value();
-        made.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
+        made.measure(table.prop, table.view(), renderer, {display->framebuffer(), 0});
         if (made.uses().size() > 1) {
             made.start(gpu_times); // independent of this machine's speed
         }
@@ -71,7 +71,7 @@ struct Show {
     render::DrawResult draw(residency::RunLevels& levels) {
         ++frame;
         const render::DrawResult drawn =
-            levels.draw(now(), stage.prop, stage.view(), renderer,
+            levels.draw(now(), table.prop, table.view(), renderer,
                         {display->framebuffer(), display->buffer_age()}, render::Redraw::Changes);
         EXPECT_TRUE(display->present(now()));
         return drawn;
@@ -83,7 +83,7 @@ struct Show {
     /// Draws frames of `ms` each, with a prop that moves slightly from frame to frame.
     void play(residency::RunLevels& levels, int frames, double ms) {
         for (int k = 0; k < frames; ++k) {
-            stage.table_from_prop.translation.x = 1e-4 * (frame % 2);
+            table.table_from_prop.translation.x = 1e-4 * (frame % 2);
             draw(levels);
             levels.record_time(now(), ms);
         }
@@ -98,12 +98,12 @@ TEST(RunLevels, DrawTheCheapestLevelWithinTheTolerance) {
     EXPECT_EQ(levels.state().level, "level1");
     EXPECT_EQ(levels.state().technique, "auto");
     EXPECT_EQ(levels.state().switches, 0U);
-    const double mm_per_box = 1e3 * pack::place(show.pack, show.stage.prop).metres_per_box;
+    const double mm_per_box = 1e3 * pack::place(show.pack, show.table.prop).metres_per_box;
     ASSERT_TRUE(levels.state().error);
     EXPECT_NEAR(levels.state().error->mean_mm, 6e-4 * mm_per_box,
                 5e-5 * mm_per_box); // along the rays, plus pixel rounding
     EXPECT_GT(levels.state().error->p95_mm, 2e-3 * mm_per_box);
-    show.stage.table_from_prop.translation.x = 3.0; // beside the picture
+    show.table.table_from_prop.translation.x = 3.0; // beside the picture
     show.draw(levels);
     EXPECT_FALSE(levels.state().error);
     // All levels are within a tolerance of 10 mm: the finer one is not even loaded.

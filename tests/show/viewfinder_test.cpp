@@ -25,8 +25,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr int width = 640, height = 400;               // of the projector's picture
-constexpr glm::ivec2 room(width / 3, height * 3 / 10); // the largest part of it for a viewfinder
+constexpr int width = 640, height = 400;                  // of the projector's picture
+constexpr glm::ivec2 area_px(width / 3, height * 3 / 10); // the largest part of it for a viewfinder
 
 /// A frame whose rows and columns all differ, without code 0.
 camera::CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
@@ -79,14 +79,14 @@ void expect_mean_of(const Grey& turned, int by, const image::Image8& shown) {
 
 TEST(Viewfinder, ShowsTheMeanOfEachSquareOfTheTurnedFrame) {
     struct Case {
-        glm::ivec2 frame, room;
+        glm::ivec2 frame, area_px;
         int by;
     };
     for (const Case& at : {Case{{60, 40}, {80, 60}, 1}, Case{{161, 83}, {80, 60}, 3},
                            Case{{640, 480}, {320, 240}, 2}, Case{{1280, 720}, {320, 240}, 4}}) {
         const camera::CameraFrame frame = frame_of(at.frame.x, at.frame.y, 7);
-        Viewfinder viewfinder(at.room, 0);
-        image::Image8 shown(at.room.x, at.room.y, glm::u8vec4(9));
+        Viewfinder viewfinder(at.area_px, 0);
+        image::Image8 shown(at.area_px.x, at.area_px.y, glm::u8vec4(9));
         viewfinder.want(true);
         viewfinder.use(frame);
         ASSERT_TRUE(viewfinder.take(shown));
@@ -137,15 +137,15 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
             const glm::ivec2 lamp(glm::dvec2(side / 2.0) + 20.0 * seen_at(camera));
             frame.luma[static_cast<std::size_t>(lamp.y * side + lamp.x)] = 250;
             Viewfinder viewfinder(settings);
-            image::Image8 shown(room.x, room.y);
+            image::Image8 shown(area_px.x, area_px.y);
             viewfinder.want(true);
             viewfinder.use(frame);
             ASSERT_TRUE(viewfinder.take(shown));
             const auto brightest = std::max_element(shown.texels.begin(), shown.texels.end(),
                                                     [](auto& a, auto& b) { return a.r < b.r; });
-            const glm::dvec2 middle(room.x / 2.0, room.y - side / 2.0);
+            const glm::dvec2 middle(area_px.x / 2.0, area_px.y - side / 2.0);
             const auto index = static_cast<int>(brightest - shown.texels.begin());
-            const glm::dvec2 at = glm::dvec2(index % room.x, index / room.x) + 0.5 - middle;
+            const glm::dvec2 at = glm::dvec2(index % area_px.x, index / area_px.x) + 0.5 - middle;
             EXPECT_GT(glm::dot(glm::normalize(at), seen_at(projector)), 0.9) << camera << ' ' << projector;
         }
     }
@@ -160,8 +160,8 @@ bool holds(const Viewfinder& viewfinder, const camera::CameraFrame& frame) {
 
 TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
     const camera::CameraFrame frame = frame_of(40, 30, 5);
-    Viewfinder viewfinder(room, 0);
-    image::Image8 shown(room.x, room.y);
+    Viewfinder viewfinder(area_px, 0);
+    image::Image8 shown(area_px.x, area_px.y);
     viewfinder.use(frame);
     EXPECT_FALSE(holds(viewfinder, frame));
     EXPECT_FALSE(viewfinder.take(shown));
@@ -270,7 +270,7 @@ public:
         return drawn;
     }
 
-    camera::CameraFrame frame = frame_of(2 * room.x, 2 * room.y, 11);
+    camera::CameraFrame frame = frame_of(2 * area_px.x, 2 * area_px.y, 11);
     bool held = false;
     long allocated = 0;
     std::function<void(MonotonicTime, unsigned)> after_draw;
@@ -290,7 +290,7 @@ protected:
         display = std::move(*made);
     }
     void with_viewfinder() {
-        inputs.viewfinder = std::make_unique<Viewfinder>(room, 0);
+        inputs.viewfinder = std::make_unique<Viewfinder>(area_px, 0);
         inputs.panel = std::make_unique<HeldPanel>(start, seconds(3));
     }
     /// A pattern with the fixture's settings, or without a camera.
@@ -314,10 +314,10 @@ protected:
     }
     /// The camera's part of the picture: at the lower right, with the line below.
     static image::Image8 part_of(const image::Image8& picture) {
-        image::Image8 part(room.x, room.y);
-        for (int y = 0; y < room.y; ++y) {
-            for (int x = 0; x < room.x; ++x) {
-                part.at(x, y) = picture.at(width - 24 - room.x + x, height - 24 - 90 - room.y + y);
+        image::Image8 part(area_px.x, area_px.y);
+        for (int y = 0; y < area_px.y; ++y) {
+            for (int x = 0; x < area_px.x; ++x) {
+                part.at(x, y) = picture.at(width - 24 - area_px.x + x, height - 24 - 90 - area_px.y + y);
             }
         }
         return part;
@@ -365,7 +365,8 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
         grey.texels = looked.frame.luma;
         expect_mean_of(grey, 2, part_of(picture));
         allocated += with > 2 ? looked.allocated : 0;
-        looked.frame = frame_of(2 * room.x, 2 * room.y, static_cast<std::uint32_t>(++with)); // a new frame
+        looked.frame =
+            frame_of(2 * area_px.x, 2 * area_px.y, static_cast<std::uint32_t>(++with)); // a new frame
     };
     run(looked, seconds(6));
     EXPECT_GT(with, 170);
@@ -394,7 +395,7 @@ TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     with_viewfinder();
     LiveExhibit live(settings, std::make_unique<Nothing>(), sample::exhibit(3, {"en"}), "a driver");
     LookedAt looked(live, inputs.viewfinder.get());
-    looked.frame = frame_of(room.x, room.y, 11); // not shrunk, so that its bytes can be found
+    looked.frame = frame_of(area_px.x, area_px.y, 11); // not shrunk, so that its bytes can be found
     int with = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
         const bool is_held = now - start > HeldPanel::chord + milliseconds(20) && now - start < seconds(3);
@@ -420,7 +421,7 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
     inputs.camera = std::move(stated);
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
-    looked.frame = frame_of(room.x, room.y, 11);
+    looked.frame = frame_of(area_px.x, area_px.y, 11);
     image::Image8 running, covered;
     looked.after_draw = [&](MonotonicTime now, unsigned fb) {
         const Nanoseconds at = now - start;
@@ -440,7 +441,7 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
     const auto lit_below = [](const image::Image8& picture) {
         int lit = 0;
         for (int y = height - 24 - 90; y < height - 24; ++y) {
-            for (int x = width - 24 - room.x; x < width - 24; ++x) {
+            for (int x = width - 24 - area_px.x; x < width - 24; ++x) {
                 lit += picture.at(x, y).r > 100 ? 1 : 0;
             }
         }
@@ -463,7 +464,7 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
         if (!looked.held) {
             return;
         }
-        shown_with = shown_with || part_of(render::read_colour(fb, width, height)).at(room.x / 2, 3).r > 0;
+        shown_with = shown_with || part_of(render::read_colour(fb, width, height)).at(area_px.x / 2, 3).r > 0;
         if (!got.valid()) {
             got = std::async(std::launch::async, [&] {
                 const Result<const image::Image8*> picture = asked.take(std::stop_token());
@@ -526,11 +527,11 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
     with_viewfinder();
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());
-    looked.frame = frame_of(room.x, room.y, 99);
+    looked.frame = frame_of(area_px.x, area_px.y, 99);
     const auto disguised = [&](int channels) {
         std::vector<std::uint8_t> needle;
         for (std::size_t k = 0; k < 12; ++k) {
-            const std::uint8_t code = looked.frame.luma[static_cast<std::size_t>(20 * room.x + 10) + k];
+            const std::uint8_t code = looked.frame.luma[static_cast<std::size_t>(20 * area_px.x + 10) + k];
             for (int c = 0; c < channels; ++c) {
                 needle.push_back(static_cast<std::uint8_t>((c == 3 ? 255 : code) ^ 0x5A));
             }

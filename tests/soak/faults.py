@@ -23,7 +23,7 @@ BACK_S, IMPORT_S = 60.0, 120.0
 
 @dataclass
 class Done:
-    """One fault that was done. `came_back`: all was well again in time."""
+    """One fault that was injected. `came_back`: all was well again in time."""
 
     kind: str
     begin_s: float
@@ -99,7 +99,7 @@ class Faults:
         return self.kiosk.until(lambda: self.kiosk.process_of(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
 
     def _disk_full(self):
-        """Only root could still write there; almost no block is written for it. The second writer ends where nothing is left."""
+        """Fills the partition up to root's reserve, with hardly a block written. The second writer ends when no space is left."""
         machine = self.kiosk.machine
         free = "df -k /data | awk 'NR == 2 { print $4 }'"
         machine.check(f"fallocate -l $((($({free}) - 4096) * 1024)) /data/full; head -c 6291456 /dev/zero > /data/rest || true")
@@ -178,7 +178,7 @@ ENDS_EXHIBIT = {"killed"}
 
 
 class Packs:
-    """Signed with a key that the kiosk is told."""
+    """Packs that are signed with a key that the kiosk knows."""
 
     def __init__(self, program, built_in, folder):
         self.folder, self._program = folder, program

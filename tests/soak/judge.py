@@ -78,7 +78,7 @@ def within(uptime_s, faults, kinds):
 
 
 def due_to(uptime_s, faults):
-    """The fault that came last before."""
+    """The latest fault before this time."""
     before = [fault["kind"] for fault in faults if fault["begin_uptime_s"] - 2.0 <= uptime_s]
     return before[-1] if before else "nothing"
 

@@ -89,7 +89,7 @@ class Counts(unittest.TestCase):
         self.assertIn("dark for", report["missed"][0])
 
     def test_steps(self):
-        """One that the fault explains, one of another cause, one long after it."""
+        """A step that the fault explains, a step of another cause, and a step long after the fault."""
         steps = [{"awake_s": 230.0, "cause": "device_silent", "step": "reset_device"},
                  {"awake_s": 230.0, "cause": "memory_short", "step": "restart"},
                  {"awake_s": 900.0, "cause": "device_silent", "step": "reset_device"}]

@@ -82,7 +82,7 @@ class Kiosk:
         self._data = f"/sys/class/block/{device}/stat"
 
     def begin(self):
-        """From here on it counts."""
+        """Starts the measurement."""
         self.log = Log()
         self._begun_s = self.machine.granted_s()
         self._looked_s, self._sampled_s = -LOOK_S, -SAMPLE_S
@@ -104,7 +104,7 @@ class Kiosk:
     # Waiting.
 
     def look(self):
-        """At the screen, and at the rest when it is due."""
+        """Looks at the screen, and samples memory and disk when they are due."""
         now = self.now_s()
         if now - self._looked_s >= LOOK_S:
             self._looked_s = now
@@ -122,7 +122,7 @@ class Kiosk:
             self.look()
 
     def until(self, condition, timeout_s):
-        """Whether it came true in this time."""
+        """True if the condition became true within this time."""
         end = self.now_s() + timeout_s
         while self.now_s() < end:
             if condition():
@@ -133,7 +133,7 @@ class Kiosk:
     # Looking.
 
     def is_lit(self):
-        """A living picture that lights something."""
+        """True if the picture changes and lights something."""
         self.machine.screendump(self._picture)
         picture = screen.read_ppm(self._picture)
         code, now = screen.probe(picture), self.now_s()

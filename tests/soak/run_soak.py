@@ -45,7 +45,7 @@ def parse_arguments():
 
 
 def soak(kiosk, doer, events, length_s, pace):
-    """Does what is planned, one thing after another; what is late is done as soon as it can be."""
+    """Carries out the planned events in order; a late event follows as soon as possible."""
     done = []
     for event in events:
         kiosk.rest(max(0.0, event.at_s / pace - kiosk.now_s()))

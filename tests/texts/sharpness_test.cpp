@@ -2,6 +2,7 @@
 #include "app/typography/glyph_image.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/glyph_atlas.h"
+#include "tests/base/write_figures.h"
 #include "tests/texts/languages.h"
 
 #include <fmt/format.h>
@@ -154,8 +155,11 @@ TEST_F(Sharpness, letters_are_those_that_freetype_draws) {
     }
 }
 
-// Prints the table of docs/measurements.md: --gtest_also_run_disabled_tests --gtest_filter=*figures.
+// Writes the table `texts` of docs/measurements.md: `ctest -C long -R texts_figures`, with FRUSTUMSCREEN_FIGURES
+// (docs/bench.md).
 TEST_F(Sharpness, DISABLED_figures) {
+    std::string csv = "language,texels_per_em,spread_texels,atlas_bytes,rms_at_20_px,worst_at_20_px,"
+                      "sharpness_at_20_px,rms_at_60_px,worst_at_60_px,sharpness_at_60_px\n";
     for (const Sample& sample : samples) {
         for (const int texels : {24, 32, 40, 48, 64}) {
             for (const int spread : {2, 4}) {
@@ -163,17 +167,19 @@ TEST_F(Sharpness, DISABLED_figures) {
                 GlyphAtlasBuilder builder({texels, spread});
                 builder.add("text", *text);
                 const Result<GlyphSheet> sheet = builder.finish();
-                fmt::print("{} {:>2} spread {}: {:>6} B ", sample.language, texels, spread,
-                           pack::encode_distance_atlas(sheet->atlas).size());
+                csv += fmt::format("{},{},{},{}", sample.language, texels, spread,
+                                   pack::encode_distance_atlas(sheet->atlas).size());
                 for (const double em_px : {20.0, 60.0}) {
                     const Difference difference = measure(sample, {texels, spread}, em_px);
-                    fmt::print(" | {:.0f} px: rms {:5.2f} worst {:3.0f} sharp {:.3f}", em_px, difference.rms,
-                               difference.worst, difference.sharpness);
+                    csv += fmt::format(",{:.3f},{:.0f},{:.4f}", difference.rms, difference.worst,
+                                       difference.sharpness);
                 }
-                fmt::print("\n");
+                csv += "\n";
             }
         }
     }
+    fmt::print("{}", csv);
+    write_figures("texts.csv", csv);
 }
 
 TEST_F(Sharpness, DISABLED_bytes_of_words_beside_pictures_of_them_figures) {

@@ -37,6 +37,12 @@ private:
     std::filesystem::path file_;
 };
 
+ProgramLimits patience() {
+    ProgramLimits limits;
+    limits.time = std::chrono::hours(2);
+    return limits;
+}
+
 std::string limit_lines(const ScalingBake& bake) {
     const auto* const limit = std::find_if(limits.begin(), limits.end(), [&](const BakeLimit& each) {
         return bake.triangles <= each.triangles;
@@ -59,18 +65,21 @@ std::string limit_lines(const ScalingBake& bake) {
 Result<ScalingBake> bake_of_amphora(std::int64_t triangles, int size, const std::filesystem::path& programs,
                                     const std::filesystem::path& folder) {
     const Removed scan(folder / fmt::format("amphora-{}.glb", triangles));
-    const Removed pack(folder / fmt::format("amphora-{}.fspack", triangles));
-    ProgramLimits patience;
-    patience.time = std::chrono::hours(2);
     TRY_VOID(without_value(run_program({(programs / "frustumscreen-artifact").string(), "amphora",
                                         "--triangles", std::to_string(triangles), "-o", scan.name()},
-                                       "", patience)));
-    TRY(const Bytes report, run_program({(programs / "frustumscreen-bake").string(), scan.name(), "-o",
+                                       "", patience())));
+    return bake_of_file(scan.name(), size, programs, folder);
+}
+
+Result<ScalingBake> bake_of_file(const std::filesystem::path& scan, int size,
+                                 const std::filesystem::path& programs, const std::filesystem::path& folder) {
+    const Removed pack(folder / "bench-bake.fspack");
+    TRY(const Bytes report, run_program({(programs / "frustumscreen-bake").string(), scan.string(), "-o",
                                          pack.name(), "--size", std::to_string(size), "--json"},
-                                        "", patience));
+                                        "", patience()));
     TRY(ScalingBake bake, scaling_bake_from(as_text(report)));
     std::error_code unknown;
-    bake.scan_bytes = std::filesystem::file_size(scan.name(), unknown);
+    bake.scan_bytes = std::filesystem::file_size(scan, unknown);
     return bake;
 }
 
@@ -87,6 +96,7 @@ Result<ScalingBake> scaling_bake_from(std::string_view report_json) {
             .pack_bytes = report.at("bytes"),
             .shown_mean_mm = levels.at(report.at("default_level").get<std::size_t>()).at("mean_mm"),
             .min_mean_mm = levels.at(levels.size() - 1).at("mean_mm"),
+            .levels = levels.size(),
         };
     } catch (const nlohmann::json::exception& error) {
         return bad_input("bench.no_bake_report", "the bake's report cannot be read: {}", error.what());
@@ -95,11 +105,11 @@ Result<ScalingBake> scaling_bake_from(std::string_view report_json) {
 
 std::string bakes_csv(std::span<const ScalingBake> bakes) {
     std::string csv = "triangles,scan_bytes,seconds,processor_seconds,memory_bytes,pack_bytes,shown_mean_mm,"
-                      "min_mean_mm\n";
+                      "min_mean_mm,levels\n";
     for (const ScalingBake& bake : bakes) {
-        csv += fmt::format("{},{},{:.2f},{:.2f},{},{},{:.5f},{:.5f}\n", bake.triangles, bake.scan_bytes,
+        csv += fmt::format("{},{},{:.2f},{:.2f},{},{},{:.5f},{:.5f},{}\n", bake.triangles, bake.scan_bytes,
                            bake.seconds, bake.processor_seconds, bake.memory_bytes, bake.pack_bytes,
-                           bake.shown_mean_mm, bake.min_mean_mm);
+                           bake.shown_mean_mm, bake.min_mean_mm, bake.levels);
     }
     return csv;
 }

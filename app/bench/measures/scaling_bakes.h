@@ -25,6 +25,7 @@ struct ScalingBake {
     std::uint64_t pack_bytes = 0;
     double shown_mean_mm = 0.0; ///< mean error of the level that is usually shown
     double min_mean_mm = 0.0;   ///< of the finest level
+    std::size_t levels = 0;
 };
 
 /// Makes the built-in amphora of about so many triangles in `folder`, bakes it, and removes both files. `programs`: the
@@ -32,6 +33,10 @@ struct ScalingBake {
 [[nodiscard]] Result<ScalingBake> bake_of_amphora(std::int64_t triangles, int size,
                                                   const std::filesystem::path& programs,
                                                   const std::filesystem::path& folder);
+/// The same of a scan's file, which stays.
+[[nodiscard]] Result<ScalingBake> bake_of_file(const std::filesystem::path& scan, int size,
+                                               const std::filesystem::path& programs,
+                                               const std::filesystem::path& folder);
 [[nodiscard]] Result<ScalingBake> scaling_bake_from(std::string_view report_json);
 
 [[nodiscard]] std::string bakes_csv(std::span<const ScalingBake> bakes);

@@ -1,7 +1,7 @@
 /// The tables of docs/measurements.md that `frustumscreen-bench report` writes, each from the CSV files that one
-/// command left in a folder.
+/// command or test left in a folder.
 ///
-/// Cost     in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
+/// Cost     of a picture: in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
 /// Threads  pure; any.
 /// Errors   of csv_table.h.
 #pragma once
@@ -38,6 +38,8 @@ struct ReportTable {
 [[nodiscard]] std::vector<ReportTable> view_tables();
 /// The tables of `scaling`, `stability`, `latency` and `ladder`, which need no pack.
 [[nodiscard]] std::vector<ReportTable> packless_tables();
+/// The tables of parts beside the picture: zones, bakes, texts and the camera's thread.
+[[nodiscard]] std::vector<ReportTable> part_tables();
 /// All of them. No two have one name.
 [[nodiscard]] std::vector<ReportTable> all_report_tables();
 

@@ -136,7 +136,7 @@ std::vector<double> steps(double first, double last, double step) {
     return values;
 }
 
-/// The value of a choice that works: room to slide, times perceived brightness, which is about the root of the light
+/// The value of a choice that works: space to slide, times perceived brightness, which is about the root of the light
 /// (Stevens 1957: exponents of 0.33 to 0.5).
 double worth(const SetUpFigures& figures) {
     return figures.reach_m.x * figures.reach_m.y * std::sqrt(figures.reference);

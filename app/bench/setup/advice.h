@@ -69,7 +69,7 @@ struct AdviceOptions {
 [[nodiscard]] std::vector<SetUpChoice> choices(const settings::Settings& settings,
                                                const AdviceOptions& options,
                                                const std::function<void(double)>& progress);
-/// The choice that works with the most room to slide, times brightness; otherwise the most even one. Null if there is
+/// The choice that works with the most space to slide, times brightness; otherwise the most even one. Null if there is
 /// none.
 [[nodiscard]] const SetUpChoice* best_of(const std::vector<SetUpChoice>& choices);
 

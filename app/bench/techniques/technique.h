@@ -32,7 +32,7 @@ public:
     virtual void draw_shown(const BenchPose& pose) = 0;
     [[nodiscard]] virtual LightAim light(const BenchPose& pose) const = 0;
     /// Draws the artifact entirely white and without light, so a pixel's linear light is the share of it that
-    /// the artifact covers. Returns the requested samples per pixel; without room for them, fewer are drawn.
+    /// the artifact covers. Returns the requested samples per pixel; without space for them, fewer are drawn.
     [[nodiscard]] virtual int draw_white(const BenchPose& pose) = 0;
 };
 

@@ -39,7 +39,7 @@ enum class EyePrompt {
     PropNotSeen, ///< by the tracker
     HeadNotSeen,
     OffTable,  ///< the prop does not stand on the calibrated table
-    NoRoom,    ///< no room for the crosses
+    NoRoom,    ///< no space for the crosses
     HeadMoved, ///< the head moved: the second begins again
     SameHead,  ///< the head is held as for the previous sighting
     Taken
@@ -76,7 +76,7 @@ public:
     [[nodiscard]] bool knows_place() const { return knows_place_; }
     /// The prop's pose at its rest.
     [[nodiscard]] const geometry::RigidTransform& table_from_prop() const { return table_from_prop_; }
-    /// The room for words beside the prop.
+    /// The space for words beside the prop.
     [[nodiscard]] const WordsBox& words() const { return knows_place_ ? plan_.words : first_words_; }
     /// Index of the requested sighting, from 0; in the stages Shut, Place and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }

@@ -153,7 +153,7 @@ WordsBox box_of_prop(const SightScene& scene, const geometry::RigidTransform& ta
     return box;
 }
 
-/// The largest room for words to the left or right of the prop, or on the head's side; not behind it, where
+/// The largest space for words to the left or right of the prop, or on the head's side; not behind it, where
 /// the crosses are.
 WordsBox words_beside(const SightScene& scene, const geometry::RigidTransform& table_from_prop,
                       const glm::dvec3& head_m) {

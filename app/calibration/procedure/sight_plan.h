@@ -31,7 +31,7 @@ struct SightScene {
 };
 /// The pixel of a point in the table's frame; nothing if the projector does not light it.
 [[nodiscard]] std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& point_m);
-/// The place that leaves most room for words and crosses, upright: table_from_prop. Anywhere near it will do.
+/// The place that leaves most space for words and crosses, upright: table_from_prop. Anywhere near it will do.
 [[nodiscard]] geometry::RigidTransform first_place(const SightScene& scene);
 
 struct WordsBox {
@@ -49,7 +49,7 @@ struct SightPlan {
     WordsBox words; ///< beside the prop, where the person sees them
     std::vector<SightCross> crosses;
 };
-/// Plans `count` crosses, or fewer if there is no room for more. `head_m`: the approximate place of the head;
+/// Plans `count` crosses, or fewer if there is no space for more. `head_m`: the approximate place of the head;
 /// ignored if it is nowhere near the table.
 [[nodiscard]] SightPlan plan_sights(const SightScene& scene, const geometry::RigidTransform& table_from_prop,
                                     const glm::dvec3& head_m, std::size_t count);

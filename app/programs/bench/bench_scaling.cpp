@@ -20,7 +20,23 @@ struct Arguments {
     bool no_peers = false;
     bool bakes = false;
     bool longer = false;
+    std::filesystem::path mesh; ///< baked instead of the amphoras; empty: none
 };
+
+/// The folder of frustumscreen-bake and frustumscreen-artifact.
+std::filesystem::path programs_folder() {
+    std::error_code failed;
+    return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+}
+
+Result<void> measure_bake_of_file(const Arguments& arguments) {
+    std::error_code failed;
+    std::filesystem::create_directories(arguments.place.out, failed);
+    TRY(const bench::ScalingBake bake,
+        bench::bake_of_file(arguments.mesh, arguments.options.size, programs_folder(), arguments.place.out));
+    fmt::print("{}", bench::bakes_table({&bake, 1}));
+    return write_all(arguments.place.out, {{"bakes.csv", bench::bakes_csv({&bake, 1})}});
+}
 
 /// Bakes alone, each in a program of its own.
 Result<void> measure_bakes(const Arguments& arguments, BenchProgress& progress) {
@@ -30,14 +46,12 @@ Result<void> measure_bakes(const Arguments& arguments, BenchProgress& progress) 
         counts.push_back(50'000'000);
     }
     std::error_code failed;
-    const std::filesystem::path programs =
-        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     std::filesystem::create_directories(arguments.place.out, failed);
     std::vector<bench::ScalingBake> bakes;
     for (const std::int64_t count : counts) {
         progress.show(fmt::format("bake of {} triangles", count), 0.0);
         TRY(const bench::ScalingBake bake,
-            bench::bake_of_amphora(count, arguments.options.size, programs, arguments.place.out));
+            bench::bake_of_amphora(count, arguments.options.size, programs_folder(), arguments.place.out));
         bakes.push_back(bake);
     }
     progress.clear();
@@ -82,6 +96,9 @@ Result<void> measure(const bench::SetUp& set_up, const std::vector<bench::Scalin
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    if (!arguments.mesh.empty()) {
+        return measure_bake_of_file(arguments);
+    }
     if (arguments.bakes || arguments.longer) {
         return measure_bakes(arguments, progress);
     }
@@ -120,6 +137,8 @@ BenchCommand scaling_command(CommandLine& app) {
                      "measure only bakes, each in its own process: time, memory and bytes of the pack at "
                      "each count, and at 20 million triangles");
     command.add_flag("--long", arguments->longer, "as --bakes, also at 50 million triangles");
+    command.add_option("--mesh", arguments->mesh, "with --bakes: bake this scan, and no amphora")
+        .needs("--bakes");
     command
         .add_option("--size", arguments->options.size,
                     "texels along the longest edge of a face, for the bakes")

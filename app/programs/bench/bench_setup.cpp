@@ -1,4 +1,5 @@
 #include "app/bench/setup/advice_report.h"
+#include "app/bench/setup/zones_by_throw.h"
 #include "app/pack/pack_file.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
@@ -13,9 +14,10 @@ namespace {
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path config;
-    std::filesystem::path pack; ///< the pack whose frames are timed; empty: none
-    std::vector<int> picture;   ///< width, height; empty: the settings'
-    std::vector<double> zone_m; ///< width, depth; empty: not required
+    std::filesystem::path pack;       ///< the pack whose frames are timed; empty: none
+    std::vector<int> picture;         ///< width, height; empty: the settings'
+    std::vector<double> zone_m;       ///< width, depth; empty: not required
+    std::vector<double> throw_ratios; ///< empty: choices are searched
     bench::AdviceOptions options;
 };
 
@@ -52,6 +54,11 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         return bad_input("bench.heights", "--lowest-m is above --highest-m; give a lower --lowest-m");
     }
     const settings::Settings& settings = *checked;
+    if (!arguments.throw_ratios.empty()) {
+        const std::vector<bench::ThrowZone> zones = bench::zones_by_throw(settings, arguments.throw_ratios);
+        fmt::print("{}", bench::zones_table(zones));
+        return write_all(arguments.out, {{"zones.csv", bench::zones_csv(zones)}});
+    }
     bench::AdviceOptions options = arguments.options;
     if (arguments.picture.size() == 2) {
         options.width = arguments.picture[0];
@@ -103,6 +110,10 @@ BenchCommand setup_command(CommandLine& app) {
                     "smaller then, and the picture wider")
         .expected(2)
         .within(0.01, 5.0);
+    command
+        .add_option("--throw-ratios", arguments->throw_ratios,
+                    "search nothing, and measure the zone of the present lens and prop at these throw ratios")
+        .within(0.2, 10.0);
     bench::AdviceOptions& options = arguments->options;
     command.add_option("--artifact-m", options.artifact_m, "least height of the artifact, with --zone-m")
         .within(0.02, 1.0)

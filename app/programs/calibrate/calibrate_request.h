@@ -31,7 +31,7 @@ struct CalibrateRequest {
     bool touch_up = false;     ///< touches up the kept calibration instead of making a new one
     std::filesystem::path map; ///< file for the picture of the uncertainty; empty: none
     bool undo = false;
-    bool anew = false; ///< a whole calibration on the table, even if a touch-up is possible
+    bool from_start = false; ///< a whole calibration on the table, even if a touch-up is possible
     // On the table; the settings supply what is absent:
     std::optional<int> touches;
     std::optional<double> block_m;

@@ -230,7 +230,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (request.touch_up && !settings.calibration.used) {
         return none_kept(settings);
     }
-    const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
+    const bool touches_up =
+        settings.calibration.used && !request.from_start && (request.touch_up || !request.json);
     if (request.json) {
         const std::vector<calibration::Cross> crosses =
             touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
@@ -277,11 +278,18 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
                        "write the touches, or the rests, to this CSV file, for touch or auto with --from");
     const CommandOption touch_up = command.add_flag(
         "--touch-up", request.touch_up, "touch up the kept calibration; an error if none is kept");
-    command.add_flag("--anew", request.anew, "calibrate completely even if a calibration is kept")
-        .excludes(touch_up);
+    const CommandOption from_start = command.add_flag("--from-start", request.from_start,
+                                                      "calibrate completely even if a calibration is kept");
+    const CommandOption anew = command.add_flag("--anew", request.from_start).hidden(); // until 0.9.0
+    touch_up.excludes(from_start).excludes(anew);
     command.add_flag("--headless", request.headless, "run without a screen, for tests");
     command.add_flag("--json", request.json, "print the crosses as JSON and end");
-    command.callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
+    command.callback([&request, &chosen, anew] {
+        if (anew.count() > 0) {
+            fmt::print(stderr, "--anew is now --from-start, and does the same\n");
+        }
+        chosen = [&request] { return end_with(calibrate_table(request)); };
+    });
 }
 
 } // namespace frustumscreen::programs

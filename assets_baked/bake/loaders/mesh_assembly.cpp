@@ -22,7 +22,7 @@ float colour_factor(float value) {
     return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 1.0F;
 }
 
-/// At least doubles the room if there is too little, because a file may have many small parts.
+/// At least doubles the space if there is too little, because a file may have many small parts.
 template <typename Value> void make_space(std::vector<Value>& values, std::size_t more, std::size_t most) {
     const std::size_t needed = std::min(values.size() + more, most);
     if (needed > values.capacity()) {

@@ -21,7 +21,7 @@ class MeshAssembly {
 public:
     explicit MeshAssembly(char default_up) { mesh_.default_up = default_up; }
 
-    /// Makes room for more of them; no more than the file backs with data.
+    /// Makes space for more of them; no more than the file backs with data.
     void expect_vertices(std::size_t more);
     void expect_triangles(std::size_t more);
 

@@ -29,7 +29,7 @@ def command(number, action, payload=b"", arg1=0, arg2=0):
 
 
 class Talk:
-    """A device without a link: what it sends waits in its queue."""
+    """A device without a link: the bytes that it sends stay in its queue."""
 
     def __init__(self, kind, endpoint_out=2):
         self.player = Player()

@@ -41,7 +41,7 @@ class FaultConsole:
     # For subclasses to override.
 
     def answer(self, name, words):
-        """To a command that is no fault; None: it is none of this device's."""
+        """The answer to a command that is no fault; None: the device does not know the command."""
 
     def begin_or_end(self, name, begins):
         """Actions at a fault's beginning and end, besides its switch."""

@@ -23,7 +23,7 @@ def read(path):
 
 
 def write(path, width, height, luma):
-    """Whoever reads it meanwhile reads the old one whole."""
+    """A concurrent reader gets the complete old file."""
     new = f"{path}.new"
     with open(new, "wb") as file:
         file.write(b"P5 %d %d 255\n" % (width, height) + luma)

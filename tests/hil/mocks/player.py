@@ -20,7 +20,7 @@ class Player:
         self._placed = {}
 
     def place(self, station, pose):
-        """The station stays there, whatever the file says."""
+        """Fixes the station at this pose, whatever the file has."""
         self._placed[station] = pose
 
     def poses(self, now):

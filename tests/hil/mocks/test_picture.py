@@ -17,7 +17,7 @@ _KINDS = 8  # of noise
 
 @functools.lru_cache(None)
 def _ground(width, height, kind, light):
-    """The picture without what moves."""
+    """The picture without its moving parts."""
     noise = random.Random(kind)
     count = width * height
     if light == "usual":

@@ -57,7 +57,7 @@ class _UsbipLink:
         await asyncio.Event().wait()
 
     def unplug(self):
-        """For the kernel a closed connection is a cable that was pulled out."""
+        """The kernel treats a closed connection as a pulled cable."""
         self._plugged = False
         if self._writer:
             self._writer.close()

@@ -80,7 +80,7 @@ class UsbredirLink:
         return f"usbredir at {self._path}"
 
     async def ended(self):
-        """Never: a virtual machine may come and go."""
+        """The link never ends: a virtual machine may connect again."""
         await asyncio.Event().wait()
 
     def close(self):

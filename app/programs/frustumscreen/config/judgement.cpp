@@ -27,7 +27,7 @@ constexpr double min_em_px = 18.0;
 /// ISO 9241-303: capitals need 16 minutes of arc to be read.
 constexpr double min_capital_arcmin = 16.0;
 constexpr double capital_em = 0.714; ///< height of Noto Sans's capitals
-/// Share of places with room for a caption below which most visitors read none.
+/// Share of places with space for a caption below which most visitors read none.
 constexpr double min_caption_share = 0.5;
 /// Half the size of a zone to play in: a hand slides the prop 10 to 30 cm to look at it.
 constexpr glm::dvec2 min_zone_m(0.20, 0.10);
