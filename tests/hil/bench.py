@@ -34,6 +34,7 @@ EYE_M = (0.0, -0.55, 0.50)
 PLACE_TOLERANCE_M = 0.0005  # presented poses are filtered: they come to rest this near to those that were sent
 TURN_TOLERANCE = math.radians(0.2)
 OTHER_TRACKERS = ("patriot", "hid")  # besides the VIPER that most tests use; unplugged until a test needs them
+RELEASED_S = 1.0  # for a button that was released, to be seen
 
 
 class Mock:
@@ -229,6 +230,17 @@ class Bench:
             return [screen.read_png(folder / "out" / f"frame_{number:05}.png") for number in range(len(poses))]
 
     # The devices.
+
+    def hold(self, buttons, until):
+        """As a person does: until the table answers. A slow machine sees the buttons late."""
+        for button in buttons:
+            self.buttons.tell("hold", button)
+        try:
+            until()
+        finally:
+            for button in buttons:
+                self.buttons.tell("release", button)
+        self.machine.let_run(RELEASED_S)
 
     def place(self, position_m, rotation=UPRIGHT):
         self.tracker.tell("pose", *position_m, *rotation, 1)

@@ -1,4 +1,4 @@
-"""Ends all processes that a program starts, and those that they start, however the program ends. Beside it, how a test holds buttons.
+"""Ends all processes that a program starts, and those that they start, however the program ends.
 
 Signals  SIGINT, SIGTERM and SIGHUP raise Ended in the main thread, which unittest does not catch, like KeyboardInterrupt.
 Threads  the main thread.
@@ -15,19 +15,6 @@ import time
 PR_SET_CHILD_SUBREAPER = 36
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE_S = 10.0  # for a process that was told to end, before it is killed
-RELEASED_S = 1.0  # for a button that was released, to be seen
-
-
-def hold(bench, buttons, until):
-    """As a person does: until the table answers. A slow machine sees the buttons late."""
-    for button in buttons:
-        bench.buttons.tell("hold", button)
-    try:
-        until()
-    finally:
-        for button in buttons:
-            bench.buttons.tell("release", button)
-    bench.machine.let_run(RELEASED_S)
 
 
 class Ended(KeyboardInterrupt):

@@ -3,7 +3,6 @@ and knows nothing of the museum."""
 
 import kept_calibration
 from bench import SETTINGS, UNIT, eventually
-from family import hold
 from hil_test import LIT, START_S, long
 from stick_bench import LIBRARY, StickTest, pulled_packs
 from test_calibration import FIRST, LAST
@@ -44,8 +43,8 @@ class Delivery(StickTest):
 
     def confirm(self, until):
         """Shows the staff's picture, and holds the first button on its first page until then."""
-        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
-        hold(self.bench, (FIRST,), until)
+        self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        self.bench.hold((FIRST,), until)
 
     def boot(self):
         return self.bench.machine.read("/proc/sys/kernel/random/boot_id")
@@ -57,7 +56,7 @@ class Delivery(StickTest):
         boot = self.boot()
         self.assertEqual(self.asked("unsigned", {REQUEST: ASKS}), {REQUEST: ("not_written", "unsigned")})
         self.confirm(lambda: self.bench.machine.let_run(PRESSED_S))
-        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
+        self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
         self.assertEqual(self.boot(), boot)
         self.assertIn("places = 9", self.bench.machine.read(kept_calibration.FILE))
         self.assertIn("184000", self.bench.machine.read(DAY))

@@ -5,8 +5,7 @@ import subprocess
 import tomllib
 
 import kept_calibration
-from bench import SETTINGS, eventually
-from family import RELEASED_S, hold
+from bench import RELEASED_S, SETTINGS, eventually
 from stick_bench import LIBRARY, StickTest, pulled_packs
 from test_calibration import FIRST, LAST, NEXT
 from test_stick_report import REPORT_S, files_on
@@ -87,13 +86,13 @@ class StickCopy(StickTest):
         self.assertEqual(pulled_packs(self.outcome()), {REQUEST: ("pending", "unsigned")})
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
         self.assertEqual(files_on(stick), own, "before the button nothing is written")
-        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
+        self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         for _ in range(PAGES_TO_COPY):
             self.bench.buttons.tell("press", NEXT, "300ms")
             self.bench.machine.let_run(RELEASED_S)
-        hold(self.bench, (FIRST,), lambda: self.stage(*STAGES, timeout_s=REPORT_S))
+        self.bench.hold((FIRST,), lambda: self.stage(*STAGES, timeout_s=REPORT_S))
         told = pulled_packs(self.outcome(REPORT_S))
-        hold(self.bench, (FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
+        self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
         self.pull("waits")
         folder = next(name for name, outcome in told.items() if outcome == ("written", "none"))
