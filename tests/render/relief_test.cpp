@@ -98,7 +98,7 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
     ReliefRig rig(1);
     TestTable table(320, 200);
     std::mt19937 random(4);
-    for (const std::optional<scene::LightCompensation> light :
+    for (const std::optional<scene::LightCompensation>& light :
          {std::optional<scene::LightCompensation>(), std::optional(scene::LightCompensation{})}) {
         table.shuffle(random);
         const image::Image8 mesh = rig.one(table, rig.level, light);
