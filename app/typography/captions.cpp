@@ -30,11 +30,14 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
+/// As many as two polygons have.
+constexpr std::size_t max_hull_points = 2 * std::tuple_size_v<decltype(TablePolygon::points)>;
+
 /// Convex hull of few points (Andrew 1979), counter-clockwise.
 TablePolygon hull_of(std::span<glm::dvec2> points) {
     std::sort(points.begin(), points.end(),
               [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    std::array<glm::dvec2, 24> hull{};
+    std::array<glm::dvec2, max_hull_points + 1> hull{}; // the first point comes again at the end
     std::size_t count = 0;
     const auto add = [&](const glm::dvec2& point, std::size_t least) {
         while (count >= least + 2 &&
@@ -110,7 +113,7 @@ TablePolygon polygon_of(const TableRectangle& rectangle) {
 std::optional<TablePolygon> hidden_by_prop(const geometry::PropShape& prop,
                                            const geometry::RigidTransform& table_from_prop,
                                            const glm::dvec3& from_m) {
-    std::array<glm::dvec2, 8> points{};
+    std::array<glm::dvec2, geometry::max_corners> points{};
     assert(prop.corners.size() <= points.size());
     std::size_t count = 0;
     for (const glm::dvec3& corner_in_prop : prop.corners) {
@@ -127,7 +130,7 @@ std::optional<TablePolygon> hidden_by_prop(const geometry::PropShape& prop,
 }
 
 TablePolygon hull_of(const TablePolygon& polygon, std::span<const glm::dvec2> points) {
-    std::array<glm::dvec2, 24> all{};
+    std::array<glm::dvec2, max_hull_points> all{};
     assert(polygon.count + points.size() <= all.size());
     auto end = std::copy_n(polygon.points.begin(), polygon.count, all.begin());
     end = std::copy(points.begin(), points.end(), end);

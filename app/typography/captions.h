@@ -29,9 +29,10 @@ namespace frustumscreen::typography {
 /// 24 pt, the smallest type on the table.
 inline constexpr double min_caption_em_m = 24.0 * 0.0254 / 72.0;
 
-/// A convex polygon, counter-clockwise; empty without points.
+/// A convex polygon, counter-clockwise; empty without points. There is space for a prop's shadow and a rectangle beside
+/// it.
 struct TablePolygon {
-    std::array<glm::dvec2, 12> points{};
+    std::array<glm::dvec2, geometry::max_corners + 4> points{};
     std::size_t count = 0;
     [[nodiscard]] std::span<const glm::dvec2> corners() const { return std::span(points).first(count); }
 };

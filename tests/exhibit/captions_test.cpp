@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace frustumscreen::exhibit {
@@ -223,6 +224,30 @@ TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
     EXPECT_LE(wide.size_m.x, 0.302);
     EXPECT_LE(narrow.size_m.x, 0.122);
     EXPECT_GT(narrow.size_m.y, 1.5 * wide.size_m.y);
+}
+
+TEST(HiddenByProp, HoldsTheShadowOfEachCornerOfAGem) {
+    geometry::PropShape gem;
+    for (int k = 0; k < 28; ++k) { // two rings, the upper one narrower
+        const double angle = 2.0 * std::numbers::pi * k / 14.0;
+        const double radius_m = k < 14 ? 0.08 : 0.05;
+        gem.corners.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), k < 14 ? 0.0 : 0.09);
+    }
+    const glm::dvec3 lens(0.3, -0.1, 1.2);
+    const geometry::RigidTransform pose{glm::angleAxis(0.3, glm::dvec3(0.0, 0.0, 1.0)), {0.05, 0.02, 0.0}};
+    const auto shadow = typography::hidden_by_prop(gem, pose, lens);
+    ASSERT_TRUE(shadow);
+    const auto corners = shadow->corners();
+    EXPECT_GT(corners.size(), 12U);
+    for (const glm::dvec3& in_prop : gem.corners) {
+        const glm::dvec3 corner = pose.point(in_prop);
+        const glm::dvec2 lit = glm::dvec2(lens) + lens.z / (lens.z - corner.z) * glm::dvec2(corner - lens);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const glm::dvec2 along = corners[(k + 1) % corners.size()] - corners[k];
+            const glm::dvec2 to = lit - corners[k];
+            EXPECT_GE(along.x * to.y - along.y * to.x, -1e-12);
+        }
+    }
 }
 
 } // namespace
