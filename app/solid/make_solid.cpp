@@ -144,7 +144,7 @@ Result<void> check_convex(const ClosedMesh& closed, const std::vector<JoinedFace
 Result<void> check_corners(const Solid& solid, const std::vector<std::string>& described) {
     for (std::size_t k = 0; k < solid.faces.size(); ++k) {
         if (solid.faces[k].corners.size() > geometry::max_face_corners) {
-            return bad_input("prop_file.face_corners",
+            return bad_input("prop_file.edges_of_face",
                              "{} has {} corners, allowed are {}; it meets another face at two edges: make "
                              "one face of what lies between them",
                              described[k], solid.faces[k].corners.size(), geometry::max_face_corners);

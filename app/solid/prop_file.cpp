@@ -81,6 +81,16 @@ Result<void> check_stand(const Solid& solid) {
     return {};
 }
 
+Result<void> check_foot(const Solid& solid) {
+    if (std::none_of(solid.faces.begin(), solid.faces.end(), is_underside)) {
+        return bad_input(
+            "prop_file.foot",
+            "none of its faces lies on z = 0, where the artifact in it stands; turn it until one "
+            "does");
+    }
+    return {};
+}
+
 std::optional<std::string> narrowness(const Solid& solid, double eyes_m) {
     const SolidWidth width = min_width(solid);
     if (width.width_m >= eyes_m) {

@@ -29,8 +29,10 @@ inline constexpr std::string_view prop_file_heading =
 /// In millimetres, with a group for each face.
 [[nodiscard]] std::string write_prop_file(const Solid& solid);
 
-/// For a prop in its own frame: that it stands on z = 0, and that its axis, x = y = 0, runs through it.
+/// For a prop in its own frame: that its lowest corner lies on z = 0, and that its axis, x = y = 0, runs through it.
 [[nodiscard]] Result<void> check_stand(const Solid& solid);
+/// That one of its faces lies on z = 0.
+[[nodiscard]] Result<void> check_foot(const Solid& solid);
 
 /// The mean distance between an adult's eyes.
 /// Source   Dodgson, Variation and extrema of human interpupillary distance, 2004: mean 63 mm, nearly all within

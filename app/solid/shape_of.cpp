@@ -1,17 +1,8 @@
 #include "app/solid/shape_of.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace frustumscreen::solid {
 
 namespace {
-
-bool is_underside(const SolidFace& face) {
-    return face.plane.normal.z < 0.0 &&
-           std::all_of(face.corners.begin(), face.corners.end(),
-                       [](const glm::dvec3& corner) { return std::abs(corner.z) <= flatness_m; });
-}
 
 geometry::PropFace lit_face(const SolidFace& face) {
     geometry::PropFace lit{.name = face.name, .plane = face.plane, .corners = {}};

@@ -35,6 +35,12 @@ std::vector<glm::dvec3> edge_directions(const Solid& solid) {
 
 } // namespace
 
+bool is_underside(const SolidFace& face) {
+    return face.plane.normal.z < 0.0 &&
+           std::all_of(face.corners.begin(), face.corners.end(),
+                       [](const glm::dvec3& corner) { return std::abs(corner.z) <= flatness_m; });
+}
+
 double volume_of(const Solid& solid) {
     double volume = 0.0;
     for (const SolidFace& face : solid.faces) {

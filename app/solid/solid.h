@@ -28,6 +28,9 @@ struct SolidFace {
     std::vector<glm::dvec3> corners; ///< three or more, counter-clockwise seen from outside
 };
 
+/// Whether it lies on z = 0 and looks down: a prop stands on it.
+[[nodiscard]] bool is_underside(const SolidFace& face);
+
 /// Faces that meet have exactly equal corners. Only `make_solid` makes one, and `moved`.
 struct Solid {
     std::vector<SolidFace> faces; ///< in the order of the file

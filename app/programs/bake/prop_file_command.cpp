@@ -98,7 +98,11 @@ solid::Solid stood_up(const solid::Solid& solid, std::vector<std::string>& notes
         notes.push_back(fmt::format("it is moved by {}: it stands on z = 0, and x = y = 0 runs through it",
                                     solid::in_mm(by)));
     }
-    return moved_by(by);
+    solid::Solid stood = moved_by(by);
+    if (const Result<void> foot = solid::check_foot(stood); !foot) {
+        notes.push_back("not yet a prop for the settings: " + foot.error().message);
+    }
+    return stood;
 }
 
 Result<solid::PropFile> prop_file_of(const Arguments& arguments) {
