@@ -53,6 +53,7 @@ public:
     void integer(const char* key, std::uint64_t value, std::string_view) { json_[key] = value; }
     void flag(const char* key, bool value, std::string_view) { json_[key] = value; }
     void text(const char* key, const std::string& value, std::string_view) { json_[key] = value; }
+    void long_text(const char*, const std::string&, std::string_view) {} // of a solid: its faces are reported
     void texts(const char* key, const std::vector<std::string>& values, std::size_t, std::string_view) {
         json_[key] = values;
     }
@@ -193,6 +194,11 @@ std::string config_json(const CheckedSettings& checked) {
             json["light"] = light_json(*checked);
         } else if (name == "prop") {
             json[name] = table;
+            if (checked->prop.kind != PropKind::Solid) {
+                for (const char* key : {"file", "unit", "lit_faces"}) {
+                    json[name].erase(key);
+                }
+            }
             json[name]["faces"] = faces_json(make_prop(checked->prop));
         } else if (name == "calibration") {
             json[name] = table;

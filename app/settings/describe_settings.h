@@ -46,7 +46,8 @@ inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
 /// Each list is in the order of its enumeration.
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
-inline constexpr std::array<std::string_view, 2> prop_names{"frustum", "cube"};
+inline constexpr std::array<std::string_view, 3> prop_names{"frustum", "cube", "solid"};
+inline constexpr std::array<std::string_view, 2> unit_names{"mm", "m"};
 inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
 inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse",
                                                                "none"};
@@ -148,8 +149,8 @@ void render_settings(auto& fields, auto& render) {
                    "light; 0: the pack's own colours");
 }
 
-template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
-    fields.choice("kind", prop.kind, prop_names, "a pyramidal frustum, or a cube");
+/// The size of a frustum or a cube.
+template <typename Fields> void prop_size_settings(Fields& fields, auto& prop) {
     const bool cube = prop.kind == PropKind::Cube;
     if constexpr (Fields::reads) {
         prop.base_m = cube ? cube_settings().base_m : prop.base_m;
@@ -164,12 +165,54 @@ template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
     if constexpr (Fields::reads) {
         prop.top_m = cube ? prop.base_m : prop.top_m;
         prop.height_m = cube ? prop.base_m : prop.height_m;
-        prop.zone = cube ? PropZone::Hand : PropZone::Table;
+    }
+}
+
+/// The shape of a solid. read_prop.h reads it afterwards.
+template <typename Fields> void prop_file_settings(Fields& fields, auto& prop) {
+    fields.path("file", prop.file,
+                "solid: its shape as a plain OBJ; `frustumscreen-bake --prop-file` makes one");
+    fields.long_text("shape", prop.shape_text,
+                     "solid: instead of `file`, the text of such an OBJ, so that the settings travel alone");
+    fields.choice("unit", prop.unit, unit_names, "solid: of the numbers in the OBJ");
+    fields.texts("lit_faces", prop.lit_faces, geometry::max_faces,
+                 "solid: names of the faces that get a picture; left out: all, but on the table not the one "
+                 "on which it stands");
+    if constexpr (Fields::reads) {
+        fields.one_way("shape", {"file"}, "prop.file");
+    }
+}
+
+/// Keys that are not of this kind of prop.
+void refuse_other_prop_keys(auto& fields, bool solid) {
+    for (const std::string_view key : {"base_m", "top_m", "height_m"}) {
+        fields.require(
+            "settings.prop_size", !solid || !fields.has(key), key,
+            "is the size of a frustum or a cube; a solid is as large as its file says, so leave this "
+            "line out");
+    }
+    for (const std::string_view key : {"file", "shape", "unit", "lit_faces"}) {
+        fields.require("settings.prop_file_kind", solid || !fields.has(key), key,
+                       "is of a solid; set prop.kind to \"solid\", or leave this line out");
+    }
+    fields.require("settings.prop_without_file", !solid || fields.has("file") || fields.has("shape"), "kind",
+                   "is \"solid\"; it needs prop.file, the shape as a plain OBJ, which `frustumscreen-bake "
+                   "--prop-file` makes");
+}
+
+template <typename Fields> void prop_settings(Fields& fields, auto& prop) {
+    fields.choice("kind", prop.kind, prop_names,
+                  "a pyramidal frustum, a cube, or any convex shape with 4 to 16 flat faces");
+    prop_size_settings(fields, prop);
+    prop_file_settings(fields, prop);
+    if constexpr (Fields::reads) {
+        refuse_other_prop_keys(fields, prop.kind == PropKind::Solid);
+        prop.zone = prop.kind == PropKind::Frustum ? PropZone::Table : PropZone::Hand;
     }
     fields.choice(
         "zone", prop.zone, prop_zone_names,
         "table: upright on the table, slid and turned; hand: lifted and turned in any way; left out: "
-        "\"hand\" for a cube");
+        "\"hand\" for a cube and a solid");
 }
 
 void table_settings(auto& fields, auto& table) {

@@ -33,6 +33,13 @@ std::vector<std::string> missing_files(const Settings& settings) {
         look(settings.tracker.poses_key, settings.tracker.poses,
              "make it with frustumscreen record, or choose another tracker.kind");
     }
+    for (const std::string& note : settings.prop.notes) {
+        lines.push_back(fmt::format("{}: {}",
+                                    settings.prop.file.empty()
+                                        ? "prop.shape"
+                                        : "prop.file: " + printable(settings.prop.file.string(), 4096),
+                                    note));
+    }
     const std::string& zone = settings.hours.time_zone;
     if (!zone.empty() && !has_time_zone(zone)) {
         lines.push_back(fmt::format("hours.time_zone: this machine has no time zone \"{}\", so its own is "

@@ -1,4 +1,5 @@
-/// Files and time zones that the settings name but that are missing.
+/// Files and time zones that the settings name but that are missing; calibrations that are not used; remarks on
+/// the shape of a solid prop.
 ///
 /// The settings are valid without them: an exhibit shows the packs that are there, and a pack may be baked after
 /// the settings are written. So missing files are reported, not refused; a part that cannot work without a file

@@ -1,6 +1,7 @@
 #include "app/settings/check_settings.h"
 #include "app/settings/describe_settings.h"
 #include "app/settings/kept_calibrations.h"
+#include "app/settings/read_prop.h"
 #include "app/settings/toml_file.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
@@ -33,6 +34,7 @@ void read(ReadState& state, std::string_view text, Settings& settings) {
         all_settings(keys, settings);
         keys.finish();
     });
+    read_prop(state, settings.prop);
 }
 
 /// Why these settings cannot be used; nothing if they can.

@@ -1,5 +1,7 @@
 #include "app/settings/settings.h"
 
+#include <cassert>
+
 namespace frustumscreen::settings {
 
 PropSettings cube_settings(double edge_m) {
@@ -11,8 +13,19 @@ PropSettings cube_settings(double edge_m) {
 }
 
 geometry::PropShape make_prop(const PropSettings& prop) {
+    if (prop.kind == PropKind::Solid) {
+        assert(prop.shape); // a reader of settings has read it
+        return *prop.shape;
+    }
     return prop.kind == PropKind::Cube ? geometry::make_cube(prop.base_m)
                                        : geometry::make_frustum({prop.base_m, prop.top_m, prop.height_m});
+}
+
+std::string_view baked_kind(const PropSettings& prop) {
+    if (prop.kind != PropKind::Solid) {
+        return name_of(prop.kind);
+    }
+    return prop.zone == PropZone::Hand ? name_of(PropKind::Cube) : std::string_view();
 }
 
 geometry::RigidTransform prop_from_tag(const TagSettings& tag) {

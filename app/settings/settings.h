@@ -18,11 +18,13 @@
 #include "app/settings/calibration.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/hours_settings.h"
+#include "app/solid/polygon_mesh.h"
 #include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,21 +51,34 @@ struct DisplaySettings {
     bool force = false;
 };
 
-/// Frustum: stands on the table. Cube: all its edges are `base_m`.
-enum class PropKind { Frustum, Cube };
+/// Frustum: stands on the table. Cube: all its edges are `base_m`. Solid: any convex shape with flat faces.
+enum class PropKind { Frustum, Cube, Solid };
 [[nodiscard]] std::string_view name_of(PropKind kind);
 /// Table: upright, slid and turned about its axis. Hand: lifted, turned in any way.
 enum class PropZone { Table, Hand };
 struct PropSettings {
     PropKind kind = PropKind::Frustum;
-    double base_m = geometry::shipped_frustum.base_m; ///< side of the bottom square
-    double top_m = geometry::shipped_frustum.top_m;   ///< side of the top square
+    /// Side of the bottom square; of a solid: of the upright square column around its axis that holds it.
+    double base_m = geometry::shipped_frustum.base_m;
+    double top_m = geometry::shipped_frustum.top_m; ///< side of the top square; of a solid: `base_m`
     double height_m = geometry::shipped_frustum.height_m;
     PropZone zone = PropZone::Table; ///< how it moves
+
+    // Of a solid.
+    std::filesystem::path file{}; ///< an OBJ; resolved as the packs
+    std::string shape_text{};     ///< the OBJ itself, where there is no `file`
+    solid::LengthUnit unit = solid::LengthUnit::Millimetre;
+    /// Names of faces that get a picture; empty: all, but for the one on which it stands in the zone Table.
+    std::vector<std::string> lit_faces{};
+    std::shared_ptr<const geometry::PropShape> shape{}; ///< as it was read; none of a frustum or a cube
+    std::vector<std::string> notes{};                   ///< a sentence each on the shape, for its maker
 };
 /// A cube of the usual size, in the hand.
 [[nodiscard]] PropSettings cube_settings(double edge_m = 0.16);
 [[nodiscard]] geometry::PropShape make_prop(const PropSettings& prop);
+/// The kind of prop that packs are baked for (`frustumscreen-bake --prop`); empty: any serves. A solid in the hand is
+/// seen from all around, as a cube.
+[[nodiscard]] std::string_view baked_kind(const PropSettings& prop);
 
 struct TableSettings {
     double width_m = 0.8;

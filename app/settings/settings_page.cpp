@@ -68,6 +68,9 @@ public:
     void text(const char* key, const std::string& value, std::string_view sentence) {
         text_row(key, value, "text", sentence);
     }
+    void long_text(const char* key, const std::string& /*value*/, std::string_view sentence) {
+        row(key, "", "a text of several lines", sentence);
+    }
     template <typename Value>
     void parsed(const char* key, const Value& value, const auto& to_text, const auto& /*from_text*/,
                 std::string_view allowed, std::string_view sentence) {

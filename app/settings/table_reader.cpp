@@ -67,6 +67,11 @@ void ReadState::refuse(MessageId id, std::uint32_t line, std::string_view what) 
     }
 }
 
+std::uint32_t ReadState::line_of(std::string_view key) const {
+    const auto line = lines.find(key);
+    return line != lines.end() ? line->second : 0;
+}
+
 std::string located(std::string_view file, std::uint32_t line, std::string_view what) {
     return line > 0 ? fmt::format("{}:{}: {}", file, line, what) : fmt::format("{}: {}", file, what);
 }
@@ -92,8 +97,8 @@ const toml::node* TableReader::take(std::string_view key) {
 }
 
 std::uint32_t TableReader::line_of_key(std::string_view name) const {
-    const auto line = state_->lines.find(name);
-    return line != state_->lines.end() ? line->second : line_;
+    const std::uint32_t line = state_->line_of(name);
+    return line > 0 ? line : line_;
 }
 
 void TableReader::refuse(MessageId id, std::string_view key, std::string_view what) {

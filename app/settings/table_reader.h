@@ -37,6 +37,8 @@ struct ReadState {
     std::optional<Error> error;
 
     void refuse(MessageId id, std::uint32_t line, std::string_view what);
+    /// 0: the file does not have this key.
+    [[nodiscard]] std::uint32_t line_of(std::string_view key) const;
 };
 
 /// `file:line: what`, or `file: what` if the line is 0.
@@ -67,6 +69,9 @@ public:
     void text(std::string_view key, std::string& value, std::string_view sentence = {});
     /// A text of any length, or empty; the caller checks it.
     void any_text(std::string_view key, std::string& value);
+    void long_text(std::string_view key, std::string& value, std::string_view /*sentence*/) {
+        any_text(key, value);
+    }
     /// Texts under keys that the file chooses: { key = "text", ... }, in the keys' order.
     void named_texts(std::string_view key, std::vector<std::pair<std::string, std::string>>& values,
                      std::size_t most);
@@ -147,6 +152,7 @@ public:
 
 private:
     [[nodiscard]] std::string full_name(std::string_view key) const;
+    /// The table's own line for a key that is missing.
     [[nodiscard]] std::uint32_t line_of_key(std::string_view name) const;
     const toml::node* take(std::string_view key);
     void read_matrix(std::string_view key, glm::dmat4& value, const Range& range);
