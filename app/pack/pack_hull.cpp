@@ -28,7 +28,13 @@ const PackSection* find_section(const PackDescription& pack) {
     return found != pack.sections.end() ? &*found : nullptr;
 }
 
-std::vector<glm::dvec3> box_corners(const PackDescription& pack) {
+bool is_near_box(const glm::dvec3& corner) {
+    return glm::length(corner) <= farthest_box; // false for NaN
+}
+
+} // namespace
+
+std::vector<glm::dvec3> corners_of_box(const PackDescription& pack) {
     std::vector<glm::dvec3> corners;
     for (unsigned k = 0; k < 8; ++k) {
         corners.push_back(
@@ -37,12 +43,6 @@ std::vector<glm::dvec3> box_corners(const PackDescription& pack) {
     }
     return corners;
 }
-
-bool is_near_box(const glm::dvec3& corner) {
-    return glm::length(corner) <= farthest_box; // false for NaN
-}
-
-} // namespace
 
 void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack) {
     assert(find_section(pack) == nullptr);
@@ -54,7 +54,7 @@ void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack) {
 Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack) {
     const PackSection* const section = find_section(pack);
     if (section == nullptr) {
-        return box_corners(pack);
+        return corners_of_box(pack);
     }
     std::vector<glm::dvec3> corners;
     Refusal refusal;

@@ -13,15 +13,18 @@
 
 namespace frustumscreen::pack {
 
-/// `wanted`: the kind that the settings name. Returns nothing if they agree.
-[[nodiscard]] inline std::optional<std::string>
-note_other_prop(const std::string& file, const PackDescription& pack, std::string_view wanted) {
-    if (pack.prop_kind == wanted) {
+/// `prop`: the kind that the settings name. `wanted`: the kind that packs are baked for then; empty: any. Returns
+/// nothing if the pack is one of these.
+[[nodiscard]] inline std::optional<std::string> note_other_prop(const std::string& file,
+                                                                const PackDescription& pack,
+                                                                std::string_view prop,
+                                                                std::string_view wanted) {
+    if (wanted.empty() || pack.prop_kind == wanted) {
         return std::nullopt;
     }
     return fmt::format(
         "{}: it was baked for a {}, and the prop of the settings is a {}; bake it with --prop {}", file,
-        pack.prop_kind, wanted, wanted);
+        pack.prop_kind, prop, wanted);
 }
 
 } // namespace frustumscreen::pack

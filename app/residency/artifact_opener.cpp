@@ -152,7 +152,8 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
             exhibit::add_language(all.languages, caption.language);
         }
         if (const auto note =
-                pack::note_other_prop(file.string(), pack, settings::name_of(settings.prop.kind))) {
+                pack::note_other_prop(file.string(), pack, settings::name_of(settings.prop.kind),
+                                      settings::baked_kind(settings.prop))) {
             all.notes.push_back(*note);
         }
         if (!all.first) {

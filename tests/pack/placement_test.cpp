@@ -1,6 +1,10 @@
+#include "app/geometry/convex_hull.h"
+#include "app/pack/pack_hull.h"
 #include "tests/pack/samples.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 using namespace frustumscreen;
 using namespace frustumscreen::pack;
@@ -127,4 +131,37 @@ TEST(Placement, a_pack_without_a_scale_is_at_the_largest_size) {
     const Result<VerifiedPack> read = verify_pack(written);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ((*read)->scale, 1.0);
+}
+
+/// Planes that are slanted in both x and y touch places that the extremes leave out.
+TEST(Placement, keeps_every_vertex_inside_a_hexagonal_prism) {
+    constexpr double flat_m = 0.060; // from the axis to a side
+    constexpr double height_m = 0.130;
+    geometry::PropShape prism;
+    for (int k = 0; k < 6; ++k) {
+        const double angle = (2.0 * k + 1.0) * std::numbers::pi / 6.0;
+        prism.bounds.push_back({{std::cos(angle), std::sin(angle), 0.0}, flat_m});
+    }
+    prism.bounds.push_back({{0.0, 0.0, 1.0}, height_m});
+    prism.bounds.push_back({{0.0, 0.0, -1.0}, 0.0});
+    std::mt19937 random(12);
+    for (int k = 0; k < 100; ++k) {
+        const Cloud cloud = random_cloud(random);
+        Pack pack;
+        pack.extremes = cloud.points;
+        pack.box_size = cloud.size;
+        Pack older = pack; // without a hull its box counts
+        put_hull(geometry::enclosing_corners(cloud.points, max_hull_corners), pack);
+        const double scale = place(pack, prism).metres_per_box;
+        double most = 0.0; // share of the way to the nearest side
+        for (const glm::dvec3& point : cloud.points) {
+            const glm::dvec3 p = scale * point;
+            const double beside =
+                std::sqrt(0.75) * std::abs(p.x) + 0.5 * std::abs(p.y); // the four slanted sides
+            most = std::max({most, beside / flat_m, std::abs(p.y) / flat_m, p.z / height_m});
+        }
+        EXPECT_LE(most, 1.0 + 1e-9);
+        EXPECT_GE(most, 0.999);
+        EXPECT_LE(place(older, prism).metres_per_box, scale * (1.0 + 1e-9));
+    }
 }

@@ -145,8 +145,9 @@ Result<void> render(const Request& request) {
     }
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
-    if (const auto note = pack::note_other_prop(request.pack.string(), *scene.pack,
-                                                settings::name_of(settings->prop.kind))) {
+    if (const auto note =
+            pack::note_other_prop(request.pack.string(), *scene.pack, settings::name_of(settings->prop.kind),
+                                  settings::baked_kind(settings->prop))) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;
