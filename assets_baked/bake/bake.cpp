@@ -43,7 +43,10 @@ std::vector<pack::ReliefDirection> directions_of(const geometry::PropShape& prop
         const glm::dvec3& n = face.plane.normal;
         const glm::dvec3 size = glm::abs(n);
         const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-        directions.push_back(static_cast<pack::ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0)));
+        const auto direction = static_cast<pack::ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0));
+        if (std::find(directions.begin(), directions.end(), direction) == directions.end()) {
+            directions.push_back(direction);
+        }
     }
     return directions;
 }
@@ -312,6 +315,10 @@ BakedProp baked_frustum() {
 
 BakedProp baked_cube() {
     return {"cube", geometry::make_cube(geometry::FrustumSize{}.base_m), ViewingZone::all_around()};
+}
+
+BakedProp baked_solid(geometry::PropShape shape) {
+    return {"cube", std::move(shape), ViewingZone::all_around()};
 }
 
 std::uintmax_t space_for_pack(int size) {

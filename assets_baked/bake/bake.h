@@ -35,6 +35,8 @@ struct BakedProp {
 [[nodiscard]] BakedProp baked_frustum();
 /// Held in the hand: seen from all around, also from below.
 [[nodiscard]] BakedProp baked_cube();
+/// A prop of any shape in the hand. Its pack is one for a cube; which errors a visitor would notice is decided by this shape.
+[[nodiscard]] BakedProp baked_solid(geometry::PropShape shape);
 
 /// A step of a bake that `progress` names, and the share of the whole work that is done when it begins, as measured with the
 /// amphora of a million triangles.

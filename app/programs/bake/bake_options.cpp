@@ -14,8 +14,10 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
                  "use the base colour without museum light, for colours that already contain light");
     app.add_flag("--no-relief", arguments.no_relief,
                  "leave out the layered relief: the pack is smaller and has meshes only");
-    app.add_option("--prop", arguments.prop, "prop that the relief is baked for (default: frustum)")
-        .one_of({"frustum", "cube"});
+    app.add_option(
+        "--prop", arguments.prop,
+        "prop that the artifact is baked for: frustum, cube, or a prop file, *.obj, of a prop in the hand "
+        "(default: frustum)");
     app.add_option("--up", arguments.up, "the file's up axis (default: y; STL: z)")
         .one_of({"x", "y", "z", "-x", "-y", "-z"});
     app.add_option("--turn", arguments.turn_deg,

@@ -2,8 +2,11 @@
 
 #include "app/pack/pack_text.h"
 #include "app/programs/bake/captions_of.h"
+#include "app/solid/prop_file.h"
+#include "app/solid/shape_of.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "assets_baked/names/find_entry.h"
+#include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -90,12 +93,35 @@ Result<void> check_texts(const BakeArguments& arguments) {
     return {};
 }
 
-bake::BakeOptions options_of(const BakeArguments& arguments, const folder::ArtifactFile& file) {
+constexpr std::string_view prop_file_suffix = ".obj";
+
+/// `word`: of --prop or of artifact.toml.
+Result<bake::BakedProp> prop_of(const std::string& word) {
+    if (word == "cube") {
+        return bake::baked_cube();
+    }
+    if (word == "frustum") {
+        return bake::baked_frustum();
+    }
+    if (!word.ends_with(prop_file_suffix)) {
+        return fail(ErrorKind::BadConfiguration, "bake.prop",
+                    "--prop '{}': allowed are frustum, cube and the path of a prop file, which ends in .obj",
+                    printable(word, 40));
+    }
+    TRY(const Bytes bytes, read_file(word, solid::max_obj_bytes));
+    TRY(const solid::PropFile file,
+        at(printable(word, 4096), solid::parse_prop_file(as_text(bytes), solid::LengthUnit::Millimetre)));
+    TRY_VOID(at(printable(word, 4096), solid::check_stand(file.solid)));
+    TRY_VOID(at(printable(word, 4096), solid::check_foot(file.solid)));
+    return bake::baked_solid(solid::shape_of(file.solid, solid::Underside::Lit));
+}
+
+Result<bake::BakeOptions> options_of(const BakeArguments& arguments, const folder::ArtifactFile& file) {
     bake::BakeOptions options;
     options.size = arguments.size.value_or(file.size);
     options.unlit = arguments.unlit || file.unlit;
     options.relief = !arguments.no_relief;
-    options.prop = arguments.prop.value_or(file.prop) == "cube" ? bake::baked_cube() : bake::baked_frustum();
+    TRY(options.prop, prop_of(arguments.prop.value_or(file.prop)));
     options.up = arguments.up.value_or(file.up);
     options.scale = arguments.scale.value_or(file.scale);
     options.lift = arguments.lift.value_or(file.lift);
@@ -161,6 +187,9 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     if (!file.texture.empty()) {
         request.inputs.push_back(file.texture);
     }
+    if (arguments.prop && arguments.prop->ends_with(prop_file_suffix)) {
+        request.inputs.emplace_back(*arguments.prop);
+    }
     for (const auto& [language, recording] : file.recordings) {
         request.inputs.push_back(recording);
     }
@@ -169,7 +198,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.strict = arguments.strict;
     request.texture = arguments.texture.empty() ? file.texture : arguments.texture;
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
-    request.options = options_of(arguments, file);
+    TRY(request.options, options_of(arguments, file));
     request.id = file.id;
     request.usual_title = file.scan.stem().string();
     request.rights = {arguments.licence.empty() ? file.licence : arguments.licence,
