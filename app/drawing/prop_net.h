@@ -1,9 +1,9 @@
 /// The prop's faces laid out flat, as one piece to cut out and fold.
 ///
-/// Frame    the net's plane: origin at the middle of the top face, x and y as the prop's; seen from outside
-///          the prop. Metres.
-/// Shape    the sides are attached to the top; a cube's bottom is attached to its side -Y. A frustum's net
-///          has no bottom.
+/// Frame    the net's plane: x and y as the prop's where the top face lies, which is the one that looks up most; seen from
+///          outside the prop. Metres.
+/// Shape    around the top lie its neighbours, around them theirs; a cube's bottom is attached to its side -Y. Faces that are
+///          not lit are left out. A face that fits nowhere without lying on another begins a piece of its own.
 /// Threads  values; any.
 #pragma once
 
@@ -12,14 +12,16 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace frustumscreen::drawing {
 
 struct NetFace {
-    std::string name;                    ///< as in PropShape
-    std::array<glm::dvec2, 4> corners{}; ///< in the order of PropFace::corners, counter-clockwise
+    std::size_t face = 0;            ///< of PropShape::faces
+    std::string name;                ///< as there
+    std::vector<glm::dvec2> corners; ///< in the order of PropFace::corners, counter-clockwise
 };
 /// A fold between two faces of the net.
 struct NetFold {
@@ -34,9 +36,9 @@ struct PropNet {
     std::vector<NetFace> faces;
     std::vector<NetFold> folds;
     std::vector<NetTab> tabs;
+    std::size_t pieces = 1;
 };
 
-/// Of a frustum or a cube.
 [[nodiscard]] PropNet unfold(const geometry::PropShape& prop);
 
 } // namespace frustumscreen::drawing

@@ -2,11 +2,13 @@
 #include "app/drawing/dimension.h"
 #include "app/drawing/drawing.h"
 #include "app/drawing/prop_net.h"
+#include "app/drawing/solid_views.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -72,8 +74,10 @@ std::string_view words_of(std::string_view face) {
 double lettering_mm(const PropNet& net, const View& view) {
     double shortest_m = std::numeric_limits<double>::infinity();
     for (const NetFace& face : net.faces) {
-        shortest_m = std::fmin(shortest_m, glm::distance(face.corners[0], face.corners[1]));
-        shortest_m = std::fmin(shortest_m, glm::distance(face.corners[2], face.corners[3]));
+        for (std::size_t k = 0; k < face.corners.size(); ++k) {
+            shortest_m = std::fmin(
+                shortest_m, glm::distance(face.corners[k], face.corners[(k + 1) % face.corners.size()]));
+        }
     }
     constexpr double max_mm = 4.0;
     constexpr double min_mm = 1.2;
@@ -88,8 +92,8 @@ void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
     }
     for (const NetFace& face : net.faces) {
         sheet.polygon(view(face.corners), cut, face.name);
-        const glm::dvec2 middle =
-            0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
+        const glm::dvec2 middle = std::accumulate(face.corners.begin(), face.corners.end(), glm::dvec2(0.0)) /
+                                  static_cast<double>(face.corners.size());
         sheet.text(view(middle), words_of(face.name), {lettering_mm(net, view), TextAnchor::Middle});
     }
     for (const NetFold& each : net.folds) {
@@ -167,18 +171,28 @@ View draw_views(SvgSheet& sheet, const Sizes& sizes) {
     return at(0.0);
 }
 
+std::string words_of_lit_faces(const settings::PropSettings& prop) {
+    const std::size_t lit = settings::make_prop(prop).faces.size();
+    const std::size_t all = settings::make_prop(prop).bounds.size();
+    if (prop.kind == settings::PropKind::Frustum) {
+        return "The bottom stays open or gets a board; it is never lit.";
+    }
+    return lit == all ? fmt::format("It is held in the hand: all {} faces are lit.", all)
+                      : fmt::format("{} of its {} faces are lit; the net has these alone.", lit, all);
+}
+
 void draw_notes(SvgSheet& sheet, const settings::Settings& settings, const View& views, const View& net_view,
                 const Extent& net) {
-    const bool cube = settings.prop.kind == settings::PropKind::Cube;
     const std::string lines[] = {
         fmt::format("Scale {}; the net: {}.", scale_words(views), scale_words(net_view)),
         "All sizes are those of the outside, with the paint on.",
-        "The sides' numbers are those of the staff's picture.",
+        settings.prop.kind == settings::PropKind::Solid
+            ? "The faces have the names of the prop's file."
+            : "The sides' numbers are those of the staff's picture.",
         "Red, dashed: fold. Black: cut. Grey: tabs for glue.",
         fmt::format("The net with its tabs takes {} x {}.", mm_words(net.high.x - net.low.x),
                     mm_words(net.high.y - net.low.y)),
-        cube ? "It is held in the hand: all six faces are lit."
-             : "The bottom stays open or gets a board; it is never lit.",
+        words_of_lit_faces(settings.prop),
         "Red dot: the zero of the tracker's sensor, in the middle of the bottom;",
         "red arms: its x, to the right, and y, away from the visitor.",
         "frustumscreen drawing --sheet net draws the net in true size."};
@@ -192,10 +206,12 @@ void draw_notes(SvgSheet& sheet, const settings::Settings& settings, const View&
 } // namespace
 
 std::string prop_sheet(const settings::Settings& settings, std::string_view name) {
-    const Sizes sizes(settings.prop);
     SvgSheet sheet = a3_sheet("Prop", name);
-    const View views = draw_views(sheet, sizes);
-    const PropNet net = unfold(settings::make_prop(settings.prop));
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    const View views = settings.prop.kind == settings::PropKind::Solid
+                           ? draw_solid_views(sheet, prop)
+                           : draw_views(sheet, Sizes(settings.prop));
+    const PropNet net = unfold(prop);
     const Extent extent = extent_of(net);
     const View net_view = fitted_view(extent, {205.0, 26.0}, {400.0, 206.0});
     sheet.text({205.0, 18.0}, "All faces as one piece, seen from outside", heading);

@@ -74,12 +74,32 @@ private:
     /// The prop's outline in a view along an axis, around `across_m`.
     [[nodiscard]] std::vector<glm::dvec2> prop_outline(double across_m) const {
         const settings::PropSettings& prop = settings_.prop;
+        if (prop.kind == settings::PropKind::Solid) {
+            return solid_outline(
+                [&](const glm::dvec3& corner) { return glm::dvec2(across_m + corner.y, corner.z); });
+        }
         const double bottom = 0.5 * prop.base_m;
         const double top = prop.kind == settings::PropKind::Cube ? bottom : 0.5 * prop.top_m;
         return {{across_m - bottom, 0.0},
                 {across_m + bottom, 0.0},
                 {across_m + top, prop.height_m},
                 {across_m - top, prop.height_m}};
+    }
+
+    [[nodiscard]] std::vector<glm::dvec2> prop_from_above() const {
+        if (settings_.prop.kind == settings::PropKind::Solid) {
+            return solid_outline([&](const glm::dvec3& corner) { return place_ + glm::dvec2(corner); });
+        }
+        const double half = 0.5 * settings_.prop.base_m;
+        return {place_ + glm::dvec2(-half, -half), place_ + glm::dvec2(half, -half),
+                place_ + glm::dvec2(half, half), place_ + glm::dvec2(-half, half)};
+    }
+    [[nodiscard]] std::vector<glm::dvec2> solid_outline(const auto& drawn) const {
+        std::vector<glm::dvec2> points;
+        for (const glm::dvec3& corner : settings::make_prop(settings_.prop).corners) {
+            points.push_back(drawn(corner));
+        }
+        return settings::convex_polygon(std::move(points));
     }
 
     /// The eye zone on the visitor's side of the prop, from the lowest elevation up to the vertical.
@@ -229,11 +249,7 @@ private:
         if (!zone_.any_eye.empty()) {
             sheet_.polygon(view(zone_.any_eye), zone_pen, "zone");
         }
-        const double half = 0.5 * settings_.prop.base_m;
-        const std::vector<glm::dvec2> prop{place_ + glm::dvec2(-half, -half),
-                                           place_ + glm::dvec2(half, -half), place_ + glm::dvec2(half, half),
-                                           place_ + glm::dvec2(-half, half)};
-        sheet_.polygon(view(prop), {"#000000", 0.5}, "prop");
+        sheet_.polygon(view(prop_from_above()), {"#000000", 0.5}, "prop");
         for (const auto& [place, draw] : symbols_from_above()) {
             draw(sheet_, view(place));
         }

@@ -101,7 +101,10 @@ public:
         }
         return brightest > 0.0 ? dimmest / brightest : 0.0;
     }
-    [[nodiscard]] static bool is_underside(const geometry::PropFace& face) { return face.name == "-Z"; }
+    [[nodiscard]] static bool is_underside(const geometry::PropFace& face) {
+        constexpr double down = -1.0 + 1e-9;
+        return face.plane.normal.z < down;
+    }
 
 private:
     geometry::PropShape prop_;
