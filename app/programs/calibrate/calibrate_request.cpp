@@ -70,6 +70,16 @@ Result<void> check_sensor_height(std::optional<double> height_m, std::optional<d
     return {};
 }
 
+Result<void> check_square_foot(const settings::PropSettings& prop) {
+    if (prop.kind != settings::PropKind::Solid) {
+        return {};
+    }
+    return fail(
+        ErrorKind::BadConfiguration, "calibrate.solid_prop",
+        "prop.kind is \"solid\"; a table is measured with a prop that stands on a square: measure it with a "
+        "frustum or a cube in the settings, or with frustumscreen-calibrate corners");
+}
+
 Result<Described> describe(const CalibrateRequest& request) {
     if (!request.picture.empty()) {
         TRY_VOID(check_sensor_height(request.sensor_height_m, std::nullopt));

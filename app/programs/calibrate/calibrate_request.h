@@ -58,6 +58,8 @@ void add_touch_options(CommandLine& command, CalibrateRequest& request);
 /// Throws a WrongUse if options contradict each other.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
+/// Refuses a solid, whose foot is no square.
+[[nodiscard]] Result<void> check_square_foot(const settings::PropSettings& prop);
 [[nodiscard]] Described described_by(const settings::Settings& settings);
 /// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the
 /// prop's height, if known.

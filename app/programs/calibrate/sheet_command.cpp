@@ -23,6 +23,7 @@ Result<int> draw(const CalibrateRequest& request) {
 
 Result<calibration::Board> board_of(const settings::Settings& settings) {
     const settings::PropSettings& prop = settings.prop;
+    TRY_VOID(check_square_foot(prop));
     return calibration::board_for(prop.kind == settings::PropKind::Cube
                                       ? geometry::FrustumSize{prop.base_m, prop.base_m, prop.base_m}
                                       : geometry::FrustumSize{prop.base_m, prop.top_m, prop.height_m});

@@ -227,6 +227,7 @@ Result<int> take_first_wanted(const Session& session) {
 Result<int> calibrate_table(const CalibrateRequest& request) {
     TRY(const Described described, describe(request));
     const settings::Settings& settings = *described.settings;
+    TRY_VOID(check_square_foot(settings.prop));
     if (request.touch_up && !settings.calibration.used) {
         return none_kept(settings);
     }
