@@ -132,7 +132,7 @@ class Zone(unittest.TestCase):
         self.assertGreaterEqual(whole["artifact_m"][2], 0.12)
         shipped, wide = self.size_cm("kiosk.toml"), self.size_cm("wide.toml")
         for name, promised in (("docs/guide/build.md", f"| {shipped} | {wide} |"), ("docs/designers.md", f"the first is {wide} "),
-                               ("docs/measurements.md", f"`wide.toml` | 97 x 60 | {wide[:-3]} |"),
+                               ("docs/measurements.md", f"| 1.55 | 97 x 60 | {wide[:-3]} |"),
                                ("config/wide.toml", f"{wide}, in place of {shipped[:-3]},")):
             self.assertIn(promised, (SOURCE / name).read_text(encoding="utf-8"), name)
 
