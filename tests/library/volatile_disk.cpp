@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <cstddef>
 
 namespace frustumscreen::testing_disk {
 
@@ -21,7 +21,8 @@ public:
         if (offset > content_->size() || out.size() > content_->size() - offset) {
             return ENODATA;
         }
-        std::memcpy(out.data(), content_->data() + offset, out.size());
+        std::copy_n(content_->begin() + static_cast<std::ptrdiff_t>(offset), out.size(),
+                    out.begin()); // also of none
         return 0;
     }
 
