@@ -31,7 +31,7 @@ public:
         parent_[from] = to;
         return from != to;
     }
-    /// Of each number.
+    /// Indexed by number.
     [[nodiscard]] std::vector<std::uint32_t> roots() {
         for (std::uint32_t& each : parent_) {
             each = root(each);

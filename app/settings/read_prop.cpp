@@ -17,19 +17,12 @@ namespace frustumscreen::settings {
 
 namespace {
 
-Result<solid::PropFile> parse_shape(std::string_view text, solid::LengthUnit unit) {
-    TRY(solid::PropFile file, solid::parse_prop_file(text, unit));
-    TRY_VOID(solid::check_stand(file.solid));
-    TRY_VOID(solid::check_foot(file.solid));
-    return file;
-}
-
 Result<solid::PropFile> read_shape(const PropSettings& prop) {
     if (prop.file.empty()) {
-        return parse_shape(prop.shape_text, prop.unit);
+        return solid::parse_standing_prop(prop.shape_text, prop.unit);
     }
     TRY(const Bytes bytes, read_file(prop.file, solid::max_obj_bytes));
-    return at(printable(prop.file.string(), 4096), parse_shape(as_text(bytes), prop.unit));
+    return at(printable(prop.file.string(), 4096), solid::parse_standing_prop(as_text(bytes), prop.unit));
 }
 
 /// `shape` with pictures on the faces called `lit` alone; the others only bound it.

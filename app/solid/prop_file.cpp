@@ -91,6 +91,13 @@ Result<void> check_foot(const Solid& solid) {
     return {};
 }
 
+Result<PropFile> parse_standing_prop(std::string_view text, LengthUnit unit) {
+    TRY(PropFile file, parse_prop_file(text, unit));
+    TRY_VOID(check_stand(file.solid));
+    TRY_VOID(check_foot(file.solid));
+    return file;
+}
+
 std::optional<std::string> narrowness(const Solid& solid, double eyes_m) {
     const SolidWidth width = min_width(solid);
     if (width.width_m >= eyes_m) {

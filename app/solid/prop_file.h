@@ -33,6 +33,8 @@ inline constexpr std::string_view prop_file_heading =
 [[nodiscard]] Result<void> check_stand(const Solid& solid);
 /// That one of its faces lies on z = 0.
 [[nodiscard]] Result<void> check_foot(const Solid& solid);
+/// A prop file that passes both checks.
+[[nodiscard]] Result<PropFile> parse_standing_prop(std::string_view text, LengthUnit unit);
 
 /// The mean distance between an adult's eyes.
 /// Source   Dodgson, Variation and extrema of human interpupillary distance, 2004: mean 63 mm, nearly all within

@@ -110,9 +110,7 @@ Result<bake::BakedProp> prop_of(const std::string& word) {
     }
     TRY(const Bytes bytes, read_file(word, solid::max_obj_bytes));
     TRY(const solid::PropFile file,
-        at(printable(word, 4096), solid::parse_prop_file(as_text(bytes), solid::LengthUnit::Millimetre)));
-    TRY_VOID(at(printable(word, 4096), solid::check_stand(file.solid)));
-    TRY_VOID(at(printable(word, 4096), solid::check_foot(file.solid)));
+        at(printable(word, 4096), solid::parse_standing_prop(as_text(bytes), solid::LengthUnit::Millimetre)));
     return bake::baked_solid(solid::shape_of(file.solid, solid::Underside::Lit));
 }
 

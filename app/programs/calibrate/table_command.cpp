@@ -281,7 +281,7 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
         "--touch-up", request.touch_up, "touch up the kept calibration; an error if none is kept");
     const CommandOption from_start = command.add_flag("--from-start", request.from_start,
                                                       "calibrate completely even if a calibration is kept");
-    const CommandOption anew = command.add_flag("--anew", request.from_start).hidden(); // until 0.9.0
+    const CommandOption anew = command.add_flag("--anew", request.from_start).hidden();
     touch_up.excludes(from_start).excludes(anew);
     command.add_flag("--headless", request.headless, "run without a screen, for tests");
     command.add_flag("--json", request.json, "print the crosses as JSON and end");

@@ -27,6 +27,12 @@ void tell_of_calibration(const settings::CalibrationSettings& calibration, const
     }
 }
 
+void tell_of_prop(const settings::PropSettings& prop, const service::Journal& journal) {
+    for (const std::string& note : prop.notes) {
+        journal.note(service::LogPriority::Info, fmt::format("the prop's shape: {}", note));
+    }
+}
+
 std::filesystem::path last_good(const RunPlaces& places) {
     return places.cache.empty() ? std::filesystem::path() : places.cache / "settings_last_good.toml";
 }
@@ -72,6 +78,7 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const service::Journal&
         journal.note(service::LogPriority::Error, used.instead);
     }
     tell_of_calibration(used.settings->calibration, journal);
+    tell_of_prop(used.settings->prop, journal);
     return RunMode{mode, std::move(used), std::move(packs)};
 }
 

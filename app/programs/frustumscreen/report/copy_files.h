@@ -3,7 +3,7 @@
 ///
 /// Names    settings.toml, calibration.toml and counts.csv are for a person; kiosk.fsk is the same for a kiosk
 ///          (kiosk_copy.h); packs are NUMBER-ID.fspack, in the order of the set that is shown.
-/// Persons  a copy by the buttons, which nobody signed for, has no comments in its settings: they may name people.
+/// Persons  a copy by the buttons is unsigned, so its settings lose their comments, which may name people.
 /// Threads  the main one; reads files.
 /// Errors   one sentence.
 #pragma once
