@@ -180,7 +180,7 @@ void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, c
         draw_outline(plan.faces[k].corners_clip, outline);
     }
     glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    set_channels(plan.picture.channels);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 

@@ -1,8 +1,8 @@
 /// Draws the meshes in the prop, and the reliefs that the GPU draws: marks the plan's faces in the stencil,
 /// then draws on them, in order.
 ///
-/// It draws into the bound framebuffer, which the caller clears. It sets every piece of GL state that it
-/// needs, and the scissor to each draw's bounds; it leaves stencil test, depth test and culling off.
+/// It draws into the bound framebuffer and viewport; the caller clears both. It sets every other piece of GL state that
+/// it needs, and the scissor to each draw's bounds; it leaves stencil test, depth test and culling off.
 ///
 /// Colour   sRGB codes in and out: the framebuffer must store them unchanged (GL_FRAMEBUFFER_SRGB_EXT off).
 ///          Decoding and encoding every sample costs a software GPU more than all other work.

@@ -12,7 +12,8 @@ namespace frustumscreen::render {
 
 struct Raster {
     glm::ivec2 fragments{1, 1}; ///< along the sides of one pixel
-    glm::ivec2 corner{0, 0};    ///< the pixel at the framebuffer's fragment (0, 0)
+    glm::ivec2 corner{0,
+                      0}; ///< the pixel at the framebuffer's fragment (0, 0); negative for an eye's viewport
 };
 
 /// `picture`: its size in pixels.
@@ -26,6 +27,12 @@ inline void set_scissor(const PixelRectangle& r, const Raster& raster = {}) {
     const glm::ivec2 first = (glm::ivec2(r.x, r.y) - raster.corner) * raster.fragments;
     const glm::ivec2 size = glm::ivec2(r.width, r.height) * raster.fragments;
     glScissor(first.x, first.y, size.x, size.y);
+}
+
+/// The colours that are written; alpha always is.
+inline void set_channels(const glm::bvec3& channels) {
+    glColorMask(channels.r ? GL_TRUE : GL_FALSE, channels.g ? GL_TRUE : GL_FALSE,
+                channels.b ? GL_TRUE : GL_FALSE, GL_TRUE);
 }
 
 } // namespace frustumscreen::render

@@ -13,10 +13,10 @@ namespace frustumscreen::render {
 
 namespace {
 
-/// True if the relief can be copied there: no fade, no mesh, no picture on the table. A face drawn in black
+/// True if the relief can be copied there: all colours are written, no fade, no mesh, no picture on the table. A face drawn in black
 /// under such a picture does not matter, because the relief's unlit pixels are black too.
 bool stands_alone(const scene::FramePlan& plan, const PixelRectangle& part) {
-    return plan.relief_draw_count == 1 &&
+    return plan.relief_draw_count == 1 && glm::all(plan.picture.channels) &&
            std::none_of(plan.draws.begin(), plan.draws.end(), [&](const scene::Draw& draw) {
                const bool black = draw.face == scene::Draw::on_table &&
                                   draw.drawable.material.texture == scene::TextureId::None;
@@ -89,15 +89,15 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
         picture.copied = static_cast<std::size_t>(drawn - picture.painted.begin());
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, picture.texels.get());
-        upload(std::span(picture.painted).subspan(picture.copied));
+        upload(std::span(picture.painted).subspan(picture.copied), plan.picture.viewport);
     }
 }
 
-void RasterPass::upload(std::span<const PixelRectangle> parts) const {
+void RasterPass::upload(std::span<const PixelRectangle> parts, const PixelRectangle& viewport) const {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, memory_.width);
     for (const PixelRectangle& part : parts) {
-        glTexSubImage2D(GL_TEXTURE_2D, 0, part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        &memory_.at(part.x, part.y));
+        glTexSubImage2D(GL_TEXTURE_2D, 0, viewport.x + part.x, viewport.y + part.y, part.width, part.height,
+                        GL_RGBA, GL_UNSIGNED_BYTE, &memory_.at(part.x, part.y));
     }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
@@ -112,7 +112,7 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
         const std::span<const PixelRectangle> drawn = painted.subspan(pictures_[k].copied);
         if (!copied.empty()) {
             glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
-            upload(copied);
+            upload(copied, plan.picture.viewport);
         }
         // One draw serves all faces: their pixels are disjoint, and the light is already applied.
         const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const scene::Draw& draw) {
@@ -123,11 +123,13 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
             continue;
         }
         shader->use();
-        glUniform4f(shader->location(Uniform::PixelFromFragment), 1.0F, 1.0F, 0.0F, 0.0F);
+        glUniform4f(shader->location(Uniform::PixelFromFragment), 1.0F, 1.0F,
+                    static_cast<float>(-plan.picture.viewport.x),
+                    static_cast<float>(-plan.picture.viewport.y));
         glUniform2f(shader->location(Uniform::Dither), shown->dither.share,
                     shown->dither.complement ? 0.0F : 1.0F);
         glBindTexture(GL_TEXTURE_2D, pictures_[k].texels.get());
-        shader->draw_rectangles({memory_.width, memory_.height}, drawn);
+        shader->draw_rectangles({plan.projector.width, plan.projector.height}, drawn);
         ++calls;
     }
     glBindVertexArray(0);

@@ -48,8 +48,8 @@ private:
         std::vector<PixelRectangle> painted; ///< first the rectangles to copy, then those to draw
         std::size_t copied = 0;
     };
-    /// Uploads from main memory into the bound texture.
-    void upload(std::span<const PixelRectangle> parts) const;
+    /// Uploads from main memory into the eye's viewport in the bound texture.
+    void upload(std::span<const PixelRectangle> parts, const PixelRectangle& viewport) const;
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
     scene::RasterLight light_;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <string_view>
 
 namespace frustumscreen::render {
@@ -30,8 +31,14 @@ void clear(GLbitfield what) {
     glClearStencil(0);
     glStencilMask(0xFF);
     glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClear(what);
+}
+
+/// From an eye's picture to the display's.
+PixelRectangle in_display(PixelRectangle part, const scene::FramePlan& plan) {
+    part.x += plan.picture.viewport.x;
+    part.y += plan.picture.viewport.y;
+    return part;
 }
 
 } // namespace
@@ -53,8 +60,7 @@ Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
     TRY_VOID(shaders_.prepare(scene::shaders_of(all), all.bent_by));
     TRY_VOID(raster_pass_.prepare(all.relief_draws, width_, height_));
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
-        const PixelSize picture{width_, height_};
-        TRY(sample_grid_, SampleGrid::create(picture, all.outline.value_or(picture), all.samples));
+        TRY(sample_grid_, SampleGrid::create(all.outline.value_or(PixelSize{width_, height_}), all.samples));
     }
     needs_ = all;
     return {};
@@ -88,13 +94,13 @@ Renderer::Picture Renderer::picture_of(const scene::FramePlan& plan) {
     return picture;
 }
 
-Renderer::Repaint Renderer::to_redraw(const Picture& picture, const RenderTarget& target,
-                                      Redraw redraw) const {
+Renderer::Repaint Renderer::to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
+                                      const RenderTarget& target, Redraw redraw) const {
     const auto age = static_cast<std::size_t>(std::max(target.buffer_age, 0));
     if (redraw == Redraw::Everything || age == 0 || age > pictures_) {
-        return {{0, 0, width_, height_}, true};
+        return {{0, 0, plan.projector.width, plan.projector.height}, true};
     }
-    const Picture& held = history_[age - 1];
+    const Picture& held = history_[age - 1][eye];
     Repaint repaint{{}, held.prop_hash != picture.prop_hash};
     if (held.hash == picture.hash) {
         return {{}, false}; // the buffer already holds this picture
@@ -108,20 +114,34 @@ Renderer::Repaint Renderer::to_redraw(const Picture& picture, const RenderTarget
     return repaint;
 }
 
-DrawResult Renderer::draw(const scene::FramePlan& plan, const RenderTarget& target, Redraw redraw) {
-    if (redraw == Redraw::Changes && target.buffer_age > 0 && pictures_ > 0 &&
-        history_[0].hash == plan.hash) {
+bool Renderer::shows(std::span<const scene::FramePlan> plans) const {
+    bool same = pictures_ > 0;
+    for (std::size_t eye = 0; eye < plans.size(); ++eye) {
+        same = same && history_[0][eye].hash == plans[eye].hash;
+    }
+    return same;
+}
+
+DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderTarget& target,
+                          Redraw redraw) {
+    assert(!plans.empty() && plans.size() <= max_eyes);
+    if (redraw == Redraw::Changes && target.buffer_age > 0 && shows(plans)) {
         return {};
     }
-    const Picture picture = picture_of(plan);
-    const Repaint repaint = to_redraw(picture, target, redraw);
-    DrawResult result{
-        .drawn = true, .redrawn = repaint.part, .lit = scene::lit_bounds(plan), .draw_calls = 0};
-    if (!result.redrawn.empty()) {
-        paint(plan, target, repaint, result);
+    DrawResult result{.drawn = true, .redrawn = {}, .lit = {}, .draw_calls = 0};
+    EyePictures pictures;
+    for (std::size_t eye = 0; eye < plans.size(); ++eye) {
+        const scene::FramePlan& plan = plans[eye];
+        pictures[eye] = picture_of(plan);
+        const Repaint repaint = to_redraw(plan, eye, pictures[eye], target, redraw);
+        result.lit = united(result.lit, in_display(scene::lit_bounds(plan), plan));
+        if (!repaint.part.empty()) {
+            result.redrawn = united(result.redrawn, in_display(repaint.part, plan));
+            paint(plan, target, repaint, result);
+        }
     }
     std::move_backward(history_.begin(), history_.end() - 1, history_.end());
-    history_[0] = picture;
+    history_[0] = pictures;
     pictures_ = std::min(pictures_ + 1, history_.size());
     return result;
 }
@@ -132,14 +152,18 @@ DrawResult Renderer::draw(const scene::FramePlan& plan, const RenderTarget& targ
 void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                      DrawResult& result) {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;
-    const Raster raster = sample_grid_ && !plan.faces.empty() && repaint.prop
-                              ? sample_grid_->raster(plan.lit.bounds(), plan.prop_bounds, samples)
-                              : Raster{};
+    const Raster raster =
+        sample_grid_ && !plan.faces.empty() && repaint.prop
+            ? sample_grid_->raster(plan.lit.picture(), plan.lit.bounds(), plan.prop_bounds, samples)
+            : Raster{};
     const bool smooth = raster.fragments != glm::ivec2(1);
     const bool meshes = repaint.prop && !smooth && FacePass::draws(plan);
+    const glm::ivec2 viewport(plan.picture.viewport.x, plan.picture.viewport.y);
+    const Raster direct{.fragments = {1, 1}, .corner = -viewport};
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
     }
+    set_channels(plan.picture.channels);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
@@ -147,22 +171,23 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    glViewport(0, 0, width_, height_);
+    set_viewport({plan.projector.width, plan.projector.height}, direct);
     glEnable(GL_SCISSOR_TEST);
-    set_scissor(result.redrawn);
+    set_scissor(repaint.part, direct);
     clear(GL_COLOR_BUFFER_BIT | (meshes ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT : 0U));
     glDisable(GL_SCISSOR_TEST);
-    result.draw_calls += table_.draw(plan, repaint.part, store_, shaders_);
+    result.draw_calls += table_.draw(plan, repaint.part, store_, shaders_, direct);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-        sample_grid_->average(plan.lit, raster, shaders_);
+        sample_grid_->average(plan.lit, raster, viewport, shaders_);
         glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     } else if (meshes) {
-        result.draw_calls += faces_.draw(plan, store_, shaders_);
+        result.draw_calls += faces_.draw(plan, store_, shaders_, direct);
     }
     if (repaint.prop) {
         result.draw_calls += raster_pass_.show(plan, shaders_);
     }
+    set_channels(glm::bvec3(true));
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }
 

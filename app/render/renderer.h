@@ -19,6 +19,7 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <span>
 
 namespace frustumscreen::render {
 
@@ -65,9 +66,15 @@ public:
     [[nodiscard]] GpuStore& store() { return store_; }
     [[nodiscard]] const GpuStore& store() const { return store_; }
 
-    /// Each drawn picture must be presented before the next call: the target's age counts presents.
-    DrawResult draw(const scene::FramePlan& plan, const RenderTarget& target,
+    /// Draws one plan for each eye, each in its part of the picture (scene/stereo.h); from call to call the same number
+    /// of plans in the same parts. Each drawn picture must be presented before the next call: the target's age counts
+    /// presents.
+    DrawResult draw(std::span<const scene::FramePlan> plans, const RenderTarget& target,
                     Redraw redraw = Redraw::Changes);
+    DrawResult draw(const scene::FramePlan& plan, const RenderTarget& target,
+                    Redraw redraw = Redraw::Changes) {
+        return draw(std::span(&plan, 1), target, redraw);
+    }
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -94,14 +101,18 @@ private:
         void add_changes(const Picture& other, PixelRectangle& changes) const;
     };
     struct Repaint {
-        PixelRectangle part;
-        bool prop = true; ///< false: the part does not touch the prop
+        PixelRectangle part; ///< of the eye's picture
+        bool prop = true;    ///< false: the part does not touch the prop
     };
+    static constexpr std::size_t max_eyes = 2;
+    using EyePictures = std::array<Picture, max_eyes>;
     [[nodiscard]] static Picture picture_of(const scene::FramePlan& plan);
     Renderer(int width, int height) : width_(width), height_(height) {}
     void paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                DrawResult& result);
-    [[nodiscard]] Repaint to_redraw(const Picture& picture, const RenderTarget& target, Redraw redraw) const;
+    [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
+                                    const RenderTarget& target, Redraw redraw) const;
+    [[nodiscard]] bool shows(std::span<const scene::FramePlan> plans) const;
 
     int width_, height_;
     /// Room for the largest number of samples; a plan may ask for fewer, and for more in a smaller part.
@@ -112,7 +123,7 @@ private:
     FacePass faces_;
     TablePass table_;
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample a pixel
-    std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
+    std::array<EyePictures, 4> history_{};  ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_
 };
 

@@ -8,6 +8,14 @@
 
 namespace frustumscreen::render {
 
+namespace {
+
+glm::ivec2 size_of(const scene::LitTiles& tiles) {
+    return {tiles.picture().width, tiles.picture().height};
+}
+
+} // namespace
+
 glm::ivec2 SampleGrid::of(int samples) {
     switch (samples) {
     case 1:
@@ -25,15 +33,14 @@ glm::ivec2 SampleGrid::of(int samples) {
     }
 }
 
-Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize& part, int max_samples) {
+Result<SampleGrid> SampleGrid::create(const PixelSize& part, int max_samples) {
     const glm::ivec2 grid = of(max_samples);
     if (grid.x == 0) {
         return fail(ErrorKind::BadConfiguration, "render.samples",
                     "render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", max_samples);
     }
     SampleGrid made;
-    made.picture_ = {picture.width, picture.height};
-    made.room_ = grid * glm::ivec2(part.width, part.height);
+    made.size_ = grid * glm::ivec2(part.width, part.height);
     TRY_VOID(made.make_target());
     made.no_attributes_ = gl::GlVertexArray::generate();
     return made;
@@ -43,30 +50,30 @@ Result<void> SampleGrid::make_target() {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largest_viewport_.x);
-    if (std::max(room_.x, room_.y) > most) {
+    if (std::max(size_.x, size_.y) > most) {
         return fail(ErrorKind::BadConfiguration, "render.samples_too_wide",
                     "render: {} x {} samples; this driver draws up to {} on each side: "
                     "use fewer samples",
-                    room_.x, room_.y, most);
+                    size_.x, size_.y, most);
     }
     framebuffer_ = gl::GlFramebuffer::generate();
     colour_ = gl::GlTexture::generate();
     depth_stencil_ = gl::GlRenderbuffer::generate();
     glBindTexture(GL_TEXTURE_2D, colour_.get());
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, room_.x, room_.y);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, size_.x, size_.y);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindRenderbuffer(GL_RENDERBUFFER, depth_stencil_.get());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, room_.x, room_.y);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size_.x, size_.y);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.get(), 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               depth_stencil_.get());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::BadConfiguration, "render.no_room_for_samples",
-                    "render: the driver cannot hold {} x {} samples; use 1 sample a pixel", room_.x, room_.y);
+        return fail(ErrorKind::BadConfiguration, "render.no_size_for_samples",
+                    "render: the driver cannot hold {} x {} samples; use 1 sample a pixel", size_.x, size_.y);
     }
     // Averaging also reads some samples next to the tiles that a frame clears, so all are written once here.
     glDisable(GL_SCISSOR_TEST);
@@ -82,14 +89,16 @@ std::uint64_t SampleGrid::bytes() const {
 
 void SampleGrid::draw_tiles(const scene::LitTiles& tiles, const Shader& shader) const {
     glBindVertexArray(no_attributes_.get());
-    shader.draw_rectangles(picture_, tiles.rectangles());
+    shader.draw_rectangles(size_of(tiles), tiles.rectangles());
     glBindVertexArray(0);
 }
 
-Raster SampleGrid::raster(const PixelRectangle& lit, const PixelRectangle& around, int samples) const {
+Raster SampleGrid::raster(const PixelSize& picture, const PixelRectangle& lit, const PixelRectangle& around,
+                          int samples) const {
     const auto fits = [&](const PixelRectangle& part, const glm::ivec2& grid) {
-        return glm::all(glm::lessThanEqual(glm::ivec2(part.width, part.height) * grid, room_)) &&
-               glm::all(glm::lessThanEqual(picture_ * grid, largest_viewport_));
+        return glm::all(glm::lessThanEqual(glm::ivec2(part.width, part.height) * grid, size_)) &&
+               glm::all(
+                   glm::lessThanEqual(glm::ivec2(picture.width, picture.height) * grid, largest_viewport_));
     };
     const bool inside = intersected(lit, around) == lit;
     for (; samples > 1; samples /= 2) {
@@ -108,7 +117,7 @@ Raster SampleGrid::raster(const PixelRectangle& lit, const PixelRectangle& aroun
 
 void SampleGrid::begin(const scene::LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-    set_viewport(picture_, raster);
+    set_viewport(size_of(tiles), raster);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -128,7 +137,7 @@ void SampleGrid::begin(const scene::LitTiles& tiles, const Raster& raster, const
     glDisable(GL_DEPTH_TEST);
 }
 
-void SampleGrid::average(const scene::LitTiles& tiles, const Raster& raster,
+void SampleGrid::average(const scene::LitTiles& tiles, const Raster& raster, const glm::ivec2& viewport,
                          const ShaderCache& shaders) const {
     const bool many = raster.fragments.x * raster.fragments.y > 4;
     const Shader* const average =
@@ -137,8 +146,9 @@ void SampleGrid::average(const scene::LitTiles& tiles, const Raster& raster,
         return;
     }
     average->use();
-    glUniform4i(average->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, raster.corner.x,
-                raster.corner.y);
+    const glm::ivec2 corner = raster.corner + viewport;
+    glUniform4i(average->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x,
+                corner.y);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, colour_.get());
     draw_tiles(tiles, *average);

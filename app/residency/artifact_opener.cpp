@@ -5,6 +5,7 @@
 #include "app/pack/pack_hull.h"
 #include "app/pack/prop_note.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/stereo.h"
 #include "app/settings/whole_zone.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -178,9 +179,9 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
 scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int samples, bool reliefs_on_gpu) {
     scene::RenderNeeds needs;
     needs.samples = samples;
-    needs.outline =
-        scene::largest_outline(settings, settings.projector.pinhole, scene::visibility_of(settings));
-    needs.bent_by = scene::if_it_bends(settings.projector.pinhole);
+    const geometry::Pinhole pinhole = scene::stereo_layout(settings).pinhole;
+    needs.outline = scene::largest_outline(settings, pinhole, scene::visibility_of(settings));
+    needs.bent_by = scene::if_it_bends(pinhole);
     for (const bool dithered : {false, true}) {
         scene::ShaderKey key;
         key.dithered = dithered;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -36,6 +37,11 @@ constexpr std::array relief_names{
     ReliefName{96, "relief96", "relief96-gpu"},       ReliefName{192, "relief192", "relief192-gpu"},
     ReliefName{384, "relief384", "relief384-gpu"},    ReliefName{768, "relief768", "relief768-gpu"},
     ReliefName{1536, "relief1536", "relief1536-gpu"}, ReliefName{3072, "relief3072", "relief3072-gpu"}};
+
+/// A level without a fade.
+std::array<scene::Part, 1> whole(const scene::PlacedLevel& level) {
+    return {scene::Part{level, std::nullopt}};
+}
 
 std::string_view literal_of(const scene::QualityLevel& quality_level) {
     if (!quality_level.relief) {
@@ -125,7 +131,9 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
                                               .relief = level.data.relief,
                                               .on_gpu = level.data.on_gpu}});
     }
-    plan_ = scene::make_plan(plan.prop, indices, 2);
+    for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
+        plans_.push_back(scene::make_plan(plan.prop, indices, 2));
+    }
 }
 
 void RunLevels::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
@@ -171,8 +179,8 @@ std::uint64_t RunLevels::bytes() const {
         bytes += scene::bytes_of(*placed.triangles);
         max_indices = std::max<std::uint64_t>(max_indices, placed.triangles->indices.size());
     }
-    // The plan of a frame lists the triangles that face the eye, and those that a face shows.
-    return bytes + 2 * sizeof(std::uint32_t) * max_indices;
+    // The plan of an eye's picture lists the triangles that face the eye, and those that a face shows.
+    return bytes + plans_.size() * 2 * sizeof(std::uint32_t) * max_indices;
 }
 
 std::size_t RunLevels::slot_of(const scene::QualityLevel& quality_level) const {
@@ -183,22 +191,32 @@ std::size_t RunLevels::slot_of(const scene::QualityLevel& quality_level) const {
 }
 
 scene::FrameWork RunLevels::work(const scene::QualityLevel& quality_level) const {
-    const auto pixels = static_cast<double>(plan_.lit.pixels());
-    const auto more = [&](int samples) {
-        return pixels * samples / quality_level.samples;
-    }; // a slanting view takes more samples
-    if (quality_level.relief) {
-        const relief::BlockRelief& relief = *levels_[slot_of(quality_level)].placed.relief;
-        return {static_cast<double>(relief.blocks.size()), quality_level.on_gpu ? more(plan_.samples)
-                                                           : plan_.relief_draw_count > 0
-                                                               ? more(plan_.relief_draws[0].samples)
-                                                               : pixels};
+    scene::FrameWork work;
+    for (const scene::FramePlan& plan : plans_) {
+        const bool raster = quality_level.relief && !quality_level.on_gpu;
+        const int samples = !raster                      ? plan.samples
+                            : plan.relief_draw_count > 0 ? plan.relief_draws[0].samples
+                                                         : quality_level.samples;
+        // A slanting view takes more samples.
+        work.pixels += static_cast<double>(plan.lit.pixels()) * samples / quality_level.samples;
+        work.triangles +=
+            quality_level.relief
+                ? static_cast<double>(levels_[slot_of(quality_level)].placed.relief->blocks.size())
+                : static_cast<double>(plan.indices.size()) / 3.0;
     }
-    return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
+    return work;
+}
+
+void RunLevels::plan(const geometry::PropShape& prop, std::span<const scene::Part> parts,
+                     std::span<const scene::PlanView> views) {
+    assert(views.size() == plans_.size());
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        scene::plan_frame(prop, parts, views[eye], plans_[eye]);
+    }
 }
 
 double RunLevels::median_ms(const scene::QualityLevel& quality_level, const geometry::PropShape& prop,
-                            const scene::PlanView& view, render::Renderer& renderer,
+                            std::span<const scene::PlanView> views, render::Renderer& renderer,
                             const render::RenderTarget& target) {
     const Level& level = levels_[slot_of(quality_level)];
     scene::PlacedLevel placed = level.placed;
@@ -208,8 +226,8 @@ double RunLevels::median_ms(const scene::QualityLevel& quality_level, const geom
     double spent_ms = 0.0;
     while (drawn < 2 || (drawn < ms.size() && spent_ms < longest_measurement_ms)) {
         const auto start = std::chrono::steady_clock::now();
-        scene::plan_frame(prop, placed, view, plan_);
-        renderer.draw(plan_, target, render::Redraw::Everything);
+        plan(prop, whole(placed), views);
+        renderer.draw(plans_, target, render::Redraw::Everything);
         render::wait_until_drawn();
         ms[drawn] =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -220,11 +238,11 @@ double RunLevels::median_ms(const scene::QualityLevel& quality_level, const geom
     return quantile_in(std::span(ms).first(drawn).subspan(std::min<std::size_t>(2, drawn - 1)), 0.5);
 }
 
-void RunLevels::measure(const geometry::PropShape& prop, const scene::PlanView& view,
+void RunLevels::measure(const geometry::PropShape& prop, std::span<const scene::PlanView> views,
                         render::Renderer& renderer, const render::RenderTarget& target) {
     std::vector<scene::QualityLevelTime> times(quality_levels_.size());
     for (std::size_t k = 0; k < quality_levels_.size(); ++k) {
-        const double ms = median_ms(quality_levels_[k], prop, view, renderer, target);
+        const double ms = median_ms(quality_levels_[k], prop, views, renderer, target);
         times[k] = {.samples = quality_levels_[k].samples,
                     .work = work(quality_levels_[k]),
                     .ms = ms,
@@ -235,7 +253,7 @@ void RunLevels::measure(const geometry::PropShape& prop, const scene::PlanView& 
     // whose frames are slow are not measured again, to keep the start short.
     for (std::size_t k = quality_levels_.size(); k-- > 0;) {
         if (2.0 * times[k].ms < longest_measurement_ms) {
-            times[k].ms = std::min(times[k].ms, median_ms(quality_levels_[k], prop, view, renderer, target));
+            times[k].ms = std::min(times[k].ms, median_ms(quality_levels_[k], prop, views, renderer, target));
         }
     }
     // The driver compiles its own programs at the first draw with a shader. Draw with each now, rather than
@@ -246,15 +264,15 @@ void RunLevels::measure(const geometry::PropShape& prop, const scene::PlanView& 
             return one.shows.relief == (is_raster || key.blocks) && one.shows.on_gpu == key.blocks;
         });
         if ((is_raster || key.pass == scene::ShaderKey::Pass::Surface) && !key.places &&
-            (is_raster || key.even_light == view.light.has_value()) && level != levels_.end()) {
+            (is_raster || key.even_light == views[0].light.has_value()) && level != levels_.end()) {
             scene::PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {
-                scene::plan_frame(prop, scene::fade(placed, placed, 0.5), view, plan_);
+                plan(prop, scene::fade(placed, placed, 0.5), views);
             } else {
-                scene::plan_frame(prop, placed, view, plan_);
+                plan(prop, whole(placed), views);
             }
-            renderer.draw(plan_, target, render::Redraw::Everything);
+            renderer.draw(plans_, target, render::Redraw::Everything);
         }
     }
     render::wait_until_drawn();
@@ -267,7 +285,7 @@ void RunLevels::start(const scene::FrameCost& cost, const geometry::PropShape& p
     for (const scene::QualityLevel& quality_level : quality_levels_) {
         scene::PlacedLevel placed = levels_[slot_of(quality_level)].placed;
         placed.samples = quality_level.samples;
-        scene::plan_frame(prop, placed, view, plan_);
+        plan(prop, whole(placed), std::vector(plans_.size(), view));
         times.push_back({.samples = quality_level.samples,
                          .work = work(quality_level),
                          .ms = 0.0,
@@ -297,19 +315,23 @@ scene::PlacedLevel RunLevels::placed(std::size_t slot) const {
 }
 
 std::optional<scene::ErrorEstimate> RunLevels::estimate(const geometry::PropShape& prop,
-                                                        const scene::PlanView& view) const {
-    const auto of = [&](std::size_t slot) {
-        return scene::estimate_error(levels_[slot].seen, prop, levels_[slot].placed, view, plan_);
+                                                        std::span<const scene::PlanView> views) const {
+    std::optional<scene::ErrorEstimate> worst;
+    const auto add = [&](std::size_t slot, std::size_t eye) {
+        worst = scene::larger(worst, scene::estimate_error(levels_[slot].seen, prop, levels_[slot].placed,
+                                                           views[eye], plans_[eye]));
     };
-    const std::optional<scene::ErrorEstimate> shown = of(shown_);
-    const std::optional<scene::ErrorEstimate> coming = coming_ ? of(*coming_) : shown;
-    return shown ? std::optional(scene::ErrorEstimate{std::fmax(shown->mean_mm, coming->mean_mm),
-                                                      std::fmax(shown->p95_mm, coming->p95_mm)})
-                 : std::nullopt;
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        add(shown_, eye);
+        if (coming_) {
+            add(*coming_, eye);
+        }
+    }
+    return worst;
 }
 
 render::DrawResult RunLevels::draw(MonotonicTime now, const geometry::PropShape& prop,
-                                   const scene::PlanView& view, render::Renderer& renderer,
+                                   std::span<const scene::PlanView> views, render::Renderer& renderer,
                                    const render::RenderTarget& target, render::Redraw redraw) {
     const double share = coming_ ? geometry::ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
     if (share >= 1.0) {
@@ -317,13 +339,13 @@ render::DrawResult RunLevels::draw(MonotonicTime now, const geometry::PropShape&
         coming_.reset();
     }
     if (coming_) {
-        scene::plan_frame(prop, scene::fade(placed(shown_), placed(*coming_), share), view, plan_);
+        plan(prop, scene::fade(placed(shown_), placed(*coming_), share), views);
     } else {
-        scene::plan_frame(prop, placed(shown_), view, plan_);
+        plan(prop, whole(placed(shown_)), views);
     }
-    const render::DrawResult result = renderer.draw(plan_, target, redraw);
+    const render::DrawResult result = renderer.draw(plans_, target, redraw);
     if (result.drawn) { // otherwise the earlier picture and its error stay
-        error_ = estimate(prop, view);
+        error_ = estimate(prop, views);
     }
     return result;
 }

@@ -105,12 +105,12 @@ public:
     /// Draws every quality level two to seven times for the view, fewer if a frame takes long; if frames are
     /// quick, repeats this, and starts the governor with the smaller of the two medians. Afterwards `target`
     /// holds an arbitrary picture, which must not be presented.
-    void measure(const geometry::PropShape& prop, const scene::PlanView& view, render::Renderer& renderer,
-                 const render::RenderTarget& target);
+    void measure(const geometry::PropShape& prop, std::span<const scene::PlanView> views,
+                 render::Renderer& renderer, const render::RenderTarget& target);
 
     /// Starts the governor with measured times: one for each quality level, best first.
     void start(const std::vector<scene::QualityLevelTime>& times);
-    /// Starts the governor with predicted times for the view. Needs no context.
+    /// Starts the governor with predicted times for the view, for each eye. Needs no context.
     void start(const scene::FrameCost& cost, const geometry::PropShape& prop, const scene::PlanView& view);
     /// The times at the start; empty before.
     [[nodiscard]] const std::vector<scene::QualityLevelTime>& times() const { return times_; }
@@ -122,8 +122,9 @@ public:
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
+    /// `views`: one for each eye of the scene plan.
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const geometry::PropShape& prop,
-                                          const scene::PlanView& view, render::Renderer& renderer,
+                                          std::span<const scene::PlanView> views, render::Renderer& renderer,
                                           const render::RenderTarget& target, render::Redraw redraw);
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
@@ -138,14 +139,16 @@ private:
     };
     /// The level with the samples that the governor chose.
     [[nodiscard]] scene::PlacedLevel placed(std::size_t slot) const;
-    /// Error of the planned frame.
+    void plan(const geometry::PropShape& prop, std::span<const scene::Part> parts,
+              std::span<const scene::PlanView> views);
+    /// Error of the planned frame: the larger of the eyes'.
     [[nodiscard]] std::optional<scene::ErrorEstimate> estimate(const geometry::PropShape& prop,
-                                                               const scene::PlanView& view) const;
+                                                               std::span<const scene::PlanView> views) const;
     [[nodiscard]] std::size_t slot_of(const scene::QualityLevel& quality_level) const;
     /// The planned frame's work, at this quality level.
     [[nodiscard]] scene::FrameWork work(const scene::QualityLevel& quality_level) const;
     [[nodiscard]] double median_ms(const scene::QualityLevel& quality_level, const geometry::PropShape& prop,
-                                   const scene::PlanView& view, render::Renderer& renderer,
+                                   std::span<const scene::PlanView> views, render::Renderer& renderer,
                                    const render::RenderTarget& target);
 
     std::string technique_;
@@ -157,8 +160,8 @@ private:
     std::vector<scene::QualityLevelTime> times_;
     double deadline_ms_;
     scene::Governor governor_;
-    scene::FramePlan plan_;
-    std::size_t shown_ = 0; ///< index into `levels_`
+    std::vector<scene::FramePlan> plans_; ///< one for each eye
+    std::size_t shown_ = 0;               ///< index into `levels_`
     std::optional<std::size_t> coming_;
     std::optional<scene::ErrorEstimate> error_;
     MonotonicTime fade_start_;

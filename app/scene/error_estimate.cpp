@@ -147,4 +147,12 @@ std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const geometr
     return ErrorEstimate{sum.mean_mm / weights, sum.p95_mm / weights};
 }
 
+std::optional<ErrorEstimate> larger(const std::optional<ErrorEstimate>& a,
+                                    const std::optional<ErrorEstimate>& b) {
+    if (!a || !b) {
+        return a ? a : b;
+    }
+    return ErrorEstimate{std::fmax(a->mean_mm, b->mean_mm), std::fmax(a->p95_mm, b->p95_mm)};
+}
+
 } // namespace frustumscreen::scene

@@ -78,4 +78,8 @@ struct SeenByEyes {
                                                           const PlacedLevel& level, const PlanView& view,
                                                           const FramePlan& plan);
 
+/// The larger of the two in each figure; nothing if neither shows anything.
+[[nodiscard]] std::optional<ErrorEstimate> larger(const std::optional<ErrorEstimate>& a,
+                                                  const std::optional<ErrorEstimate>& b);
+
 } // namespace frustumscreen::scene

@@ -8,6 +8,7 @@
 #include "app/scene/prop_outline.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace frustumscreen::scene {
 
@@ -282,19 +283,34 @@ void plan_table(const Shared& shared, FramePlan& plan) {
     }
 }
 
+/// The least of the references for each eye: with different ones the eyes would see different brightness.
+double dimmed_light(const Shared& shared, const LightCompensation& compensation) {
+    const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
+    std::array<SeenFace, geometry::max_faces> seen{};
+    const auto reference_for = [&](const auto& eye_of_face) {
+        for (std::size_t face = 0; face < faces; ++face) {
+            seen[face] = {&shared.prop.faces[face], eye_of_face(face)};
+        }
+        return reference_light(std::span(seen).first(faces), shared.projector_in_prop, compensation);
+    };
+    if (shared.view.dimming_eyes_m.empty()) {
+        return reference_for([&](std::size_t face) { return shared.eye(face); });
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& eye_m : shared.view.dimming_eyes_m) {
+        const glm::dvec3 eye = shared.prop_from_table.point(eye_m);
+        least = std::min(least, reference_for([&](std::size_t /*face*/) { return eye; }));
+    }
+    return least;
+}
+
 /// All of the prop's faces count: the first triangle that comes to show on a face must not make the brightness of
 /// the others jump.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
     if (plan.faces.empty()) {
         return; // the eye or the lens may be inside the prop
     }
-    const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
-    std::array<SeenFace, geometry::max_faces> seen{};
-    for (std::size_t face = 0; face < faces; ++face) {
-        seen[face] = {&shared.prop.faces[face], shared.eye(face)};
-    }
-    const double reference =
-        reference_light(std::span(seen).first(faces), shared.projector_in_prop, compensation);
+    const double reference = dimmed_light(shared, compensation);
     for (FacePlan& face : plan.faces) {
         face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)],
                                 shared.projector_from_prop, reference);
@@ -359,6 +375,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
                 FramePlan& plan) {
     const Shared shared = shared_by_all(prop, parts, view);
     plan.projector = view.projector;
+    plan.picture = view.picture;
     plan.faces.clear();
     plan.draws.clear();
     plan.feathers.clear();

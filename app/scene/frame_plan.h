@@ -80,9 +80,19 @@ struct TablePicture {
     bool on_prop = false; ///< drawn on the prop too; otherwise the prop covers it
 };
 
-/// The poses of projector and prop, the eyes, and the light of one frame.
+/// The part of the display's picture that holds one eye's picture.
+struct EyePicture {
+    /// In the display's picture, of the size of the eye's pinhole; empty: the whole picture.
+    PixelRectangle viewport{};
+    /// Red, green and blue that this eye sees.
+    glm::bvec3 channels{true};
+
+    [[nodiscard]] bool operator==(const EyePicture&) const = default;
+};
+
+/// The poses of projector and prop, the eye, and the light of one eye's picture of a frame.
 struct PlanView {
-    geometry::Pinhole projector;
+    geometry::Pinhole projector; ///< in the pixels of the eye's picture
     geometry::RigidTransform table_from_projector;
     geometry::RigidTransform table_from_prop;
     /// Table frame. One eye for all faces, or one per face.
@@ -94,6 +104,9 @@ struct PlanView {
     double brightness = 1.0;
     std::optional<TablePicture> caption = std::nullopt;
     std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most max_on_table
+    EyePicture picture = {};
+    /// Table frame. The eyes that decide together how far the artifact dims; empty: `eyes_m`.
+    std::span<const glm::dvec3> dimming_eyes_m = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
 /// signs and words, a notice and its ring.
@@ -148,6 +161,7 @@ struct Draw {
 
 struct FramePlan {
     geometry::Pinhole projector;
+    EyePicture picture;
     /// Samples a pixel of the GPU's draws in the prop, 1 without any; 0 = as many as the renderer takes.
     /// Where a face is seen or lit so slantingly that few pixels show much of the artifact, each pixel takes
     /// more samples than the level asked for, so that each place of the artifact keeps its samples.

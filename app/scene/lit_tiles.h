@@ -32,6 +32,8 @@ public:
     }
     /// The number of pixels in the rectangles.
     [[nodiscard]] std::int64_t pixels() const;
+    /// Size of the picture.
+    [[nodiscard]] PixelSize picture() const { return {width_, height_}; }
     /// The rectangle around everything lit.
     [[nodiscard]] PixelRectangle bounds() const { return bounds_; }
 

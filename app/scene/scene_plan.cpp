@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/stereo.h"
 #include "app/settings/guided.h"
 
 #include <fmt/format.h>
@@ -373,7 +374,9 @@ Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::Pac
     ScenePlan plan;
     plan.seen = std::move(seen.levels);
     plan.cull_kinds = request.cull_kinds;
-    plan.projector = settings.projector.pinhole;
+    const StereoLayout layout = stereo_layout(settings);
+    plan.projector = layout.pinhole;
+    plan.eyes = layout.count;
     plan.table_from_projector = settings.projector.table_from_projector;
     plan.prop = settings::make_prop(settings.prop);
     plan.metres_per_box = pack::place(pack.description, plan.prop).metres_per_box;

@@ -95,7 +95,8 @@ struct ScenePlan {
     unsigned cull_kinds = AllCullKinds;
     std::vector<LeftOut> left_out;
     // Inputs for the rest of the plan: scene_level.h.
-    geometry::Pinhole projector;
+    geometry::Pinhole projector; ///< in the pixels of one eye's picture
+    std::size_t eyes = 1;        ///< pictures in each frame: scene/stereo.h
     geometry::RigidTransform table_from_projector;
     geometry::PropShape prop;
     double metres_per_box = 0.0;

@@ -45,7 +45,7 @@ double PointZone::reach(const glm::dvec3& direction) const {
     for (const glm::dvec2& ring : rings) {
         most = std::fmax(most, outward * ring.x + direction.z * ring.y);
     }
-    return most;
+    return most + margin_m * glm::length(direction);
 }
 
 double PointZone::farthest() const {
@@ -56,7 +56,7 @@ double PointZone::farthest() const {
     for (const glm::dvec2& ring : rings) {
         most = std::fmax(most, glm::length(ring));
     }
-    return most;
+    return most + margin_m;
 }
 
 Visibility visibility_of(const settings::Settings& settings, std::vector<KnownView> views) {
@@ -82,7 +82,8 @@ Visibility visibility_of(const settings::Settings& settings) {
     if (!fixed_prop && !upright) { // it may be lifted and tilted
         return {};
     }
-    if (fixed_prop && !eye.tracked) {
+    const bool stereo = settings::stereo_of(settings) != settings::Stereo::Off;
+    if (fixed_prop && !eye.tracked && !stereo) {
         return visibility_of(settings, {KnownView{{}, eye.default_m}});
     }
     Visibility visibility;
@@ -93,6 +94,7 @@ Visibility visibility_of(const settings::Settings& settings) {
             shell(eye.nearest_m, eye.farthest_m, glm::radians(eye.lowest_elevation_deg));
         visibility.eyes.rings.insert(visibility.eyes.rings.end(), zone.begin(), zone.end());
     }
+    visibility.eyes.margin_m = stereo ? 0.5e-3 * eye.interocular_mm : 0.0;
     visibility.lens = fixed_prop ? PointZone{false, {lens}, {}} : seen_from_the_table(settings.table, lens);
     return visibility;
 }

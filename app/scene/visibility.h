@@ -27,6 +27,7 @@ struct PointZone {
     bool anywhere = true;
     std::vector<glm::dvec3> points;
     std::vector<glm::dvec2> rings; ///< distance from the prop's axis, height; at every azimuth
+    double margin_m = 0.0; ///< in every direction around points and rings: stereo's eyes beside the middle
 
     /// The largest dot(direction, point); infinite if anywhere.
     [[nodiscard]] double reach(const glm::dvec3& direction) const;

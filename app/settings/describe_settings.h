@@ -46,6 +46,9 @@ inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 
 /// Each list is in the order of its enumeration.
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
+inline constexpr std::array<std::string_view, 5> stereo_names{"off", "side_by_side", "top_bottom",
+                                                              "frame_sequential", "anaglyph"};
+inline constexpr std::string_view as_eye = "as_eye"; ///< a projector without a layout of its own
 inline constexpr std::array<std::string_view, 3> prop_names{"frustum", "cube", "solid"};
 inline constexpr std::array<std::string_view, 2> unit_names{"mm", "m"};
 inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
@@ -122,6 +125,14 @@ void projector_settings(auto& fields, auto& projector) {
     lens_settings(fields, projector.pinhole);
     projector_pose_settings(fields, projector.table_from_projector);
     fields.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
+    fields.parsed(
+        "stereo", projector.stereo, text_of_output, parse_output_stereo,
+        "\"as_eye\", \"off\", \"side_by_side\", \"top_bottom\", \"frame_sequential\" and \"anaglyph\"",
+        "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
+    fields.number(
+        "aperture_mm", projector.aperture_mm, {0.1, 200.0, "millimetres"},
+        "diameter of the lens's opening (focal length divided by the f-number): how fast the picture "
+        "blurs away from the distance in focus");
 }
 
 void display_settings(auto& fields, auto& display) {
@@ -231,6 +242,12 @@ void eye_settings(auto& fields, auto& eye) {
                   "largest distance of visitors' eyes from the prop");
     fields.flag("tracked", eye.tracked,
                 "false: a fixed viewer at default_m, even if a tracker reports a head");
+    fields.choice(
+        "stereo", eye.stereo, stereo_names,
+        "a picture for each eye, with glasses that suit the projector, and how it receives the two; "
+        "\"off\": one picture, without glasses");
+    fields.number("interocular_mm", eye.interocular_mm, {0.0, 200.0, "millimetres"},
+                  "stereo: distance between the pupils; 63 suits most adults, 55 children");
 }
 
 void registration_settings(auto& fields, auto& registration) {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -92,6 +93,24 @@ void use_newest_calibration(Settings& settings, const ReadState& state) {
 }
 
 } // namespace
+
+std::string_view name_of(Stereo stereo) {
+    return stereo_names[static_cast<std::size_t>(stereo)];
+}
+
+std::string text_of_output(const std::optional<Stereo>& stereo) {
+    return std::string(stereo ? name_of(*stereo) : as_eye);
+}
+
+std::optional<std::optional<Stereo>> parse_output_stereo(std::string_view text) {
+    if (text == as_eye) {
+        return std::optional<Stereo>();
+    }
+    const auto found = std::find(stereo_names.begin(), stereo_names.end(), text);
+    return found != stereo_names.end()
+               ? std::optional(std::optional(static_cast<Stereo>(found - stereo_names.begin())))
+               : std::nullopt;
+}
 
 std::string_view name_of(DisplayKind kind) {
     return display_names[static_cast<std::size_t>(kind)];

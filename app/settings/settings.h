@@ -32,12 +32,22 @@
 
 namespace frustumscreen::settings {
 
+/// Layout of the pictures for the two eyes in the projector's picture. Off: one picture, for the point between the eyes.
+enum class Stereo { Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
+[[nodiscard]] std::string_view name_of(Stereo stereo);
+/// "as_eye" for no value.
+[[nodiscard]] std::string text_of_output(const std::optional<Stereo>& stereo);
+/// Returns nothing for any other text.
+[[nodiscard]] std::optional<std::optional<Stereo>> parse_output_stereo(std::string_view text);
+
 struct ProjectorSettings {
     geometry::Pinhole pinhole{
         .width = 1920, .height = 1200, .fx = 3600.0, .fy = 3600.0, .cx = 960.0, .cy = 600.0}; ///< pixels
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
     geometry::RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
     double refresh_hz = 60.0;
+    std::optional<Stereo> stereo{}; ///< for this output, in place of EyeSettings::stereo
+    double aperture_mm = 10.0; ///< diameter of the lens's opening: sets how fast focus is lost with depth
 };
 
 /// Kms: a projector on this machine's graphics card. Surfaceless: no screen.
@@ -92,6 +102,8 @@ struct EyeSettings {
     double nearest_m = 0.35;
     double farthest_m = 2.0;
     bool tracked = true;
+    Stereo stereo = Stereo::Off;
+    double interocular_mm = 63.0; ///< between the two pupils
 };
 
 /// Usb: a VIPER, PATRIOT, LIBERTY or HID tracker, whichever is connected. SpaceMouse: a substitute for a tracker.
@@ -242,6 +254,11 @@ struct Settings {
     SoundSettings sound;
     HoursSettings hours;
 };
+
+/// The layout of the projector's picture.
+[[nodiscard]] inline Stereo stereo_of(const Settings& settings) {
+    return settings.projector.stereo.value_or(settings.eye.stereo);
+}
 
 /// A prop in the hand has no zone on the table, and a prop that is not tracked never leaves its zone.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {

@@ -27,8 +27,8 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Setti
                                                            const scene::DevicePlan& devices,
                                                            const ArtifactShowOptions& options,
                                                            const render::RenderTarget& target) {
-    const geometry::Pinhole& pinhole = settings.projector.pinhole;
-    TRY(render::Renderer renderer, render::Renderer::create(pinhole.width, pinhole.height));
+    const PixelSize picture = scene::stereo_layout(settings).display;
+    TRY(render::Renderer renderer, render::Renderer::create(picture.width, picture.height));
     std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(renderer)));
     show->set_options_ = {.technique = options.technique,
                           .samples = options.samples,
@@ -112,28 +112,30 @@ void ArtifactShow::note_language(const settings::Settings& settings) {
 /// first one, triangle for triangle and sample for sample.
 void ArtifactShow::measure(const settings::Settings& settings, const render::RenderTarget& target,
                            bool other_sets) {
-    scene::PlanView view{.projector = projector_,
+    scene::PlanView view{.projector = layout_.pinhole,
                          .table_from_projector = table_from_projector_,
                          .table_from_prop = {},
-                         .eyes_m = std::span(&settings.eye.default_m, 1)};
+                         .eyes_m = {}};
+    const std::vector eyes_m(layout_.count, settings.eye.default_m);
     residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
     residency::RunLevels& first = *artifact_cache.find(0);
     const scene::ScenePlan& plan = artifact_cache.known(0).plan;
     view.light = plan.light;
     view.brightness = artifact_cache.exposure(0);
     if (plan.quality_levels.size() > 1 || artifact_cache.size() > 1 || other_sets) {
-        first.measure(prop_, view, renderer_, target);
+        const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
+        first.measure(prop_, std::span(views).first(layout_.count), renderer_, target);
     }
-    warm_up(view, target);
+    warm_up(view, eyes_m, target);
     expected_ = {
         .cost = scene::cost_of(first.times()), .prop = prop_, .view = view, .eye_m = settings.eye.default_m};
-    expected_.view.eyes_m = {};
     artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
 /// Draws a whole picture and one that redraws only what moved, each with one of every picture on the table: drivers
 /// compile on first use, and this should happen before the first frame.
-void ArtifactShow::warm_up(scene::PlanView view, const render::RenderTarget& target) {
+void ArtifactShow::warm_up(scene::PlanView view, std::span<const glm::dvec3> eyes_m,
+                           const render::RenderTarget& target) {
     if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue().front().caption_sizes_m;
         !sizes.empty()) {
         for (std::size_t language = 0; language < sizes.size() && !view.caption; ++language) {
@@ -163,7 +165,9 @@ void ArtifactShow::warm_up(scene::PlanView view, const render::RenderTarget& tar
     view.on_table = on_table_.pictures();
     render::RenderTarget drawn = target;
     for (const render::Redraw redraw : {render::Redraw::Everything, render::Redraw::Changes}) {
-        static_cast<void>(set_->artifact_cache->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
+        const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
+        static_cast<void>(set_->artifact_cache->find(0)->draw(
+            {}, prop_, std::span(views).first(layout_.count), renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
@@ -171,10 +175,12 @@ void ArtifactShow::warm_up(scene::PlanView view, const render::RenderTarget& tar
 }
 
 ArtifactShow::ArtifactShow(const settings::Settings& settings, render::Renderer renderer)
-    : projector_(settings.projector.pinhole), table_from_projector_(settings.projector.table_from_projector),
+    : projector_(settings.projector.pinhole), layout_(scene::stereo_layout(settings)),
+      table_from_projector_(settings.projector.table_from_projector),
       prop_(settings::make_prop(settings.prop)), caption_brightness_(settings.exhibit.caption_brightness),
       renderer_(std::move(renderer)), names_{settings.exhibit.language}, attract_place_m_(0.0),
-      picture_m_(settings::picture_on_table(settings, 0.0)), dark_(scene::make_plan(prop_, 0, 1)) {
+      picture_m_(settings::picture_on_table(settings, 0.0)),
+      dark_(layout_.count, scene::make_plan(prop_, 0, 1)) {
     const settings::Rectangle zone = settings::lit_rectangle(settings);
     attract_place_m_ = zone.centre_m;
     if (settings::shows_zone_frame(settings)) {
@@ -303,17 +309,17 @@ ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
 }
 
 render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
-                                      const glm::dvec3& eye_m, const render::RenderTarget& target,
+                                      std::span<const glm::dvec3> eyes_m, const render::RenderTarget& target,
                                       render::Redraw redraw) {
     residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
     artifact_cache.step(renderer_.store(), {.shown = presentation.artifact,
                                             .shown_language = presentation.table_language,
                                             .wanted = presentation.wanted.artifacts(),
                                             .language = presentation.wanted_language});
-    scene::PlanView view{.projector = projector_,
+    scene::PlanView view{.projector = layout_.pinhole,
                          .table_from_projector = table_from_projector_,
                          .table_from_prop = presentation.table_from_prop,
-                         .eyes_m = std::span(&eye_m, 1)};
+                         .eyes_m = {}};
     view.light = artifact_cache.known(presentation.artifact).plan.light;
     view.brightness = artifact_cache.exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
@@ -332,17 +338,20 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
                   renderer_.store(), on_table_);
     marks_.place(mark_, on_table_);
     view.on_table = on_table_.pictures();
+    const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
     residency::RunLevels* const levels = artifact_cache.find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
-        scene::plan_frame(prop_, scene::PlacedLevel{}, view, dark_);
+        for (std::size_t eye = 0; eye < layout_.count; ++eye) {
+            scene::plan_frame(prop_, scene::PlacedLevel{}, views[eye], dark_[eye]);
+        }
         return renderer_.draw(dark_, target, redraw);
     }
     if (on_ != presentation.artifact) {
         levels->enter(now, load_);
         on_ = presentation.artifact;
     }
-    return levels->draw(now, prop_, view, renderer_, target, redraw);
+    return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw);
 }
 
 ShowUse ArtifactShow::use() const {
@@ -350,7 +359,7 @@ ShowUse ArtifactShow::use() const {
     use.planned_shaders = scene::shaders_of(needs_);
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
-    use.planned_gpu_bytes = scene::gpu_bytes(needs_, projector_.width, projector_.height);
+    use.planned_gpu_bytes = scene::gpu_bytes(needs_, layout_.display.width, layout_.display.height);
     use.text_gpu_bytes = set_->artifact_cache->uploaded_text_bytes();
     use.planned_gpu_bytes += planned_bytes_that_stay() + set_->planned_gpu_bytes() + use.text_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();

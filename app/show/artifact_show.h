@@ -15,6 +15,7 @@
 #include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/shader_key.h"
+#include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "app/show/mark_show.h"
 #include "app/show/notice_show.h"
@@ -27,6 +28,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,8 +74,8 @@ public:
     [[nodiscard]] const ShownSet& set() const { return *set_; }
     [[nodiscard]] const exhibit::ZoneFrame& zone() const { return zone_; }
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const exhibit::Presentation& presentation,
-                                          const glm::dvec3& eye_m, const render::RenderTarget& target,
-                                          render::Redraw redraw) override;
+                                          std::span<const glm::dvec3> eyes_m,
+                                          const render::RenderTarget& target, render::Redraw redraw) override;
     void set_mark(const std::optional<drift::ShownMark>& mark) override { mark_ = mark; }
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(const exhibit::Presentation& presentation) const override;
@@ -125,7 +127,8 @@ private:
     ArtifactShow(const settings::Settings& settings, render::Renderer renderer);
     void note_language(const settings::Settings& settings);
     void measure(const settings::Settings& settings, const render::RenderTarget& target, bool other_sets);
-    void warm_up(scene::PlanView view, const render::RenderTarget& target);
+    void warm_up(scene::PlanView view, std::span<const glm::dvec3> eyes_m,
+                 const render::RenderTarget& target);
     /// Uploads the pictures on the table that every set uses.
     [[nodiscard]] Result<void> upload_what_stays(const settings::Settings& settings);
     [[nodiscard]] Result<void> upload_signs(const settings::Settings& settings);
@@ -145,7 +148,8 @@ private:
     [[nodiscard]] std::optional<scene::TablePicture>
     place_caption(const exhibit::Presentation& presentation) const;
 
-    geometry::Pinhole projector_;
+    geometry::Pinhole projector_; ///< of the whole picture: texts are placed on its pixels
+    scene::StereoLayout layout_;
     geometry::RigidTransform table_from_projector_;
     geometry::PropShape prop_;
     double caption_brightness_; ///< fraction of the projector's light
@@ -169,9 +173,9 @@ private:
     std::optional<drift::ShownMark> mark_; ///< of this frame
     std::vector<glm::dvec2> picture_m_;    ///< the part of the table that the projector's picture covers
     residency::OnTable on_table_;
-    std::optional<std::size_t> on_; ///< the artifact drawn last; none: it was not ready
-    double load_ = 1.0;             ///< of the GPU (governor.h)
-    scene::FramePlan dark_;         ///< for a picture without an artifact
+    std::optional<std::size_t> on_;      ///< the artifact drawn last; none: it was not ready
+    double load_ = 1.0;                  ///< of the GPU (governor.h)
+    std::vector<scene::FramePlan> dark_; ///< for a picture without an artifact; one for each eye
 };
 
 /// The exhibit for these artifacts on the settings' table.

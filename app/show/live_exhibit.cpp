@@ -192,12 +192,20 @@ render::DrawResult LiveExhibit::draw(MonotonicTime now, const tracking::TrackedS
         staff_->show(now, presentation_.staff_view, prop_signal_, head_signal_);
     }
     const render::DrawResult drawn =
-        staff_ ? staff_->draw(now, on_table, own, redraw)
-               : presentation_show_->draw(now, presentation_, on_table.eye_m, own, redraw);
+        staff_ ? staff_->draw(now, on_table, own, redraw) : draw_presentation(now, on_table, own, redraw);
     if (presents_ && drawn.drawn) {
         ++*presents_;
     }
     return drawn;
+}
+
+render::DrawResult LiveExhibit::draw_presentation(MonotonicTime now, const tracking::TrackedState& on_table,
+                                                  const render::RenderTarget& target, render::Redraw redraw) {
+    if (settings::stereo_of(settings_) == settings::Stereo::Off) {
+        return presentation_show_->draw(now, presentation_, std::span(&on_table.eye_m, 1), target, redraw);
+    }
+    const std::array<glm::dvec3, 2> eyes_m = tracking::eyes_of(on_table, 1e-3 * settings_.eye.interocular_mm);
+    return presentation_show_->draw(now, presentation_, eyes_m, target, redraw);
 }
 
 void LiveExhibit::record_time(MonotonicTime now, double ms) {

@@ -61,6 +61,10 @@ private:
     left_by_notice(MonotonicTime now, std::span<const settings::Command> commands);
     void follow_staff_mode();
     void follow_copy(MonotonicTime now);
+    [[nodiscard]] render::DrawResult draw_presentation(MonotonicTime now,
+                                                       const tracking::TrackedState& on_table,
+                                                       const render::RenderTarget& target,
+                                                       render::Redraw redraw);
 
     const settings::Settings& settings_;
     std::unique_ptr<PresentationShow> presentation_show_;

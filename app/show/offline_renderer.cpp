@@ -22,13 +22,23 @@ std::vector<std::uint32_t> levels_to_read(const scene::ScenePlan& plan) {
     return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
 }
 
-/// The scene plan of a pack for the options.
-Result<scene::ScenePlan> plan_offline(const OfflineSetup& setup, const pack::PackOutline& pack) {
+/// The settings in the size and layout of the options.
+settings::Settings sized(const OfflineSetup& setup) {
     const auto& [checked, options] = setup;
     settings::Settings settings = *checked;
+    if (!options.both_eyes) {
+        settings.projector.stereo = settings::Stereo::Off;
+    }
     if (options.width > 0 && options.height > 0) {
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);
     }
+    return settings;
+}
+
+/// The scene plan of a pack for the options.
+Result<scene::ScenePlan> plan_offline(const OfflineSetup& setup, const pack::PackOutline& pack) {
+    const settings::Settings settings = sized(setup);
+    const OfflineOptions& options = setup.options;
     scene::SceneRequest request;
     request.technique = options.technique;
     request.live = false;
@@ -67,17 +77,16 @@ load_offline(const std::filesystem::path& file,
     return scene;
 }
 
-OfflineRenderer::OfflineRenderer(const scene::ScenePlan& plan)
-    : projector_(plan.projector), table_from_projector_(plan.table_from_projector), prop_(plan.prop),
-      light_(plan.light) {}
+OfflineRenderer::OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan)
+    : layout_(layout), projector_(plan.projector), table_from_projector_(plan.table_from_projector),
+      prop_(plan.prop), light_(plan.light) {}
 
 Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
     const OfflineOptions& options = setup.options;
-    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
-    const int width = made->projector_.width;
-    const int height = made->projector_.height;
-    TRY(made->display_, display::SurfacelessDisplay::create(width, height));
+    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(scene::stereo_layout(sized(setup)), plan));
+    TRY(made->display_,
+        display::SurfacelessDisplay::create(made->layout_.display.width, made->layout_.display.height));
     made->technique_ = scene::name_of(plan.quality_levels.front());
     const pack::PackLevel& brightness = pack->levels[plan.exposure_level];
     made->exposure_ = scene::exposure_of(brightness, pack->box_size, pack->textures[brightness.texture],
@@ -88,7 +97,9 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
     }
     made->placed_.samples = samples_of(options, *pack);
     made->placed_.faces = plan.faces;
-    made->plan_ = scene::make_plan(made->prop_, made->placed_);
+    for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
+        made->plans_.push_back(scene::make_plan(made->prop_, made->placed_));
+    }
     return made;
 }
 
@@ -96,8 +107,8 @@ Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
     const std::uint32_t number = plan.quality_levels.front().level;
     const scene::SceneLevel level = scene::scene_level(*pack, number, plan);
-    TRY(renderer_,
-        render::Renderer::create(projector_.width, projector_.height, scene::needs_of(plan, level)));
+    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
+                                            scene::needs_of(plan, level)));
     const image::Image8& texture = pack->textures[level.mesh.texture];
     TRY(const scene::Drawable drawable, renderer_->store().upload(level, texture));
     seen_ = plan.seen[number];
@@ -111,7 +122,7 @@ Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
 
 Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
-    TRY(renderer_, render::Renderer::create(projector_.width, projector_.height, plan.needs));
+    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height, plan.needs));
     seen_ = plan.seen_reliefs.front();
     const bool on_gpu = plan.quality_levels.front().on_gpu;
     TRY(const scene::Drawable drawable,
@@ -121,33 +132,46 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     return {};
 }
 
-void OfflineRenderer::draw_once(const scene::PlanView& view) {
-    scene::plan_frame(prop_, placed_, view, plan_);
-    renderer_->draw(plan_, {display_->framebuffer(), display_->buffer_age()}, render::Redraw::Everything);
+void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        scene::plan_frame(prop_, placed_, views[eye], plans_[eye]);
+    }
+    renderer_->draw(plans_, {display_->framebuffer(), display_->buffer_age()}, render::Redraw::Everything);
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
+std::optional<scene::ErrorEstimate> OfflineRenderer::error_of(std::span<const scene::PlanView> views) const {
+    std::optional<scene::ErrorEstimate> worst;
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        worst = scene::larger(worst, scene::estimate_error(seen_, prop_, placed_, views[eye], plans_[eye]));
+    }
+    return worst;
+}
+
 OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
-                                     const glm::dvec3& eye_m) {
+                                     std::span<const glm::dvec3> eyes_m) {
     const scene::PlanView view{.projector = projector_,
                                .table_from_projector = table_from_projector_,
                                .table_from_prop = table_from_prop,
-                               .eyes_m = std::span(&eye_m, 1),
+                               .eyes_m = {},
                                .light = light_,
                                .brightness = exposure_};
+    const std::array<scene::PlanView, 2> of_eyes = scene::views_of(layout_, view, eyes_m);
+    const std::span<const scene::PlanView> views = std::span(of_eyes).first(layout_.count);
     if (!warm_) {
-        draw_once(view); // the driver compiles its shaders on the first picture
+        draw_once(views); // the driver compiles its shaders on the first picture
         warm_ = true;
     }
     const auto start = std::chrono::steady_clock::now();
-    draw_once(view);
+    draw_once(views);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     OfflinePicture picture;
     picture.ms = taken.count();
-    picture.error = scene::estimate_error(seen_, prop_, placed_, view, plan_);
-    picture.colour = render::read_colour(display_->framebuffer(), projector_.width, projector_.height);
+    picture.error = error_of(views);
+    picture.colour =
+        render::read_colour(display_->framebuffer(), layout_.display.width, layout_.display.height);
     if (hit_points_) {
-        picture.hit_points = hit_points_->draw(plan_, renderer_->store());
+        picture.hit_points = hit_points_->draw(plans_.front(), renderer_->store());
     }
     return picture;
 }

@@ -12,6 +12,7 @@
 #include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/scene_level.h"
+#include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "firmware_host/display/surfaceless_display.h"
 
@@ -19,7 +20,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace frustumscreen::show {
 
@@ -28,10 +31,11 @@ struct OfflineOptions {
     int width = 0; ///< of the picture; 0 = the configured projector's. The intrinsics scale with it.
     int height = 0;
     bool light = true;
-    bool hit_points = false;
-    int samples = 0; ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
+    bool hit_points = false; ///< of one eye's picture
+    bool both_eyes = false;  ///< in the configured layout; otherwise one eye's picture, in the full size
+    int samples = 0;         ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
     unsigned cull_kinds = scene::AllCullKinds;
-    /// All poses that will be drawn; empty: any pose may be drawn.
+    /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
     std::vector<scene::KnownView> views;
 };
 
@@ -63,8 +67,15 @@ public:
     /// `scene` need not outlive the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
 
+    /// `eyes_m`: one, or with OfflineOptions::both_eyes one for each eye of the layout (scene/stereo.h).
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
-                                      const glm::dvec3& eye_m);
+                                      std::span<const glm::dvec3> eyes_m);
+    [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
+                                      const glm::dvec3& eye_m) {
+        return draw(table_from_prop, std::span(&eye_m, 1));
+    }
+
+    [[nodiscard]] const scene::StereoLayout& layout() const { return layout_; }
 
     [[nodiscard]] const geometry::Pinhole& projector() const { return projector_; }
     [[nodiscard]] const geometry::PropShape& prop() const { return prop_; }
@@ -72,13 +83,15 @@ public:
     [[nodiscard]] const std::string& technique() const { return technique_; }
 
 private:
-    explicit OfflineRenderer(const scene::ScenePlan& plan);
+    OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan);
     /// Takes the level or relief to draw, and creates a renderer for it.
     [[nodiscard]] Result<void> take_level(const OfflineScene& scene);
     [[nodiscard]] Result<void> take_relief(const OfflineScene& scene);
-    void draw_once(const scene::PlanView& view);
+    void draw_once(std::span<const scene::PlanView> views);
+    [[nodiscard]] std::optional<scene::ErrorEstimate> error_of(std::span<const scene::PlanView> views) const;
 
-    geometry::Pinhole projector_;
+    scene::StereoLayout layout_;
+    geometry::Pinhole projector_; ///< of one eye's picture
     geometry::RigidTransform table_from_projector_;
     geometry::PropShape prop_;
     std::optional<scene::LightCompensation> light_;
@@ -86,7 +99,7 @@ private:
     std::string technique_;
     scene::SeenLevel seen_;
     scene::PlacedLevel placed_;
-    scene::FramePlan plan_;
+    std::vector<scene::FramePlan> plans_; ///< one for each eye
     std::unique_ptr<display::SurfacelessDisplay>
         display_; ///< declared before everything that lives in its context
     std::optional<render::Renderer> renderer_;

@@ -90,11 +90,10 @@ public:
 class PresentationShow {
 public:
     virtual ~PresentationShow() = default;
-    /// `eye_m`: table frame. Allocates nothing after the start.
-    [[nodiscard]] virtual render::DrawResult draw(MonotonicTime now,
-                                                  const exhibit::Presentation& presentation,
-                                                  const glm::dvec3& eye_m, const render::RenderTarget& target,
-                                                  render::Redraw redraw) = 0;
+    /// `eyes_m`: one for each eye of the layout (scene/stereo.h), table frame. Allocates nothing after the start.
+    [[nodiscard]] virtual render::DrawResult
+    draw(MonotonicTime now, const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
+         const render::RenderTarget& target, render::Redraw redraw) = 0;
     /// As in Show; the caller has checked that the mark has space.
     virtual void set_mark(const std::optional<drift::ShownMark>& /*mark*/) {}
     /// As in Show.

@@ -4,6 +4,12 @@
 
 namespace frustumscreen::tracking {
 
+std::array<glm::dvec3, 2> eyes_of(const TrackedState& state, double interocular_m) {
+    const glm::dvec3 half_m =
+        state.table_from_head * glm::dvec3(0.5 * interocular_m * state.eyes_apart, 0.0, 0.0);
+    return {state.eye_m - half_m, state.eye_m + half_m};
+}
+
 TrackedStateTracker::TrackedStateTracker(const glm::dvec3& default_eye_m, const TrackedStateLimits& limits)
     : default_eye_m_(default_eye_m), limits_(limits) {}
 

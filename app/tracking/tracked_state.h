@@ -10,13 +10,19 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <optional>
 
 namespace frustumscreen::tracking {
 
 struct TrackedState {
     geometry::RigidTransform table_from_prop;
-    glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
+    glm::dvec3 eye_m{0.0}; ///< between the visitor's eyes
+    /// Turns the head's frame into the table's: +x to the head's right, +Y ahead, +Z up.
+    glm::dquat table_from_head{1.0, 0.0, 0.0, 0.0};
+    /// Share of the interocular distance that the picture shows, 0..1; 0: one eye. Below 1 while the turn of the head
+    /// is not known, or nobody wears the sensor.
+    double eyes_apart = 0.0;
     MonotonicTime time;      ///< time of this state
     bool prop_known = false; ///< a usable pose of the prop was seen and is not too old
     bool head_known = false; ///< from a sensor on the visitor's head
@@ -29,6 +35,9 @@ struct TrackedState {
 
     [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
 };
+
+/// The left and the right eye, table frame: half of the interocular distance to either side along the head's x axis.
+[[nodiscard]] std::array<glm::dvec3, 2> eyes_of(const TrackedState& state, double interocular_m);
 
 struct TrackedStateLimits {
     Nanoseconds oldest_prop = std::chrono::seconds(1);

@@ -10,11 +10,10 @@ namespace {
 
 TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
     const auto display = display::SurfacelessDisplay::create(64, 64).value();
-    const render::SampleGrid grid =
-        render::SampleGrid::create({1000, 800}, {300, 200}, 4).value(); // 600 x 400 fragments
+    const render::SampleGrid grid = render::SampleGrid::create({300, 200}, 4).value(); // 600 x 400 fragments
     const PixelRectangle prop{500, 300, 280, 190};
     const auto raster = [&](const PixelRectangle& lit, const PixelRectangle& around, int samples) {
-        return grid.raster(lit, around, samples);
+        return grid.raster({1000, 800}, lit, around, samples);
     };
     const render::Raster usual = raster({550, 350, 100, 90}, prop, 4);
     EXPECT_EQ(usual.fragments, glm::ivec2(2, 2));

@@ -61,7 +61,8 @@ struct Show {
     }
     [[nodiscard]] residency::RunLevels levels(const std::string& technique) {
         residency::RunLevels made = upload(technique).value();
-        made.measure(table.prop, table.view(), renderer, {display->framebuffer(), 0});
+        const scene::PlanView view = table.view();
+        made.measure(table.prop, std::span(&view, 1), renderer, {display->framebuffer(), 0});
         if (made.uses().size() > 1) {
             made.start(gpu_times); // independent of this machine's speed
         }
@@ -70,8 +71,9 @@ struct Show {
     [[nodiscard]] MonotonicTime now() const { return MonotonicTime(std::chrono::milliseconds(20) * frame); }
     render::DrawResult draw(residency::RunLevels& levels) {
         ++frame;
+        const scene::PlanView view = table.view();
         const render::DrawResult drawn =
-            levels.draw(now(), table.prop, table.view(), renderer,
+            levels.draw(now(), table.prop, std::span(&view, 1), renderer,
                         {display->framebuffer(), display->buffer_age()}, render::Redraw::Changes);
         EXPECT_TRUE(display->present(now()));
         return drawn;

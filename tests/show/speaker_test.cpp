@@ -29,7 +29,7 @@ residency::SharedRecording recording_of(const std::string& name) {
 /// A show with one word of advice and one description; the second artifact has none.
 class SpeakingShow final : public PresentationShow {
 public:
-    render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
+    render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, std::span<const glm::dvec3>,
                             const render::RenderTarget&, render::Redraw) override {
         return {};
     }

@@ -382,8 +382,9 @@ TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     settings.panel.lines = {"4", "5", "6"};
     class Nothing final : public PresentationShow {
     public:
-        [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
-                                              const render::RenderTarget&, render::Redraw) override {
+        [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&,
+                                              std::span<const glm::dvec3>, const render::RenderTarget&,
+                                              render::Redraw) override {
             return {true, {}, {}, 1};
         }
         [[nodiscard]] ShowState state(const exhibit::Presentation& presentation) const override {

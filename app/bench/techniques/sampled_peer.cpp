@@ -9,7 +9,7 @@ namespace frustumscreen::bench {
 
 Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Kiosk& kiosk, int samples) {
     const PixelSize picture{kiosk.width(), kiosk.height()};
-    TRY(render::SampleGrid grid, render::SampleGrid::create(picture, picture, samples));
+    TRY(render::SampleGrid grid, render::SampleGrid::create(picture, samples));
     render::ShaderCache shaders;
     TRY_VOID(shaders.prepare({{scene::ShaderKey::Pass::TileClear},
                               {scene::ShaderKey::Pass::TileAverage},
@@ -22,14 +22,15 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Kiosk& kios
 render::Raster PeerSamples::begin(const scene::LitTiles& tiles, double density) const {
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    const render::Raster raster = grid_.raster(tiles.bounds(), picture_, scene::samples_at(density, count_));
+    const render::Raster raster = grid_.raster({picture_.width, picture_.height}, tiles.bounds(), picture_,
+                                               scene::samples_at(density, count_));
     grid_.begin(tiles, raster, shaders_);
     return raster;
 }
 
 void PeerSamples::average(const scene::LitTiles& tiles, const render::Raster& raster) const {
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
-    grid_.average(tiles, raster, shaders_);
+    grid_.average(tiles, raster, {0, 0}, shaders_);
 }
 
 SampledPeer::SampledPeer(const Kiosk& kiosk, const std::string& name,

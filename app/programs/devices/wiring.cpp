@@ -2,6 +2,7 @@
 
 #include "app/drift/drift_reference.h"
 #include "app/drift/mark_places.h"
+#include "app/scene/stereo.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
@@ -202,8 +203,8 @@ Result<std::unique_ptr<display::Display>> make_display(const settings::Settings&
         request.picture_hz = settings.projector.refresh_hz;
         return display::KmsDisplay::create(named(display.card), request);
     }
-    return display::SurfacelessDisplay::create(settings.projector.pinhole.width,
-                                               settings.projector.pinhole.height);
+    const PixelSize picture = scene::stereo_layout(settings).display;
+    return display::SurfacelessDisplay::create(picture.width, picture.height);
 }
 
 Result<std::unique_ptr<tracker::PacketRecorder>> make_recorder(settings::TrackerKind kind,
