@@ -48,7 +48,8 @@ inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
 inline constexpr std::array<std::string_view, 5> stereo_names{"off", "side_by_side", "top_bottom",
                                                               "frame_sequential", "anaglyph"};
-inline constexpr std::string_view as_eye = "as_eye"; ///< a projector without a layout of its own
+inline constexpr std::array<std::string_view, 6> projector_stereo_names{
+    "as_eye", "off", "side_by_side", "top_bottom", "frame_sequential", "anaglyph"};
 inline constexpr std::array<std::string_view, 3> prop_names{"frustum", "cube", "solid"};
 inline constexpr std::array<std::string_view, 2> unit_names{"mm", "m"};
 inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"};
@@ -125,10 +126,8 @@ void projector_settings(auto& fields, auto& projector) {
     lens_settings(fields, projector.pinhole);
     projector_pose_settings(fields, projector.table_from_projector);
     fields.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
-    fields.parsed(
-        "stereo", projector.stereo, text_of_output, parse_output_stereo,
-        "\"as_eye\", \"off\", \"side_by_side\", \"top_bottom\", \"frame_sequential\" and \"anaglyph\"",
-        "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
+    fields.choice("stereo", projector.stereo, projector_stereo_names,
+                  "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
     fields.number(
         "aperture_mm", projector.aperture_mm, {0.1, 200.0, "millimetres"},
         "diameter of the lens's opening (focal length divided by the f-number): how fast the picture "

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -98,18 +97,22 @@ std::string_view name_of(Stereo stereo) {
     return stereo_names[static_cast<std::size_t>(stereo)];
 }
 
-std::string text_of_output(const std::optional<Stereo>& stereo) {
-    return std::string(stereo ? name_of(*stereo) : as_eye);
-}
-
-std::optional<std::optional<Stereo>> parse_output_stereo(std::string_view text) {
-    if (text == as_eye) {
-        return std::optional<Stereo>();
+Stereo stereo_of(const Settings& settings) {
+    switch (settings.projector.stereo) {
+    case ProjectorStereo::AsEye:
+        return settings.eye.stereo;
+    case ProjectorStereo::Off:
+        return Stereo::Off;
+    case ProjectorStereo::SideBySide:
+        return Stereo::SideBySide;
+    case ProjectorStereo::TopBottom:
+        return Stereo::TopBottom;
+    case ProjectorStereo::FrameSequential:
+        return Stereo::FrameSequential;
+    case ProjectorStereo::Anaglyph:
+        return Stereo::Anaglyph;
     }
-    const auto found = std::find(stereo_names.begin(), stereo_names.end(), text);
-    return found != stereo_names.end()
-               ? std::optional(std::optional(static_cast<Stereo>(found - stereo_names.begin())))
-               : std::nullopt;
+    return Stereo::Off;
 }
 
 std::string_view name_of(DisplayKind kind) {

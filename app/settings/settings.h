@@ -35,10 +35,8 @@ namespace frustumscreen::settings {
 /// Layout of the pictures for the two eyes in the projector's picture. Off: one picture, for the point between the eyes.
 enum class Stereo { Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
 [[nodiscard]] std::string_view name_of(Stereo stereo);
-/// "as_eye" for no value.
-[[nodiscard]] std::string text_of_output(const std::optional<Stereo>& stereo);
-/// Returns nothing for any other text.
-[[nodiscard]] std::optional<std::optional<Stereo>> parse_output_stereo(std::string_view text);
+/// AsEye: the layout of EyeSettings. The others: as Stereo, for this output.
+enum class ProjectorStereo { AsEye, Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
 
 struct ProjectorSettings {
     geometry::Pinhole pinhole{
@@ -46,7 +44,7 @@ struct ProjectorSettings {
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
     geometry::RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
     double refresh_hz = 60.0;
-    std::optional<Stereo> stereo{}; ///< for this output, in place of EyeSettings::stereo
+    ProjectorStereo stereo = ProjectorStereo::AsEye;
     double aperture_mm = 10.0; ///< diameter of the lens's opening: sets how fast focus is lost with depth
 };
 
@@ -256,9 +254,7 @@ struct Settings {
 };
 
 /// The layout of the projector's picture.
-[[nodiscard]] inline Stereo stereo_of(const Settings& settings) {
-    return settings.projector.stereo.value_or(settings.eye.stereo);
-}
+[[nodiscard]] Stereo stereo_of(const Settings& settings);
 
 /// A prop in the hand has no zone on the table, and a prop that is not tracked never leaves its zone.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {

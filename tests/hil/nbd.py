@@ -36,9 +36,13 @@ class Server:
         self.path.unlink(missing_ok=True)
         self._listens.bind(os.fspath(self.path))
         self._listens.listen(4)
-        threading.Thread(target=self._accept, daemon=True).start()
+        self._accepts = threading.Thread(target=self._accept, daemon=True)
+        self._accepts.start()
 
     def stop(self):
+        # A thread on its way into accept() keeps the number of a closed socket, and would take a client of the next one.
+        self._listens.shutdown(socket.SHUT_RDWR)
+        self._accepts.join()
         self._listens.close()
         self.path.unlink(missing_ok=True)
 
