@@ -1,5 +1,7 @@
 #include "app/exhibit/visitor_guide.h"
 
+#include "app/exhibit/guidance_setup.h"
+
 namespace frustumscreen::exhibit {
 
 VisitorGuide::VisitorGuide(const std::optional<guidance::GuidanceSetup>& setup)
@@ -31,7 +33,7 @@ const guidance::Guidance* VisitorGuide::guide(MonotonicTime now, const VisitorGu
         return nullptr;
     }
     const guidance::Guidance& guidance =
-        guide_->step(now, {tracked_state.table_from_prop, tracked_state.eye_m}, sensing, input.may_speak);
+        guide_->step(now, guided_state(guide_->reader().setup(), tracked_state), sensing, input.may_speak);
     answers_ = input.help && guide_->answers();
     return guidance.stage != guidance::GuidanceStage::Quiet ? &guidance : nullptr;
 }

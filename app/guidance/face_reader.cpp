@@ -90,6 +90,19 @@ private:
     }
 };
 
+bool has_two_eyes(const GuidedState& tracked_state) {
+    return tracked_state.to_right_eye_m != glm::dvec3(0.0);
+}
+
+/// The situation for one of the two eyes alone.
+GuidedState of_left_eye(const GuidedState& tracked_state) {
+    return {tracked_state.table_from_prop, tracked_state.eye_m - tracked_state.to_right_eye_m};
+}
+
+GuidedState of_right_eye(const GuidedState& tracked_state) {
+    return {tracked_state.table_from_prop, tracked_state.eye_m + tracked_state.to_right_eye_m};
+}
+
 } // namespace
 
 FaceReader::FaceReader(GuidanceSetup setup)
@@ -99,6 +112,10 @@ FaceReader::FaceReader(GuidanceSetup setup)
 }
 
 FaceSets FaceReader::read(const GuidedState& tracked_state) const {
+    if (has_two_eyes(tracked_state)) {
+        const FaceSets left = read(of_left_eye(tracked_state));
+        return {left.seen | read(of_right_eye(tracked_state)).seen, left.lit};
+    }
     const Views views(setup_, projector_from_table_, tracked_state);
     FaceSets sets;
     for (std::size_t k = 0; k < setup_.prop.faces.size(); ++k) {
@@ -110,6 +127,9 @@ FaceSets FaceReader::read(const GuidedState& tracked_state) const {
 }
 
 bool FaceReader::valid(const GuidedState& tracked_state) const {
+    if (has_two_eyes(tracked_state)) {
+        return valid(of_left_eye(tracked_state)) && valid(of_right_eye(tracked_state));
+    }
     const Views views(setup_, projector_from_table_, tracked_state);
     return std::all_of(
         setup_.prop.faces.begin(), setup_.prop.faces.end(),
@@ -117,6 +137,9 @@ bool FaceReader::valid(const GuidedState& tracked_state) const {
 }
 
 bool FaceReader::whole(const GuidedState& tracked_state) const {
+    if (has_two_eyes(tracked_state)) {
+        return whole(of_left_eye(tracked_state)) && whole(of_right_eye(tracked_state));
+    }
     const std::span<const glm::dvec3> hull = shown();
     if (hull.empty()) {
         return valid(tracked_state);
@@ -131,7 +154,17 @@ bool FaceReader::whole(const GuidedState& tracked_state) const {
                        });
 }
 
+double FaceReader::unlit_px(const GuidedState& tracked_state) const {
+    if (has_two_eyes(tracked_state)) {
+        return 0.5 * (unlit_px(of_left_eye(tracked_state)) + unlit_px(of_right_eye(tracked_state)));
+    }
+    return area_px(tracked_state, read(tracked_state).unlit());
+}
+
 double FaceReader::lost_px(const GuidedState& tracked_state) const {
+    if (has_two_eyes(tracked_state)) {
+        return 0.5 * (lost_px(of_left_eye(tracked_state)) + lost_px(of_right_eye(tracked_state)));
+    }
     const std::span<const glm::dvec3> hull = shown();
     if (hull.empty()) {
         return unlit_px(tracked_state);

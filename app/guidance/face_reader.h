@@ -7,6 +7,8 @@
 /// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is
 ///          in front of the face by `min_sine_of_light`, and the place lies in its picture. Without a known
 ///          artifact: as Valid.
+/// Stereo   each of the two eyes has its own picture: a face is seen if either eye sees it, and a situation is valid or
+///          whole if it is for both. Areas that are unlit or lost are the mean of both eyes'.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any. Allocates nothing.
@@ -36,14 +38,17 @@ struct GuidanceSetup {
     double min_sine_of_light = 0.035;
     bool in_hand = false; ///< false: the prop stands on the table, whose edges limit its way
     glm::dvec2 half_table_m{0.4, 0.25};
-    bool head_tracked = true; ///< false: visitors are not asked to walk
+    bool head_tracked = true;   ///< false: visitors are not asked to walk
+    double interocular_m = 0.0; ///< stereo: distance between the eyes; 0: one eye
     /// The corners of the hull of the artifact in the prop, prop frame, at most 1024; empty: unknown.
     std::vector<glm::dvec3> hull{};
 };
 
 struct GuidedState {
     geometry::RigidTransform table_from_prop;
-    glm::dvec3 eye_m{0.0};
+    glm::dvec3 eye_m{0.0}; ///< between the visitor's eyes
+    /// Stereo: from `eye_m` to the right eye; the left one is as far to the other side. Zero: one eye.
+    glm::dvec3 to_right_eye_m{0.0};
 };
 
 /// Sets of faces: bit k is face k of the prop.
@@ -80,12 +85,10 @@ public:
         return (faces.valid() || (!shown().empty() && whole(tracked_state))) &&
                (faces.seen != 0 || setup_.in_hand);
     }
-    /// Area of these faces, in square pixels, in the picture of a pinhole at the eye that looks at the prop's middle.
+    /// Area of these faces, in square pixels, in the picture of a pinhole at `eye_m` that looks at the prop's middle.
     [[nodiscard]] double area_px(const GuidedState& tracked_state, std::uint32_t faces) const;
     /// Area of the seen faces that are not lit.
-    [[nodiscard]] double unlit_px(const GuidedState& tracked_state) const {
-        return area_px(tracked_state, read(tracked_state).unlit());
-    }
+    [[nodiscard]] double unlit_px(const GuidedState& tracked_state) const;
     /// Area of the places that prevent `whole`.
     [[nodiscard]] double lost_px(const GuidedState& tracked_state) const;
     /// The face of the set with the largest area, as a set; 0 for the empty set.

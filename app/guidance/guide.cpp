@@ -36,7 +36,8 @@ bool has_moved(const GuidedState& now, const GuidedState& then) {
     const geometry::RigidTransform& b = then.table_from_prop;
     return glm::distance(a.translation, b.translation) > moved_m ||
            geometry::rotation_angle(a.rotation, b.rotation) > turned_rad ||
-           glm::distance(now.eye_m, then.eye_m) > looked_around_m;
+           glm::distance(now.eye_m, then.eye_m) > looked_around_m ||
+           glm::distance(now.to_right_eye_m, then.to_right_eye_m) > looked_around_m;
 }
 
 } // namespace

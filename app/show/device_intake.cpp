@@ -45,6 +45,18 @@ status::DeviceReport report_of(const auto& device) {
     return device ? status::DeviceReport(device->condition()) : status::DeviceReport{};
 }
 
+/// Without stereo there is one eye. Where no device could follow a head, the viewer is fixed.
+tracking::TwoEyes two_eyes(const settings::Settings& settings) {
+    if (settings::stereo_of(settings) == settings::Stereo::Off) {
+        return {};
+    }
+    const settings::TrackerKind tracker = settings.tracker.kind;
+    const bool has_device = tracker != settings::TrackerKind::None || settings.camera.visitor;
+    return {.half_apart_m = 0.5e-3 * settings.eye.interocular_mm,
+            .fixed_viewer = !settings.eye.tracked || !has_device,
+            .glasses_may_lie = tracker != settings::TrackerKind::Simulated};
+}
+
 } // namespace
 
 std::string camera_uses(const Inputs& inputs) {
@@ -63,7 +75,7 @@ std::string camera_uses(const Inputs& inputs) {
 
 DeviceIntake::DeviceIntake(const settings::Settings& settings, Inputs& inputs)
     : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
-      tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m) {
+      tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m, two_eyes(settings)) {
     samples_.reserve(1024);
     tag_poses_.reserve(64);
     heads_.reserve(64);

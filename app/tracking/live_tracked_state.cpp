@@ -1,6 +1,7 @@
 #include "app/tracking/live_tracked_state.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/tracking/level_head.h"
 #include "app/tracking/motion_filter.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace frustumscreen::tracking {
 namespace {
 
 constexpr double longest_flip_s = 0.1;
-/// The lever is 0, because only the position of the head counts, not its rotation.
+/// The lever of the point between the eyes is 0: the head's turn does not move it.
 constexpr double head_lever_m = 0.0;
 
 /// Errors that a filter cannot see: the tracker's registration, and its field bent by metal. Polhemus states
@@ -54,11 +55,12 @@ PoseEstimator estimator() {
 
 } // namespace
 
-LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m)
+LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes)
     : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
       source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
-      shown_head_({.lever_m = head_lever_m}) {}
+      shown_head_({.lever_m = head_lever_m}), two_eyes_(two_eyes),
+      shown_turn_({.lever_m = two_eyes.half_apart_m}), eyes_apart_(two_eyes.fixed_viewer) {}
 
 bool LiveTrackedState::take(const tracker::PoseSample& sample) {
     if (!sample.ok || (sample.station != tracker::prop_station && sample.station != tracker::head_station)) {
@@ -151,6 +153,25 @@ void LiveTrackedState::look_for_eye(TrackedState& tracked_state) {
     eye_of_ = of;
     goal.reinitialisations = head.reinitialisations + visitor.reinitialisations + eye_goals_;
     tracked_state.eye_m = shown_head_.follow(goal, tracked_state.time).translation;
+    if (two_eyes_.half_apart_m > 0.0) {
+        look_for_turn(head, goal, tracked_state);
+    }
+}
+
+void LiveTrackedState::look_for_turn(const PoseEstimate& head, const PoseEstimate& goal,
+                                     TrackedState& tracked_state) {
+    bool both = two_eyes_.fixed_viewer || tracked_state.head_seen;
+    PoseEstimate turn = goal; // glides when the eye does
+    turn.pose = {level_head(tracked_state.eye_m, tracked_state.table_from_prop.translation), glm::dvec3(0.0)};
+    if (tracked_state.head_known) {
+        const bool worn = glasses_.worn(tracked_state.time, head.pose);
+        both = worn || !two_eyes_.glasses_may_lie;
+        turn.pose.rotation = head.pose.rotation;
+    } else {
+        glasses_.forget();
+    }
+    tracked_state.table_from_head = shown_turn_.follow(turn, tracked_state.time).rotation;
+    tracked_state.eyes_apart = eyes_apart_.follow(tracked_state.time, both);
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {

@@ -5,26 +5,37 @@
 ///          (source_arbiter.h) chooses between them.
 /// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head,
 ///          the eye is that of the active visitor (holder.h); it glides from one person to another.
+/// Two eyes for stereo alone: the turn of the sensor on the head; a head that is seen, and a fixed viewer, look level at
+///          the prop. Glasses that lie (worn_glasses.h), and a head that is lost, get one eye softly (eyes_apart.h).
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample takes effect at its own time; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
 #pragma once
 
 #include "app/tracking/active_visitor.h"
+#include "app/tracking/eyes_apart.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
 #include "app/tracking/source_arbiter.h"
 #include "app/tracking/tracked_state.h"
 #include "app/tracking/uncertain_pose.h"
+#include "app/tracking/worn_glasses.h"
 
 #include <optional>
 
 namespace frustumscreen::tracking {
 
+/// The visitor's two eyes, as stereo follows them.
+struct TwoEyes {
+    double half_apart_m = 0.0;    ///< half of the interocular distance; 0: one eye, and no turn is followed
+    bool fixed_viewer = false;    ///< no head is followed: both eyes are beside the default eye
+    bool glasses_may_lie = true;  ///< false: a simulated visitor never takes them off
+};
+
 class LiveTrackedState {
 public:
     /// `lever_m`: half the prop's height.
-    LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m);
+    LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes = {});
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const tracker::PoseSample& sample);
@@ -46,6 +57,8 @@ private:
     [[nodiscard]] glm::dvec3 middle_of_prop() const;
     /// Sets the eye of `tracked_state`.
     void look_for_eye(TrackedState& tracked_state);
+    /// Sets the turn of the head and how far apart the eyes are. `goal`: of the eye.
+    void look_for_turn(const PoseEstimate& head, const PoseEstimate& goal, TrackedState& tracked_state);
     /// The pose of each source, with its spread and the age at which it is lost.
     [[nodiscard]] SourcePose by_tracker(MonotonicTime lit) const;
     [[nodiscard]] SourcePose by_tags(MonotonicTime lit) const;
@@ -66,6 +79,10 @@ private:
     ShownPose shown_head_;
     EyeOf eye_of_ = EyeOf::Default;
     std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
+    TwoEyes two_eyes_;
+    ShownPose shown_turn_; ///< of the head; at the table's origin
+    WornGlasses glasses_;
+    EyesApart eyes_apart_;
 };
 
 /// Estimates the time from `now`, the start of a frame, until its picture is lit: the display's own latency

@@ -1,5 +1,7 @@
 #include "app/tracking/pose_frames.h"
 
+#include "app/tracking/level_head.h"
+
 #include <map>
 
 namespace frustumscreen::tracking {
@@ -12,6 +14,8 @@ std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> sampl
             TrackedState frame;
             frame.table_from_prop = {sample.rotation, sample.position_m};
             frame.eye_m = default_eye_m;
+            frame.table_from_head = level_head(default_eye_m, sample.position_m);
+            frame.eyes_apart = 1.0;
             frame.time = sample.time;
             frame.prop_known = true;
             frames.emplace(sample.time, frame);
@@ -21,7 +25,10 @@ std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> sampl
         const auto frame = frames.find(sample.time);
         if (sample.ok && sample.station == tracker::head_station && frame != frames.end() &&
             !frame->second.head_known) {
+            const std::optional<glm::dquat> turn = geometry::normalised(sample.rotation);
             frame->second.eye_m = sample.position_m;
+            frame->second.table_from_head =
+                turn.value_or(level_head(sample.position_m, frame->second.table_from_prop.translation));
             frame->second.head_known = true;
         }
     }

@@ -1,5 +1,7 @@
 #include "app/tracking/tracked_state.h"
 
+#include "app/tracking/level_head.h"
+
 #include <cmath>
 
 namespace frustumscreen::tracking {
@@ -38,8 +40,11 @@ TrackedState TrackedStateTracker::at(MonotonicTime now) const {
         tracked_state.prop_age = now - prop_->time;
         tracked_state.prop_known = tracked_state.prop_age <= limits_.oldest_prop;
     }
+    tracked_state.table_from_head = level_head(default_eye_m_, tracked_state.table_from_prop.translation);
+    tracked_state.eyes_apart = 1.0;
     if (head_ && now - head_->time <= limits_.oldest_head) {
         tracked_state.eye_m = head_->table_from_station.translation;
+        tracked_state.table_from_head = head_->table_from_station.rotation;
         tracked_state.head_known = true;
     }
     return tracked_state;

@@ -151,7 +151,7 @@ Result<void> guide(const Request& request) {
     const geometry::PropShape& prop = setup.prop;
     std::string said; ///< the last line; a line is printed when the text changes
     for (const tracking::TrackedState& frame : frames) {
-        const guidance::GuidedState tracked_state{frame.table_from_prop, frame.eye_m};
+        const guidance::GuidedState tracked_state = exhibit::guided_state(setup, frame);
         const Guided guided{.t_us = to_microseconds(frame.time),
                             .faces = reader.read(tracked_state),
                             .unlit_px = reader.unlit_px(tracked_state),

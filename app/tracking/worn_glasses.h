@@ -1,0 +1,39 @@
+/// Whether somebody wears the glasses that carry the head's sensor, or they lie on the table.
+///
+/// Worn     a living head is never still: it sways, breathes and nods by millimetres. Glasses lie if the smoothed pose
+///          of their sensor has stayed within `still_m` of one place for `still_for`; they are worn again from the
+///          first pose beyond that. A noisier sensor is never still: its glasses count as worn.
+/// Frame    any that does not move; metres.
+/// Time     of the poses; a decreasing time counts as none. The rhythm of the poses does not matter.
+/// Threads  a value; one caller. Allocates nothing.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/base/time.h"
+
+#include <optional>
+
+namespace frustumscreen::tracking {
+
+class WornGlasses {
+public:
+    static constexpr Nanoseconds still_for = std::chrono::seconds(6);
+    /// Movement of a point `lever_m` from the sensor: shift plus turn. A tracker's scatter at rest is about 0.3 mm and
+    /// 0.15 degrees (motion_filter.h); smoothed, it is a tenth of that.
+    static constexpr double still_m = 0.0005;
+    static constexpr double lever_m = 0.1;
+
+    /// `table_from_sensor`: smoothed (pose_estimator.h).
+    [[nodiscard]] bool worn(MonotonicTime time, const geometry::RigidTransform& table_from_sensor);
+    /// The sensor is lost; its next pose begins anew.
+    void forget() { rested_.reset(); }
+
+private:
+    struct Rest {
+        geometry::RigidTransform table_from_sensor;
+        MonotonicTime since;
+    };
+    std::optional<Rest> rested_; ///< the pose after the latest movement
+};
+
+} // namespace frustumscreen::tracking
