@@ -14,6 +14,8 @@ struct Registration {
     RigidTransform table_from_tracker{};
     RigidTransform sensor_from_prop{}; ///< of the prop's sensor
     glm::dvec3 eye_in_sensor_m{0.0};   ///< the point between the eyes, in the head's sensor
+    /// From the left eye to the right one, in the head's sensor; of any length but 0.
+    glm::dvec3 right_in_sensor{1.0, 0.0, 0.0};
 };
 
 } // namespace frustumscreen::geometry

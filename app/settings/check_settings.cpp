@@ -135,6 +135,23 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     check_picture(settings, fitness);
 }
 
+/// The two eyes' pictures share the projector's columns, or its rows, in halves.
+void check_stereo(const Settings& settings, Fitness& fitness) {
+    const Stereo stereo = stereo_of(settings);
+    const geometry::Pinhole& picture = settings.projector.pinhole;
+    const std::string_view key = settings.projector.stereo ? "projector.stereo" : "eye.stereo";
+    fitness.require(
+        "settings.stereo_odd_width", stereo != Stereo::SideBySide || picture.width % 2 == 0, key,
+        fmt::format("is \"side_by_side\", and projector.width is {}; each eye gets half of the columns: "
+                    "take an even width, or another layout",
+                    picture.width));
+    fitness.require(
+        "settings.stereo_odd_height", stereo != Stereo::TopBottom || picture.height % 2 == 0, key,
+        fmt::format("is \"top_bottom\", and projector.height is {}; each eye gets half of the rows: "
+                    "take an even height, or another layout",
+                    picture.height));
+}
+
 void check_eye(const Settings& settings, Fitness& fitness) {
     const glm::dvec3& eye = settings.eye.default_m;
     fitness.require("settings.eye_below_table", eye.z > 0.0, "eye.default_m",
@@ -339,6 +356,7 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     check_prop(settings, fitness);
     check_projector(settings, fitness);
     check_eye(settings, fitness);
+    check_stereo(settings, fitness);
     check_devices(settings, fitness);
     check_camera(settings, fitness);
     check_sound(settings, fitness);

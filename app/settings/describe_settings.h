@@ -277,6 +277,13 @@ template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) 
     fields.require("settings.hemisphere", glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
                    "gives no direction; allowed are three numbers of which one is not 0");
     registration_settings(fields, tracker.registration);
+    fields.vector(
+        "right_in_sensor", tracker.registration.right_in_sensor, {-1.0, 1.0, ""},
+        "for such a device, stereo: direction from the left eye to the right one, in the axes of the "
+        "sensor on the head; `frustumscreen-calibrate eye --from` tells it");
+    fields.require("settings.right_in_sensor",
+                   glm::length(tracker.registration.right_in_sensor) >= shortest_direction, "right_in_sensor",
+                   "gives no direction; allowed are three numbers of which one is not 0");
     fields.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"},
                   "time from a page flip until its picture is lit; poses are predicted to that time");
 }

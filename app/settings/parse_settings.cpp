@@ -52,7 +52,9 @@ Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibr
     TRY_VOID(calibration);
     settings.projector.pinhole = calibration->pinhole;
     settings.projector.table_from_projector = calibration->table_from_projector;
+    const glm::dvec3 right_in_sensor = settings.tracker.registration.right_in_sensor;
     settings.tracker.registration = calibration->registration;
+    settings.tracker.registration.right_in_sensor = right_in_sensor; // a calibration keeps none
     if (std::optional<Error> why = unfit(settings, state.file, state.lines)) {
         return as_kind(ErrorKind::BadInput, *std::move(why));
     }

@@ -4,16 +4,23 @@ namespace frustumscreen::tracking {
 
 namespace {
 
+/// The shortest turn of the X axis to `direction`.
+glm::dquat turn_of_x_to(const glm::dvec3& direction) {
+    constexpr double turned_round = 1e-12;
+    const glm::dvec3 d = glm::normalize(direction);
+    return 1.0 + d.x > turned_round ? glm::normalize(glm::dquat(1.0 + d.x, 0.0, -d.z, d.y))
+                                    : glm::dquat(0.0, 0.0, 0.0, 1.0);
+}
+
 /// Pose of the station's target (prop or eye) in its sensor's frame.
 geometry::RigidTransform sensor_from_target(int station, const geometry::Registration& registration) {
     if (station == tracker::prop_station) {
         return registration.sensor_from_prop;
     }
-    geometry::RigidTransform eye;
     if (station == tracker::head_station) {
-        eye.translation = registration.eye_in_sensor_m;
+        return {turn_of_x_to(registration.right_in_sensor), registration.eye_in_sensor_m};
     }
-    return eye;
+    return {};
 }
 
 } // namespace

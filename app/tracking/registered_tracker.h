@@ -17,7 +17,7 @@
 namespace frustumscreen::tracking {
 
 /// Transforms poses from a device's own frame to the table: those of the prop's sensor become the prop's,
-/// those of the head's the eye's; those of other sensors stay the sensor's. A pose that is not ok is
+/// those of the head's the eye's, with +X from the left eye to the right one; those of other sensors stay the sensor's. A pose that is not ok is
 /// unchanged.
 void place_on_table(std::span<tracker::PoseSample> samples, const geometry::Registration& registration);
 

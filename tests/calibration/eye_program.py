@@ -114,6 +114,8 @@ def test_scipy(program, table):
         v = by_scipy(table, names, rows)
         apart = max(np.abs(found["left_m"] - v[:3]).max(), np.abs(found["right_m"] - v[3:]).max())
         off = np.abs(found["eye_in_sensor_m"] - (LEFT + RIGHT) / 2).max()
+        right = (v[3:] - v[:3]) / np.linalg.norm(v[3:] - v[:3])
+        assert np.abs(found["right_in_sensor"] - right).max() < 1e-5, found["right_in_sensor"]
         print(f"seed {seed}: the two solvers are {apart:.1e} m apart; the eye is off by {1e3 * off:.2f} mm, {found['verdict']}")
         assert apart < 1e-6, apart
         assert off < (1e-6 if noise == 0.0 else 0.02), off

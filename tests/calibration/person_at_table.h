@@ -45,7 +45,8 @@ struct World {
     }
     [[nodiscard]] geometry::Registration registration() {
         const geometry::RigidTransform turned{about(kept_turn_rad, {0, 0, 1}), {}};
-        geometry::Registration kept{truth.table_from_tracker, sensor_from_prop * turned, {}};
+        geometry::Registration kept{.table_from_tracker = truth.table_from_tracker,
+                                    .sensor_from_prop = sensor_from_prop * turned};
         kept.table_from_tracker.translation += 3e-4 * numbers.normals();
         return kept;
     }

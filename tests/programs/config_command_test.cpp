@@ -135,6 +135,25 @@ TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {
                  {fmt::format("a capital is {:.0f} minutes of arc high, and needs 16", arcmin)});
 }
 
+/// Straight down through a cube, the two eyes converge by 2 atan(b / 2r) on its top and on its bottom; no other ray has much more.
+TEST_F(ConfigCommand, JudgesTheParallaxOfStereo) {
+    const std::string cube = "[prop]\nkind = \"cube\"\nbase_m = 0.02\nzone = \"table\"\n[eye]\n";
+    const auto degrees = [](double b, double r) { return 2.0 * 180.0 / M_PI * std::atan(0.5 * b / r); };
+    const std::string near = page(cube + "nearest_m = 0.4\nstereo = \"anaglyph\"\n");
+    EXPECT_EQ(near.find("tires"), std::string::npos) << near;
+    const std::string::size_type said = near.find("a parallax of up to ");
+    ASSERT_NE(said, std::string::npos) << near;
+    const double parallax = std::atof(near.c_str() + said + 20);
+    EXPECT_GT(parallax, degrees(0.063, 0.38) - degrees(0.063, 0.4));
+    EXPECT_LT(parallax, degrees(0.063, 0.4 - 0.02 * std::sqrt(3.0)) - degrees(0.063, 0.4));
+    expect_words(page("[eye]\nstereo = \"side_by_side\"\n"),
+                 {"In stereo (side_by_side)", "eyes 0.35 m from the prop (eye.nearest_m)",
+                  "Stereo tires eyes near the prop", "comfortable is 1 degree", "eye.interocular_mm = "});
+    expect_words(page("[eye]\nstereo = \"frame_sequential\"\n"),
+                 {"Frame-sequential stereo flickers: each eye sees 30 pictures a second, and needs 50"});
+    EXPECT_EQ(page("").find("tereo"), std::string::npos);
+}
+
 TEST_F(ConfigCommand, JudgesAZoneThatIsTooNarrow) {
     expect_words(page("[projector]\nwidth = 1920\nheight = 1000\nthrow_ratio = 2.0\n"),
                  {"The zone is too narrow to play in", "With a throw ratio of"});

@@ -200,7 +200,8 @@ class Calibrated : public WithTemporaryFolder {
 protected:
     void SetUp() override {
         std::filesystem::create_directory(folder / "kept");
-        put("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [0.0, 0.0, 2.0]\n");
+        put("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [0.0, 0.0, 2.0]\n"
+                          "[tracker]\nright_in_sensor = [0, 1, 0]\n");
     }
     void keep(const Calibration& calibration) {
         const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder / "kept");
@@ -226,6 +227,8 @@ TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
     EXPECT_EQ(settings.projector.table_from_projector.translation.x, 0.1);
     EXPECT_EQ(settings.tracker.registration.table_from_tracker.translation.x, -0.5);
     EXPECT_EQ(settings.tracker.registration.eye_in_sensor_m.z, 0.03);
+    EXPECT_EQ(settings.tracker.registration.right_in_sensor, glm::dvec3(0.0, 1.0, 0.0))
+        << "no calibration has it";
     EXPECT_EQ(settings.projector.refresh_hz, 60.0);
     EXPECT_TRUE(missing_files(settings).empty());
 }

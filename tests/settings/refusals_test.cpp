@@ -199,6 +199,15 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[camera]\nfx = 100\nk1 = -0.5\nkind = \"v4l2\"\ntags = true\ntable_from_camera = "
          "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]\n[[camera.tag]]\nid = 3",
          {":3: camera.k1", "[settings.lens_folds]"}},
+        {"[projector]\nwidth = 1921\n[eye]\nstereo = \"side_by_side\"",
+         {":4: eye.stereo is \"side_by_side\", and projector.width is 1921", "even width",
+          "[settings.stereo_odd_width]"}},
+        {"[projector]\nheight = 1081\nstereo = \"top_bottom\"",
+         {":3: projector.stereo is \"top_bottom\", and projector.height is 1081", "even height",
+          "[settings.stereo_odd_height]"}},
+        {"[eye]\nstereo = \"on\"", {":2: eye.stereo", "\"anaglyph\""}},
+        {"[tracker]\nright_in_sensor = [0, 0, 0]",
+         {":2: tracker.right_in_sensor gives no direction", "[settings.right_in_sensor]"}},
         {"[camera]\nvisitor = true", {":2: camera.visitor is true; it needs camera.kind = \"v4l2\""}},
         {"[camera]\nkind = \"v4l2\"\nvisitor = true", {":3: camera.visitor is true; it needs camera.fx"}},
         {"[camera]\nkind = \"v4l2\"\nvisitor = true\nfx = 293\ntable_from_camera = "

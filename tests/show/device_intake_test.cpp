@@ -70,6 +70,66 @@ TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
     EXPECT_TRUE(intake.tracked_state_at(MonotonicTime{}).prop_known);
 }
 
+/// Two eyes for stereo alone: a fixed viewer has both from the first picture, and a head that a tracker could report none before it
+/// is known.
+TEST(DeviceIntake, KnowsWhoHasTwoEyes) {
+    struct Case {
+        settings::Stereo stereo;
+        settings::TrackerKind tracker;
+        bool tracked;
+        double apart;
+    };
+    using settings::Stereo;
+    using settings::TrackerKind;
+    for (const Case& is : {Case{Stereo::Off, TrackerKind::None, false, 0.0},
+                           Case{Stereo::Anaglyph, TrackerKind::None, false, 1.0},
+                           Case{Stereo::Anaglyph, TrackerKind::None, true, 1.0},
+                           Case{Stereo::Anaglyph, TrackerKind::Usb, false, 1.0},
+                           Case{Stereo::Anaglyph, TrackerKind::Usb, true, 0.0}}) {
+        settings::Settings settings;
+        settings.eye.stereo = is.stereo;
+        settings.tracker.kind = is.tracker;
+        settings.eye.tracked = is.tracked;
+        Inputs inputs;
+        DeviceIntake intake(settings, inputs);
+        intake.poll(MonotonicTime{});
+        EXPECT_EQ(intake.tracked_state_at(MonotonicTime{}).eyes_apart, is.apart)
+            << static_cast<int>(is.tracker);
+    }
+}
+
+/// A simulated visitor's head may rest without trembling, and wears the glasses all the same; a recorded one that does has put them
+/// down.
+TEST(DeviceIntake, TakesNoGlassesOffASimulatedVisitor) {
+    class StillHead final : public tracker::Tracker {
+    public:
+        [[nodiscard]] Result<void> poll(MonotonicTime now,
+                                        std::vector<tracker::PoseSample>& samples) override {
+            samples.push_back(
+                {.time = now, .station = tracker::head_station, .position_m = {0.1, -0.5, 0.4}});
+            return {};
+        }
+        [[nodiscard]] std::string name() const override { return "still"; }
+        [[nodiscard]] std::string_view state() const override { return "the head rests"; }
+    };
+    for (const auto& [kind, apart] :
+         {std::pair{settings::TrackerKind::Simulated, 1.0}, {settings::TrackerKind::Replay, 0.0}}) {
+        settings::Settings settings;
+        settings.eye.stereo = settings::Stereo::TopBottom;
+        settings.tracker.kind = kind;
+        Inputs inputs;
+        inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::make_unique<StillHead>(),
+                                                                       geometry::Registration{});
+        DeviceIntake intake(settings, inputs);
+        tracking::TrackedState state;
+        for (MonotonicTime now{}; now < MonotonicTime(std::chrono::seconds(10)); now += milliseconds(16)) {
+            intake.poll(now);
+            state = intake.tracked_state_at(now);
+        }
+        EXPECT_EQ(state.eyes_apart, apart);
+    }
+}
+
 class MissingPanel final : public panel::Panel {
 public:
     [[nodiscard]] Result<void> poll(MonotonicTime /*now*/,

@@ -55,8 +55,9 @@ TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
 TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     const double half = std::sqrt(0.5);
     const glm::dquat quarter(half, 0, 0, half);
-    const geometry::Registration registration{
-        {{1, 0, 0, 0}, {0, 0, 1.0}}, {quarter, {0, 0, -0.05}}, {0.1, 0, 0}};
+    const geometry::Registration registration{.table_from_tracker = {{1, 0, 0, 0}, {0, 0, 1.0}},
+                                              .sensor_from_prop = {quarter, {0, 0, -0.05}},
+                                              .eye_in_sensor_m = {0.1, 0, 0}};
     std::vector<tracker::PoseSample> samples(3);
     for (int k = 0; k < 3; ++k) {
         samples[static_cast<std::size_t>(k)].station = k + 1;
@@ -71,6 +72,34 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     EXPECT_LT(glm::distance(samples[1].rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
     EXPECT_LT(glm::distance(samples[2].position_m, glm::dvec3(1, 2, 4)),
               1e-15); // the torch's frame is its sensor's
+}
+
+/// However the sensor is turned on the glasses, the head's +X is the direction from the left eye to the right one, and the point
+/// between the eyes stays where it is.
+TEST(RegisteredTracker, TurnsTheHeadByWhereTheRightEyeIsInTheSensor) {
+    const glm::dquat sensor = glm::normalize(glm::dquat(0.3, -0.5, 0.7, 0.2));
+    const glm::dvec3 eye(0.02, -0.01, 0.05);
+    for (const glm::dvec3& right :
+         {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -0.5),
+          glm::dvec3(0.3, -0.8, 0.1), glm::dvec3(-1, 1e-9, 0)}) {
+        tracker::PoseSample sample;
+        sample.station = tracker::head_station;
+        sample.position_m = {0.1, 0.2, 0.3};
+        sample.rotation = sensor;
+        place_on_table(std::span(&sample, 1), {.table_from_tracker = table_from_tracker,
+                                               .sensor_from_prop = {},
+                                               .eye_in_sensor_m = eye,
+                                               .right_in_sensor = right});
+        const auto on_table =
+            [&](const glm::dvec3& in_sensor) { // by the axes, without a quaternion of the head
+                const glm::dvec3 k = glm::dvec3(0.1, 0.2, 0.3) + sensor * in_sensor;
+                return glm::dvec3(k.x, -k.y, 0.3 - k.z);
+            };
+        EXPECT_LT(glm::distance(sample.position_m, on_table(eye)), 1e-15);
+        const glm::dvec3 expected = on_table(eye + glm::normalize(right)) - on_table(eye);
+        EXPECT_LT(glm::distance(sample.rotation * glm::dvec3(1, 0, 0), expected), 1e-8);
+        EXPECT_NEAR(glm::length(sample.rotation), 1.0, 1e-12);
+    }
 }
 
 TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {

@@ -26,6 +26,7 @@ Json eye_json(const calibration::EyeFit& fit) {
               {"deviation_mm", nullptr},
               {"left_m", nullptr},
               {"right_m", nullptr},
+              {"right_in_sensor", nullptr},
               {"pupils_mm", nullptr},
               {"picture_mm", nullptr},
               {"hidden_error_mm", nullptr},
@@ -45,6 +46,7 @@ Json eye_json(const calibration::EyeFit& fit) {
         json["deviation_mm"] = {1e3 * deviation.x(), 1e3 * deviation.y(), 1e3 * deviation.z()};
         json["left_m"] = vector_json(eyes.left_m);
         json["right_m"] = vector_json(eyes.right_m);
+        json["right_in_sensor"] = vector_json(glm::normalize(eyes.right_m - eyes.left_m));
         json["pupils_mm"] = 1e3 * glm::distance(eyes.left_m, eyes.right_m);
         json["picture_mm"] = 1e3 * eyes.picture_m;
         json["hidden_error_mm"] = 1e3 * eyes.hidden_m;
@@ -64,6 +66,10 @@ std::string eye_text(const calibration::EyeFit& fit) {
                             "{:.4f}, {:.4f}]; the eyes are "
                             "{:.0f} mm apart.\n",
                             eye.x, eye.y, eye.z, 1e3 * glm::distance(fit.eyes->left_m, fit.eyes->right_m));
+        const glm::dvec3 right = glm::normalize(fit.eyes->right_m - fit.eyes->left_m);
+        text += fmt::format(
+            "For stereo, in [tracker] of the settings: right_in_sensor = [{:.3f}, {:.3f}, {:.3f}].\n",
+            right.x, right.y, right.z);
         text += fmt::format("A line of sight passes the eye that the others find by {:.1f} mm on average, "
                             "{:.1f} mm at worst.\n",
                             1e3 * fit.mean_residual_m, 1e3 * fit.worst_residual_m);
