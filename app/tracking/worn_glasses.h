@@ -2,7 +2,7 @@
 ///
 /// Worn     a living head is never still: it sways, breathes and nods by millimetres. Glasses lie if the smoothed pose
 ///          of their sensor has stayed within `still_m` of one place for `still_for`; they are worn again from the
-///          first pose beyond that. A noisier sensor is never still: its glasses count as worn.
+///          first pose beyond that. The glasses of a sensor with more noise than that count as worn.
 /// Frame    any that does not move; metres.
 /// Time     of the poses; a decreasing time counts as none. The rhythm of the poses does not matter.
 /// Threads  a value; one caller. Allocates nothing.
@@ -18,9 +18,9 @@ namespace frustumscreen::tracking {
 class WornGlasses {
 public:
     static constexpr Nanoseconds still_for = std::chrono::seconds(6);
-    /// Movement of a point `lever_m` from the sensor: shift plus turn. A tracker's scatter at rest is about 0.3 mm and
-    /// 0.15 degrees (motion_filter.h); smoothed, it is a tenth of that.
-    static constexpr double still_m = 0.0005;
+    /// Movement of a point `lever_m` from the sensor: shift plus turn. A tracker at rest scatters by 0.3 mm and 0.15
+    /// degrees on each axis (motion_filter.h); smoothed, two of its poses are some 0.2 mm apart.
+    static constexpr double still_m = 0.001;
     static constexpr double lever_m = 0.1;
 
     /// `table_from_sensor`: smoothed (pose_estimator.h).
