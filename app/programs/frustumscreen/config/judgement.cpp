@@ -166,40 +166,40 @@ settings::Rectangle judge_zone(const settings::Settings& settings, const std::ve
     return *first;
 }
 
-/// A point of the artifact on the prop's far side is the one that eyes must diverge for the most.
+/// Why the parallax for the nearest eyes is too large, and what makes it smaller.
+std::string parallax_fault(const settings::Settings& settings, double parallax_rad) {
+    const settings::EyeSettings& eye = settings.eye;
+    const std::optional<double> comfortable_m = settings::comfortable_distance_m(settings);
+    return fmt::format("Stereo tires eyes near the prop: the parallax is up to {:.2f} degrees at "
+                       "eye.nearest_m, {:g} m, and comfortable is 1 degree. {}Artifacts that fill less of "
+                       "the prop have less parallax; eye.interocular_mm = {:.0f} makes it comfortable.",
+                       glm::degrees(parallax_rad), eye.nearest_m,
+                       comfortable_m ? fmt::format("Keep visitors' eyes {:.2f} m away, and set eye.nearest_m "
+                                                   "to that. ",
+                                                   std::ceil(100.0 * *comfortable_m) / 100.0)
+                                     : "",
+                       std::floor(eye.interocular_mm * settings::comfortable_parallax_rad / parallax_rad));
+}
+
 void judge_stereo(const settings::Settings& settings, Page& page) {
     const settings::Stereo stereo = settings::stereo_of(settings);
     if (stereo == settings::Stereo::Off) {
         return;
     }
-    const settings::EyeSettings& eye = settings.eye;
-    const double parallax = settings::largest_parallax_rad(settings, eye.nearest_m);
-    page.text +=
-        fmt::format("  In stereo ({}), a point at the far side of the prop has a parallax of up to {:.2f} "
-                    "degrees against the face that shows it, for eyes {:g} m from the prop "
-                    "(eye.nearest_m).\n",
-                    settings::name_of(stereo), glm::degrees(parallax), eye.nearest_m);
-    if (parallax > settings::comfortable_parallax_rad) {
-        const std::optional<double> comfortable_m = settings::comfortable_distance_m(settings);
-        page.faults.push_back(fmt::format(
-            "Stereo tires eyes near the prop: the parallax is up to {:.2f} degrees at eye.nearest_m, {:g} m, "
-            "and "
-            "comfortable is 1 degree. {}Artifacts that fill less of the prop have less parallax; "
-            "eye.interocular_mm = "
-            "{:.0f} makes it comfortable.",
-            glm::degrees(parallax), eye.nearest_m,
-            comfortable_m ? fmt::format("Keep visitors' eyes {:.2f} m away, and set eye.nearest_m to that. ",
-                                        std::ceil(100.0 * *comfortable_m) / 100.0)
-                          : "",
-            std::floor(eye.interocular_mm * settings::comfortable_parallax_rad / parallax)));
+    const double parallax_rad = settings::largest_parallax_rad(settings, settings.eye.nearest_m);
+    page.text += fmt::format("  In stereo ({}), a point at the far side of the prop has a parallax of up to "
+                             "{:.2f} degrees against the face that shows it, for eyes {:g} m from the prop "
+                             "(eye.nearest_m).\n",
+                             settings::name_of(stereo), glm::degrees(parallax_rad), settings.eye.nearest_m);
+    if (parallax_rad > settings::comfortable_parallax_rad) {
+        page.faults.push_back(parallax_fault(settings, parallax_rad));
     }
     constexpr double steady_hz = 100.0; // 50 pictures a second for each eye
     if (stereo == settings::Stereo::FrameSequential && settings.projector.refresh_hz < steady_hz) {
-        page.faults.push_back(
-            fmt::format("Frame-sequential stereo flickers: each eye sees {:g} pictures a second, and "
-                        "needs 50. Take a mode of the projector with projector.refresh_hz = 100 or "
-                        "more, or another layout.",
-                        0.5 * settings.projector.refresh_hz));
+        page.faults.push_back(fmt::format("Frame-sequential stereo flickers: each eye sees {:g} pictures a "
+                                          "second, and needs 50. Take a mode of the projector with "
+                                          "projector.refresh_hz = 100 or more, or another layout.",
+                                          0.5 * settings.projector.refresh_hz));
     }
 }
 
