@@ -90,10 +90,6 @@ private:
     }
 };
 
-bool has_two_eyes(const GuidedState& tracked_state) {
-    return tracked_state.to_right_eye_m != glm::dvec3(0.0);
-}
-
 /// The situation for one of the two eyes alone.
 GuidedState of_left_eye(const GuidedState& tracked_state) {
     return {tracked_state.table_from_prop, tracked_state.eye_m - tracked_state.to_right_eye_m};
@@ -112,7 +108,7 @@ FaceReader::FaceReader(GuidanceSetup setup)
 }
 
 FaceSets FaceReader::read(const GuidedState& tracked_state) const {
-    if (has_two_eyes(tracked_state)) {
+    if (tracked_state.has_two_eyes()) {
         const FaceSets left = read(of_left_eye(tracked_state));
         return {left.seen | read(of_right_eye(tracked_state)).seen, left.lit};
     }
@@ -127,7 +123,7 @@ FaceSets FaceReader::read(const GuidedState& tracked_state) const {
 }
 
 bool FaceReader::valid(const GuidedState& tracked_state) const {
-    if (has_two_eyes(tracked_state)) {
+    if (tracked_state.has_two_eyes()) {
         return valid(of_left_eye(tracked_state)) && valid(of_right_eye(tracked_state));
     }
     const Views views(setup_, projector_from_table_, tracked_state);
@@ -137,7 +133,7 @@ bool FaceReader::valid(const GuidedState& tracked_state) const {
 }
 
 bool FaceReader::whole(const GuidedState& tracked_state) const {
-    if (has_two_eyes(tracked_state)) {
+    if (tracked_state.has_two_eyes()) {
         return whole(of_left_eye(tracked_state)) && whole(of_right_eye(tracked_state));
     }
     const std::span<const glm::dvec3> hull = shown();
@@ -155,14 +151,14 @@ bool FaceReader::whole(const GuidedState& tracked_state) const {
 }
 
 double FaceReader::unlit_px(const GuidedState& tracked_state) const {
-    if (has_two_eyes(tracked_state)) {
+    if (tracked_state.has_two_eyes()) {
         return 0.5 * (unlit_px(of_left_eye(tracked_state)) + unlit_px(of_right_eye(tracked_state)));
     }
     return area_px(tracked_state, read(tracked_state).unlit());
 }
 
 double FaceReader::lost_px(const GuidedState& tracked_state) const {
-    if (has_two_eyes(tracked_state)) {
+    if (tracked_state.has_two_eyes()) {
         return 0.5 * (lost_px(of_left_eye(tracked_state)) + lost_px(of_right_eye(tracked_state)));
     }
     const std::span<const glm::dvec3> hull = shown();

@@ -49,6 +49,8 @@ struct GuidedState {
     glm::dvec3 eye_m{0.0}; ///< between the visitor's eyes
     /// Stereo: from `eye_m` to the right eye; the left one is as far to the other side. Zero: one eye.
     glm::dvec3 to_right_eye_m{0.0};
+
+    [[nodiscard]] bool has_two_eyes() const { return to_right_eye_m != glm::dvec3(0.0); }
 };
 
 /// Sets of faces: bit k is face k of the prop.

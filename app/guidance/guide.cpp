@@ -182,8 +182,9 @@ void Guide::look(MonotonicTime now, const GuidedState& tracked_state, Sensing se
         advisor_.begin(tracked_state);
         next_look_ = now + looks_every;
     }
-    // An examination through the artifact's hull takes longer than one of the faces.
-    const int share = advisor_.reader().shown().empty() ? 1 : 3;
+    // An examination through the artifact's hull takes longer than one of the faces, and one of two eyes twice as long.
+    const int share =
+        (advisor_.reader().shown().empty() ? 1 : 3) * (looks_at_ && looks_at_->has_two_eyes() ? 2 : 1);
     if (looks_at_ && advisor_.advance((asked_ ? looks_a_step_asked : looks_a_step) / share)) {
         take(now, *looks_at_, sensing);
         looks_at_.reset();

@@ -134,7 +134,7 @@ GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedStat
             0.5 * std::numbers::pi * (static_cast<double>(move.side) - 1.0) + execution.aside_rad;
         const double radius = glm::length(glm::dvec2(before.eye_m)) * std::sqrt(execution.amount);
         tracked_state.eye_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), before.eye_m.z};
-        if (before.to_right_eye_m != glm::dvec3(0.0)) { // the head turns with the way
+        if (before.has_two_eyes()) { // the head turns with the way
             const double round_rad = azimuth - std::atan2(before.eye_m.y, before.eye_m.x);
             tracked_state.to_right_eye_m = about_vertical(round_rad) * before.to_right_eye_m;
         }
