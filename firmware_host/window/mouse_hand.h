@@ -46,14 +46,17 @@ public:
                 .rotation = glm::angleAxis(angle_, glm::dvec3(0.0, 0.0, 1.0)),
                 .ok = true};
     }
+    /// The head is level and looks at the prop.
     [[nodiscard]] tracker::PoseSample head(MonotonicTime now) const {
         const glm::dvec3 direction(std::cos(eye_azimuth_) * std::cos(eye_elevation_),
                                    std::sin(eye_azimuth_) * std::cos(eye_elevation_),
                                    std::sin(eye_elevation_));
+        const glm::dvec3 eye_m = eye_distance_m_ * direction;
+        const double turn = std::atan2(eye_m.x - centre_m_.x, centre_m_.y - eye_m.y);
         return {.time = now,
                 .station = tracker::head_station,
-                .position_m = eye_distance_m_ * direction,
-                .rotation = {1.0, 0.0, 0.0, 0.0},
+                .position_m = eye_m,
+                .rotation = glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
                 .ok = true};
     }
 

@@ -47,5 +47,19 @@ TEST(MouseHand, TakesTheEyeAroundTheTable) {
     }
 }
 
+TEST(MouseHand, TurnsTheHeadLevelToTheProp) {
+    MouseHand hand({0.3, 0.2}, {0.0, -0.6, 0.6});
+    EXPECT_LT(glm::distance(hand.head({}).rotation * glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0)), 1e-12);
+    hand.look(glm::half_pi<double>(), 0.1); // to the table's right: the right eye is on the far side
+    EXPECT_LT(glm::distance(hand.head({}).rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
+    hand.take({0.0, 0.0});
+    hand.move({0.1, -0.15});
+    const tracker::PoseSample head = hand.head({});
+    const glm::dvec3 ahead = hand.prop({}).position_m - head.position_m;
+    const glm::dvec3 seen = glm::conjugate(head.rotation) * ahead;
+    EXPECT_NEAR(seen.x, 0.0, 1e-12);
+    EXPECT_GT(seen.y, 0.0);
+}
+
 } // namespace
 } // namespace frustumscreen::window

@@ -27,7 +27,7 @@ Result<void> write_pictures(const std::filesystem::path& folder, const show::Loo
         poses.push_back({.time = still.time,
                          .station = tracker::head_station,
                          .position_m = still.tracked_state.eye_m,
-                         .rotation = {1.0, 0.0, 0.0, 0.0},
+                         .rotation = still.tracked_state.table_from_head,
                          .ok = true});
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
         TRY_VOID(write_file(file, image::encode_png(still.picture)));
