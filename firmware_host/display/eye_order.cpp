@@ -28,7 +28,8 @@ KmsAnswer EyeOrder::light(std::uint32_t connector, const ModeTiming& mode, const
         news_.reset();
         not_before_.reset();
         failed_ = KmsAnswer::Done;
-        stopped_ = right_shown_ = refuses_rows_ = false;
+        refusals_ = 0;
+        stopped_ = right_shown_ = false;
     }
     return answer;
 }
@@ -122,7 +123,8 @@ KmsAnswer EyeOrder::flip_on() {
     } else if (answer == KmsAnswer::Busy) {
         not_before_ = now + busy_pause;
     } else if (answer == KmsAnswer::Refused && *row > 0 && !right_shown_) {
-        refuses_rows_ = true; // the left eye's picture stays
+        ++refusals_; // the left eye's picture stays
+        not_before_ = now + busy_pause;
     } else {
         stopped_ = true;
         return answer;

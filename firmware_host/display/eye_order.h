@@ -37,9 +37,12 @@ public:
     /// The first flip to the framebuffer of the last `light` or `flip`, or its failure; once.
     [[nodiscard]] std::optional<Flipped> next_shown();
     /// Whether both eyes' pictures are shown.
-    [[nodiscard]] bool in_turn() const { return !refuses_rows_ && card_.flips_keep_time(); }
+    [[nodiscard]] bool in_turn() const { return refusals_ < max_refusals && card_.flips_keep_time(); }
 
 private:
+    /// After so many the card cannot change the shown rows in a flip.
+    static constexpr int max_refusals = 3;
+
     struct Picture {
         FramebufferId framebuffer = 0;
         std::uint64_t ticket = 0; ///< the caller's
@@ -70,7 +73,7 @@ private:
     KmsAnswer failed_ = KmsAnswer::Done;       ///< for the next `flip`: a flip without news failed
     bool stopped_ = false;                     ///< no flip until the caller's next picture
     bool right_shown_ = false;                 ///< since `light`
-    bool refuses_rows_ = false;                ///< the card cannot change the rows in a flip
+    int refusals_ = 0;                         ///< of the right eye's first flip
 };
 
 } // namespace frustumscreen::display
