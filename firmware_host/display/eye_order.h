@@ -69,11 +69,11 @@ private:
     std::optional<Queued> queued_;
     std::uint64_t ticket_ = 0; ///< of the last call of the card
     std::optional<MonotonicTime> not_before_;
-    std::optional<Flipped> news_;              ///< for `next_shown`
-    KmsAnswer failed_ = KmsAnswer::Done;       ///< for the next `flip`: a flip without news failed
-    bool stopped_ = false;                     ///< no flip until the caller's next picture
-    bool right_shown_ = false;                 ///< since `light`
-    int refusals_ = 0;                         ///< of the right eye's first flip
+    std::optional<Flipped> news_;        ///< for `next_shown`
+    KmsAnswer failed_ = KmsAnswer::Done; ///< for the next `flip`: a flip without news failed
+    bool stopped_ = false;               ///< no flip until the caller's next picture
+    bool right_shown_ = false;           ///< since `light`
+    int refusals_ = 0;                   ///< of the right eye's first flip
 };
 
 } // namespace frustumscreen::display

@@ -57,7 +57,8 @@ std::vector<std::string> card_paths(const std::filesystem::path& folder) {
 Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request,
                               const std::string& folder) {
     if (!name.empty()) {
-        return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name), request);
+        return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name),
+                         request);
     }
     Result<KmsCard> best = fail(ErrorKind::DeviceLost, "display.no_card",
                                 "display: no graphics card in {}; load its driver", folder);

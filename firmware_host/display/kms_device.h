@@ -38,7 +38,7 @@ struct ScannedOut {
 
 struct Flipped {
     MonotonicTime time;
-    std::uint64_t ticket = 0; ///< ticket of the call that requested it
+    std::uint64_t ticket = 0;  ///< ticket of the call that requested it
     std::uint32_t refresh = 0; ///< number of the refresh that shows it; the card counts its refreshes
     KmsAnswer answer = KmsAnswer::Done; ///< any other: the flip failed after it was queued
 };

@@ -1,6 +1,6 @@
 /// The projector on a connector of this machine's graphics card.
 ///
-/// Of EyeLayout::InTurn the picture is twice as high as what the projector shows: the left eye's above the right eye's.
+/// For EyeLayout::InTurn the picture is twice as high as what the projector shows: the left eye's above the right eye's.
 ///
 /// The renderer draws into one framebuffer object of the picture's size. Each picture is copied from there to
 /// the scanned-out framebuffer, scaled if the projector's mode has another size, so plugging, unplugging or

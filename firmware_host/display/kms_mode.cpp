@@ -47,7 +47,7 @@ constexpr ModeTiming hd_1080{.clock_khz = 148500,
                              .flags = mode_hsync_positive | mode_vsync_positive,
                              .preferred = false};
 
-/// Of these alone the best is chosen; HDMI's 3D modes follow from it.
+/// The best of these is chosen; a mode in HDMI's 3D follows from it.
 bool is_usable(const ModeTiming& mode) {
     return mode.width > 0 && mode.height > 0 && refresh_hz(mode) > 0.0 && (mode.flags & mode_stereo) == 0;
 }

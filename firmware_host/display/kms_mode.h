@@ -70,12 +70,12 @@ struct CardSeen {
     [[nodiscard]] bool operator==(const CardSeen&) const = default;
 };
 
-/// What the exhibit's picture holds.
+/// Contents of the exhibit's picture.
 enum class EyeLayout : std::uint8_t {
     One,        ///< one picture for both eyes, or two that differ in colour
     SideBySide, ///< the left eye's picture in the left half, the right eye's in the right half
     TopBottom,  ///< the left eye's picture in the upper half, the right eye's in the lower half
-    InTurn,     ///< two pictures of the screen's size, the left eye's above the right eye's; a refresh shows one of them
+    InTurn, ///< two pictures of the screen's size, the left eye's above the right eye's; a refresh shows one of them
 };
 /// Pictures of the screen's size in the exhibit's picture, above each other.
 [[nodiscard]] constexpr int stacked(EyeLayout eyes) {

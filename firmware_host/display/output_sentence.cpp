@@ -16,7 +16,7 @@ std::string kernel_argument(std::string_view connector, int width, int height, d
                        hz > 0.0 ? std::lround(hz) : std::lround(OutputRequest{}.picture_hz));
 }
 
-/// What the projector makes of the eyes' pictures, as the end of the sentence about a lit output.
+/// Says how the eyes' pictures reach the eyes, at the end of the sentence about a lit output.
 struct EyeClause {
     DeviceCondition condition{DeviceHealth::Well, "display.lit"};
     std::string words; ///< empty: one picture
@@ -25,10 +25,11 @@ struct EyeClause {
 EyeClause clause_in_turn(const LitOutput& output) {
     const double hz = refresh_hz(output.mode);
     if (!output.in_turn) {
-        return {{DeviceHealth::Impaired, "display.one_eye"},
-                fmt::format("; {} cannot show the eyes in turn, so the left eye's picture is shown alone: set "
-                            "eye.stereo to another layout, or use another graphics card",
-                            output.card)};
+        return {
+            {DeviceHealth::Impaired, "display.one_eye"},
+            fmt::format("; {} cannot show the eyes in turn, so the left eye's picture is shown alone: set "
+                        "eye.stereo to another layout, or use another graphics card",
+                        output.card)};
     }
     if (hz < min_in_turn_hz) {
         return {{DeviceHealth::Impaired, "display.eyes_flicker"},
@@ -40,8 +41,7 @@ EyeClause clause_in_turn(const LitOutput& output) {
 }
 
 EyeClause clause_of(const LitOutput& output) {
-    const std::string_view layout =
-        output.eyes == EyeLayout::SideBySide ? "side by side" : "top and bottom";
+    const std::string_view layout = output.eyes == EyeLayout::SideBySide ? "side by side" : "top and bottom";
     switch (output.eyes) {
     case EyeLayout::One:
         break;

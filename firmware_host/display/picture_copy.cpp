@@ -76,8 +76,10 @@ Result<PictureCopy> PictureCopy::create(int stacked) {
                        make_sampler(GL_LINEAR, of_codes));
 }
 
-PictureCopy::PictureCopy(int stacked, gl::GlProgram program, gl::GlSampler nearest, gl::GlSampler interpolated)
-    : stacked_(stacked), program_(std::move(program)), nearest_(std::move(nearest)), interpolated_(std::move(interpolated)) {}
+PictureCopy::PictureCopy(int stacked, gl::GlProgram program, gl::GlSampler nearest,
+                         gl::GlSampler interpolated)
+    : stacked_(stacked), program_(std::move(program)), nearest_(std::move(nearest)),
+      interpolated_(std::move(interpolated)) {}
 
 /// Draws picture number `number` of `count` above each other at `place`, but writes only the pixels of `part`; rows are the
 /// target's.

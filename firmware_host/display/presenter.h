@@ -7,7 +7,8 @@
 /// `stay_dark` turns the projector off, as DPMS does, whatever is plugged in or out; the next picture lights
 /// it again.
 ///
-/// Of two pictures above each other (EyeLayout::InTurn) the device shows one at each refresh; both are replaced together.
+/// If the picture holds two above each other (EyeLayout::InTurn), the device shows one at each refresh; both are replaced
+/// together.
 ///
 /// A picture without a size is drawn in the mode's size. If picture and mode differ in size, the card's own
 /// scaler fills the mode if it can; otherwise the picture is scaled while it is copied.

@@ -4,107 +4,6 @@
 namespace frustumscreen::display {
 namespace {
 
-bool has_words(std::string_view text, std::string_view words) {
-    return text.find(words) != std::string_view::npos;
-}
-
-/// Presents pictures in both eyes on an open card.
-class Sitting {
-public:
-    Sitting(CardOnDesk& desk, unsigned seed, const OutputRequest& request = wish_for_turns())
-        : desk_(desk), random_(seed), card_(KmsCard::open(card_path, request)) {
-        desk.card.refresh_us = turn_us;
-        desk.card.flips_at_once = false;
-        if (!card_) {
-            end_ = card_.error().message;
-            return;
-        }
-        kms_ = make_kms_device(*card_);
-        clock_.emplace(*kms_, desk.card, [this] { return latency(); });
-        seen_eyes_.emplace(desk.card, desk.hdmi, clock_->accepted);
-        presenter_.emplace(
-            *clock_,
-            [this](PixelSize size) { return StampedPair::make(card_->file(), size, clock_->drawn); }, request);
-    }
-
-    /// One frame of 60 Hz that draws for `draws`; returns when its picture is said to be lit.
-    MonotonicTime frame(Nanoseconds draws = std::chrono::milliseconds(4)) {
-        if (!end_.empty()) {
-            return {};
-        }
-        const CardSeen seen = card_->look(!presenter_->lit());
-        if (seen != seen_) {
-            seen_ = seen;
-            presenter_->connected(seen_);
-        }
-        const MonotonicTime begin = clock_->now();
-        clock_->pass_until(begin + draws);
-        ++clock_->drawn;
-        const Result<MonotonicTime> shown = presenter_->present({0, 0, 320, 400}, true);
-        end_ = shown ? "" : shown.error().message;
-        clock_->pass_until(presenter_->next_frame(begin, one_refresh));
-        return shown.value_or(MonotonicTime{});
-    }
-    void frames(int count) {
-        for (int k = 0; k < count; ++k) {
-            frame();
-        }
-    }
-    void sleep(int count) {
-        for (int k = 0; k < count && end_.empty(); ++k) {
-            const Result<void> dark = presenter_->stay_dark(true);
-            end_ = dark ? "" : dark.error().message;
-            rest(one_refresh);
-        }
-    }
-    /// Nothing new is drawn.
-    void rest(Nanoseconds length) {
-        if (clock_) {
-            clock_->pass_until(clock_->now() + length);
-        }
-    }
-    void plugged() {
-        if (end_.empty()) {
-            seen_ = card_->look(true);
-            presenter_->connected(seen_);
-        }
-    }
-    /// Whether the next pictures are shown to the eyes in their order, at every refresh.
-    [[nodiscard]] bool in_order(int pictures = 60) {
-        frames(10);
-        const int right = eyes().right;
-        const std::uint32_t before = desk_.card.refreshes;
-        frames(pictures);
-        const int refreshes = static_cast<int>(desk_.card.refreshes - before);
-        return refreshes >= 2 * pictures - 2 && eyes().right - right == refreshes;
-    }
-    [[nodiscard]] const ShownEyes& eyes() const { return *seen_eyes_; }
-    [[nodiscard]] bool is_open() const { return seen_eyes_.has_value(); }
-    [[nodiscard]] const std::string& end() const { return end_; }
-    [[nodiscard]] std::string_view state() const { return presenter_->state(); }
-    [[nodiscard]] DeviceCondition condition() const { return presenter_->condition(); }
-    [[nodiscard]] const EyesOnTestClock& clock() const { return *clock_; }
-
-    int slow_wakes = 0; ///< of a hundred: the thread wakes a refresh late or later
-
-private:
-    Nanoseconds latency() {
-        const auto one_of = [this](unsigned count) { return static_cast<int>(random_() % count); };
-        return one_of(100) < slow_wakes ? std::chrono::microseconds(2'000 + one_of(20'000))
-                                        : std::chrono::microseconds(20 + one_of(500));
-    }
-
-    CardOnDesk& desk_;
-    std::mt19937 random_;
-    Result<KmsCard> card_;
-    std::unique_ptr<KmsDevice> kms_;
-    std::optional<EyesOnTestClock> clock_;
-    std::optional<ShownEyes> seen_eyes_;
-    std::optional<Presenter> presenter_;
-    CardSeen seen_;
-    std::string end_;
-};
-
 class EyeOrderTest : public Desk {
 protected:
     EyeOrderTest() { desk.card.plug(desk.hdmi, fast_modes()); }
@@ -118,7 +17,8 @@ TEST_F(EyeOrderTest, EachRefreshShowsTheEyeOfItsNumber) {
         EXPECT_TRUE(sitting.in_order());
         EXPECT_EQ(sitting.eyes().wrongs, "");
         EXPECT_EQ(sitting.eyes().by_card, 0);
-        EXPECT_EQ(sitting.state(), "the projector at HDMI-A-1 is lit, 320 x 200 at 120 Hz; each eye gets 60 Hz");
+        EXPECT_EQ(sitting.state(),
+                  "the projector at HDMI-A-1 is lit, 320 x 200 at 120 Hz; each eye gets 60 Hz");
         EXPECT_EQ(sitting.condition().health, DeviceHealth::Well);
         EXPECT_GE(sitting.eyes().newest + 2, sitting.clock().drawn) << "the newest picture is shown";
     }
@@ -225,7 +125,8 @@ TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
         const auto one_of = [&random](unsigned count) { return static_cast<int>(random() % count); };
         Sitting sitting(other, seed);
         for (int step = 0; step < 25; ++step) {
-            const int error = std::array{EBUSY, EINVAL, EACCES, ENOMEM}.at(static_cast<std::size_t>(one_of(4)));
+            const int error =
+                std::array{EBUSY, EINVAL, EACCES, ENOMEM}.at(static_cast<std::size_t>(one_of(4)));
             switch (one_of(9)) {
             case 0:
                 other.card.late = one_of(40);
@@ -295,11 +196,14 @@ TEST_F(EyeOrderTest, AnyCallMayFailOnceInTurn) {
             sitting.sleep(6);
             sitting.frames(3);
             outcome.calls = own.calls();
-            const auto says = [&sitting](std::string_view words) { return has_words(sitting.state(), words); };
+            const auto says = [&sitting](std::string_view words) {
+                return has_words(sitting.state(), words);
+            };
             for (int k = 0; k < 20 && sitting.end().empty() && !says("each eye gets 60 Hz"); ++k) {
                 sitting.frames(10);
             }
-            const bool one_eye = sitting.end().empty() && one_eye_will_do && says("cannot show the eyes in turn");
+            const bool one_eye =
+                sitting.end().empty() && one_eye_will_do && says("cannot show the eyes in turn");
             if (sitting.end().empty() && !one_eye && !sitting.in_order(20)) {
                 outcome.wrongs += "not in order: " + std::string(sitting.state()) + "; ";
             }
@@ -336,7 +240,8 @@ TEST_F(EyeOrderTest, WhereTheEyesCannotTakeTurnsTheLeftOnesPictureIsShownAndTheC
         ASSERT_TRUE(desk.card.shown(desk.hdmi)) << why;
         EXPECT_EQ(desk.card.scanned(desk.hdmi)->first_row, 0U) << why;
         EXPECT_GE(sitting.eyes().newest + 1, sitting.clock().drawn) << why << ": new pictures are shown";
-        EXPECT_TRUE(has_words(sitting.state(), "/dev/dri/fake0 cannot show the eyes in turn, so the left eye's"))
+        EXPECT_TRUE(
+            has_words(sitting.state(), "/dev/dri/fake0 cannot show the eyes in turn, so the left eye's"))
             << sitting.state();
         EXPECT_EQ(sitting.condition().health, DeviceHealth::Impaired);
         EXPECT_EQ(sitting.condition().id, "display.one_eye");
@@ -380,8 +285,9 @@ TEST_F(EyeOrderTest, ASlowModeIsTakenOnlyWithoutAFastOneAndItsNumberIsTold) {
     Sitting sitting(desk, 9);
     desk.card.refresh_us = 16'667;
     sitting.frames(30);
-    EXPECT_EQ(sitting.state(), "the projector at HDMI-A-1 is lit, 320 x 200 at 60 Hz; each eye gets 30 Hz, which "
-                               "flickers: set display.mode to one of at least 100 Hz");
+    EXPECT_EQ(sitting.state(),
+              "the projector at HDMI-A-1 is lit, 320 x 200 at 60 Hz; each eye gets 30 Hz, which "
+              "flickers: set display.mode to one of at least 100 Hz");
     EXPECT_EQ(sitting.condition().health, DeviceHealth::Impaired);
     EXPECT_EQ(sitting.condition().id, "display.eyes_flicker");
     desk.card.plug(desk.hdmi, {kernel_mode(320, 200, 60.0, true), kernel_mode(256, 192, 120.0)});

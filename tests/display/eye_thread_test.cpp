@@ -46,7 +46,8 @@ struct Shot {
 class ObedientCard final : public KmsDevice {
 public:
     ObedientCard(const EventFile& file, std::vector<Shot>& shots) : file_(file), shots_(shots) {}
-    KmsAnswer light(std::uint32_t, const ModeTiming&, const ScannedOut& shown, std::uint64_t ticket) override {
+    KmsAnswer light(std::uint32_t, const ModeTiming&, const ScannedOut& shown,
+                    std::uint64_t ticket) override {
         return flip_from(0, shown.framebuffer, ticket);
     }
     KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override { return flip_from(0, shown, ticket); }
@@ -91,8 +92,9 @@ protected:
         EXPECT_EQ(shown->answer, KmsAnswer::Done);
     }
     void light(FramebufferId picture) {
-        ASSERT_EQ(thread_->light(1, a_mode(320, 200, 120.0), {picture, {320, 200}, {0, 0, 320, 200}}, picture),
-                  KmsAnswer::Done);
+        ASSERT_EQ(
+            thread_->light(1, a_mode(320, 200, 120.0), {picture, {320, 200}, {0, 0, 320, 200}}, picture),
+            KmsAnswer::Done);
         ASSERT_TRUE(thread_->wait_flip(long_wait));
     }
 

@@ -108,7 +108,8 @@ public:
             clock_.time = std::max(clock_.time, next);
             if (refreshes_at_ <= wakes_at_) {
                 card_.refresh();
-                refreshes_at_ = from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us));
+                refreshes_at_ =
+                    from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us));
                 wakes_at_ = std::min(wakes_at_, now() + latency_());
             } else {
                 order_.turn();
@@ -129,7 +130,7 @@ private:
     MonotonicTime wakes_at_ = MonotonicTime::max();
 };
 
-/// What the projector receives, refresh by refresh.
+/// Judges what the projector receives, refresh by refresh.
 class ShownEyes {
 public:
     /// `accepted`: the newest picture that was taken to be shown.
@@ -144,7 +145,7 @@ public:
     int right = 0;    ///< refreshes that show an eye's picture for the first time, as they should
     int repeated = 0; ///< refreshes without a flip
     int dark = 0;
-    int by_card = 0; ///< flips that took the card longer than to the next refresh
+    int by_card = 0;          ///< flips that took the card longer than to the next refresh
     std::uint32_t newest = 0; ///< the newest picture that was shown
     MonotonicTime newest_at;  ///< since when
     std::string wrongs;
@@ -154,11 +155,13 @@ private:
     [[nodiscard]] std::uint32_t stamp_of(std::uint32_t framebuffer, std::uint32_t row) const {
         const std::span<const std::byte> memory = card_.pixels(framebuffer);
         std::uint32_t value = 0;
-        std::memcpy(&value, memory.subspan(memory.size() / card_.height(framebuffer) * row).data(), sizeof value);
+        std::memcpy(&value, memory.subspan(memory.size() / card_.height(framebuffer) * row).data(),
+                    sizeof value);
         return value;
     }
     void wrong(const std::string& what) {
-        wrongs += wrongs.size() < 500 ? "refresh " + std::to_string(card_.refreshes) + ": " + what + "; " : "";
+        wrongs +=
+            wrongs.size() < 500 ? "refresh " + std::to_string(card_.refreshes) + ": " + what + "; " : "";
     }
     void look() {
         const bool stayed = stamp_ && card_.has(scanned_.framebuffer);
@@ -184,7 +187,8 @@ private:
         if (picture < newest) {
             wrong("an older picture comes again");
         }
-        newest_at = picture > newest ? from_microseconds(static_cast<std::int64_t>(card_.time_us)) : newest_at;
+        newest_at =
+            picture > newest ? from_microseconds(static_cast<std::int64_t>(card_.time_us)) : newest_at;
         newest = picture;
         repeated += scanned_.waited == 0 ? 1 : 0;
         by_card += scanned_.waited > 1 ? 1 : 0;
@@ -208,6 +212,107 @@ private:
     FakeCard::Scanned scanned_;          ///< since the refresh before
     std::optional<std::uint32_t> stamp_; ///< its stamp; nullopt: it was dark
     bool begun_ = false;                 ///< both eyes' pictures are shown
+};
+
+inline bool has_words(std::string_view text, std::string_view words) {
+    return text.find(words) != std::string_view::npos;
+}
+
+/// Presents pictures in both eyes on an open card.
+class Sitting {
+public:
+    Sitting(CardOnDesk& desk, unsigned seed, const OutputRequest& request = wish_for_turns())
+        : desk_(desk), random_(seed), card_(KmsCard::open(card_path, request)) {
+        desk.card.refresh_us = turn_us;
+        desk.card.flips_at_once = false;
+        if (!card_) {
+            end_ = card_.error().message;
+            return;
+        }
+        kms_ = make_kms_device(*card_);
+        clock_.emplace(*kms_, desk.card, [this] { return latency(); });
+        seen_eyes_.emplace(desk.card, desk.hdmi, clock_->accepted);
+        presenter_.emplace(
+            *clock_, [this](PixelSize size) { return StampedPair::make(card_->file(), size, clock_->drawn); },
+            request);
+    }
+
+    /// One frame of 60 Hz that draws for `draws`; returns when its picture is said to be lit.
+    MonotonicTime frame(Nanoseconds draws = std::chrono::milliseconds(4)) {
+        if (!end_.empty()) {
+            return {};
+        }
+        const CardSeen seen = card_->look(!presenter_->lit());
+        if (seen != seen_) {
+            seen_ = seen;
+            presenter_->connected(seen_);
+        }
+        const MonotonicTime begin = clock_->now();
+        clock_->pass_until(begin + draws);
+        ++clock_->drawn;
+        const Result<MonotonicTime> shown = presenter_->present({0, 0, 320, 400}, true);
+        end_ = shown ? "" : shown.error().message;
+        clock_->pass_until(presenter_->next_frame(begin, one_refresh));
+        return shown.value_or(MonotonicTime{});
+    }
+    void frames(int count) {
+        for (int k = 0; k < count; ++k) {
+            frame();
+        }
+    }
+    void sleep(int count) {
+        for (int k = 0; k < count && end_.empty(); ++k) {
+            const Result<void> dark = presenter_->stay_dark(true);
+            end_ = dark ? "" : dark.error().message;
+            rest(one_refresh);
+        }
+    }
+    /// Nothing new is drawn.
+    void rest(Nanoseconds length) {
+        if (clock_) {
+            clock_->pass_until(clock_->now() + length);
+        }
+    }
+    void plugged() {
+        if (end_.empty()) {
+            seen_ = card_->look(true);
+            presenter_->connected(seen_);
+        }
+    }
+    /// Whether the next pictures are shown to the eyes in their order, at every refresh.
+    [[nodiscard]] bool in_order(int pictures = 60) {
+        frames(10);
+        const int right = eyes().right;
+        const std::uint32_t before = desk_.card.refreshes;
+        frames(pictures);
+        const int refreshes = static_cast<int>(desk_.card.refreshes - before);
+        return refreshes >= 2 * pictures - 2 && eyes().right - right == refreshes;
+    }
+    [[nodiscard]] const ShownEyes& eyes() const { return *seen_eyes_; }
+    [[nodiscard]] bool is_open() const { return seen_eyes_.has_value(); }
+    [[nodiscard]] const std::string& end() const { return end_; }
+    [[nodiscard]] std::string_view state() const { return presenter_->state(); }
+    [[nodiscard]] DeviceCondition condition() const { return presenter_->condition(); }
+    [[nodiscard]] const EyesOnTestClock& clock() const { return *clock_; }
+
+    int slow_wakes = 0; ///< of a hundred: the thread wakes a refresh late or later
+
+private:
+    Nanoseconds latency() {
+        const auto one_of = [this](unsigned count) { return static_cast<int>(random_() % count); };
+        return one_of(100) < slow_wakes ? std::chrono::microseconds(2'000 + one_of(20'000))
+                                        : std::chrono::microseconds(20 + one_of(500));
+    }
+
+    CardOnDesk& desk_;
+    std::mt19937 random_;
+    Result<KmsCard> card_;
+    std::unique_ptr<KmsDevice> kms_;
+    std::optional<EyesOnTestClock> clock_;
+    std::optional<ShownEyes> seen_eyes_;
+    std::optional<Presenter> presenter_;
+    CardSeen seen_;
+    std::string end_;
 };
 
 } // namespace frustumscreen::display

@@ -147,7 +147,7 @@ public:
     };
     /// The picture of a monitor at the connector; nullopt: it is dark.
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
-    /// What is scanned out since the last refresh.
+    /// The scanout since the last refresh.
     struct Scanned {
         std::uint32_t framebuffer = 0, first_row = 0;
         std::uint32_t waited = 0; ///< refreshes from its commit to this one; 0: it was shown before

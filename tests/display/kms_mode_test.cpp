@@ -224,7 +224,8 @@ TEST(KmsMode, OfTwoHalvesTheTwinInHdmis3DGoesBeforeThePlainMode) {
               (std::vector<ModeTiming>{flagged(plain, mode_top_bottom), plain, other}));
     for (const EyeLayout eyes : {EyeLayout::One, EyeLayout::InTurn}) {
         halves.eyes = eyes;
-        EXPECT_EQ(modes_to_try(list, halves), (std::vector<ModeTiming>{plain, other})) << "never for another picture";
+        EXPECT_EQ(modes_to_try(list, halves), (std::vector<ModeTiming>{plain, other}))
+            << "never for another picture";
     }
     halves.eyes = EyeLayout::SideBySide;
     EXPECT_EQ(modes_to_try(with({plain, flagged(a_mode(1280, 800, 50.0), mode_side_by_side)}), halves),

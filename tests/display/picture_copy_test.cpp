@@ -133,7 +133,8 @@ TEST_F(Copying, OfTwoPicturesEachIsCopiedIntoItsHalfAsIfItWereAlone) {
     ASSERT_TRUE(drawing_->make_current());
     // The same size, bars above and below, bars at the sides, no bars, smaller.
     for (const PixelSize half : {PixelSize{64, 40}, {128, 100}, {200, 80}, {128, 80}, {50, 30}}) {
-        const std::size_t count = static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height);
+        const std::size_t count =
+            static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height);
         const PixelSize target{half.width, 2 * half.height};
         const std::vector<Texel> screen = copied(two, target, TopRow::First, std::nullopt, &*copy_of_two);
         EXPECT_EQ(drawn_, (PixelRectangle{0, 0, target.width, target.height}));
@@ -142,7 +143,8 @@ TEST_F(Copying, OfTwoPicturesEachIsCopiedIntoItsHalfAsIfItWereAlone) {
         std::size_t different = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const bool code_of_one = half.width != 64 && k < static_cast<std::size_t>(probe_pixels);
-            for (std::size_t c = 0; c < 4; ++c) { // the hardware's interpolation counts from each picture's own edge
+            for (std::size_t c = 0; c < 4;
+                 ++c) { // the hardware's interpolation counts from each picture's own edge
                 different += std::abs(screen[k][c] - above[k][c]) > 1 ? 1 : 0;
                 different += !code_of_one && std::abs(screen[count + k][c] - below[k][c]) > 1 ? 1 : 0;
             }

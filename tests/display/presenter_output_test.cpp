@@ -213,7 +213,8 @@ TEST(PresenterOutput, TheEyesLayoutIsToldWithEveryOtherState) {
     other.presenter.connected(a_card({a_projector()}));
     other.frames(2);
     EXPECT_EQ(other.presenter.state(),
-              "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz, because it cannot do the mode in the settings; "
+              "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz, because it cannot do the mode in the "
+              "settings; "
               "choose 3D, side by side, in the projector's own menu; its range is unknown");
     EXPECT_EQ(other.presenter.condition().id, "display.other_mode");
     request = forced_on_hdmi();
@@ -221,7 +222,8 @@ TEST(PresenterOutput, TheEyesLayoutIsToldWithEveryOtherState) {
     PresentedExhibit blind(request);
     blind.presenter.connected(a_card({unseen_projector()}));
     blind.frames(5);
-    EXPECT_TRUE(blind.says("choose 3D, top and bottom, in the projector's own menu")) << blind.presenter.state();
+    EXPECT_TRUE(blind.says("choose 3D, top and bottom, in the projector's own menu"))
+        << blind.presenter.state();
 }
 
 /// No flip of another picture is possible: the failure comes after the call.

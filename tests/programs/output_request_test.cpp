@@ -1,4 +1,4 @@
-// What is asked of the display for each layout of the eyes' pictures.
+// The display that is asked for, for each layout of the eyes' pictures.
 #include "app/programs/devices/wiring.h"
 #include "app/scene/stereo.h"
 
