@@ -352,9 +352,11 @@ void FakeCard::refresh() {
             }
             lost -= lost > 0 ? 1 : 0;
             if (const FakePlane* plane = primary(crtc); plane != nullptr) {
-                scanned_[crtc] = {static_cast<std::uint32_t>(value(plane->id, "FB_ID")),
-                                  static_cast<std::uint32_t>(value(plane->id, "SRC_Y") >> 16U),
-                                  refreshes - pending.queued_at, pending.modeset};
+                scanned_[crtc] =
+                    Scanned{.framebuffer = static_cast<std::uint32_t>(value(plane->id, "FB_ID")),
+                            .first_row = static_cast<std::uint32_t>(value(plane->id, "SRC_Y") >> 16U),
+                            .waited = refreshes - pending.queued_at,
+                            .modeset = pending.modeset};
             }
         }
     }
