@@ -19,8 +19,9 @@ KmsAnswer EyeOrder::light(std::uint32_t connector, const ModeTiming& mode, const
     stopped_ = true;
     next_.reset();
     take_flips();
-    const KmsAnswer answer = card_.light(connector, mode, shown, ++ticket_);
+    const KmsAnswer answer = card_.light(connector, mode, shown, ticket_ + 1);
     if (answer == KmsAnswer::Done) {
+        ++ticket_;
         period_ = Nanoseconds(std::llround(1e9 / refresh_hz(mode)));
         right_row_ = shown.size.height;
         queued_ = Queued{.picture = {shown.framebuffer, ticket}, .first_row = 0, .at = card_.now()};

@@ -2,7 +2,7 @@
 /// upper half of the framebuffer, and refreshes of odd number the right eye's, the lower half.
 ///
 /// It flips for every refresh, also while the exhibit has nothing new. The eye follows from the number that the card gives
-/// the next refresh, so a flip that comes late costs that refresh, and the one after it shows the right eye again; where
+/// the next refresh, so a flip that comes late costs that refresh, and the one after it shows the eye of its number again; where
 /// the next refresh is too near, the flip waits for the one after it. A framebuffer replaces the one before as a whole,
 /// with whichever eye is next.
 ///

@@ -28,11 +28,11 @@ TEST_F(EyeOrderTest, EachRefreshShowsTheEyeOfItsNumber) {
 TEST_F(EyeOrderTest, TheTurnsGoOnWhileNothingNewIsDrawn) {
     Sitting sitting(desk, 2);
     sitting.frames(5);
-    const int before = sitting.eyes().right;
+    const int before = sitting.eyes().kept;
     const std::uint32_t began = desk.card.refreshes;
     sitting.rest(std::chrono::seconds(10));
-    EXPECT_EQ(sitting.eyes().right - before, static_cast<int>(desk.card.refreshes - began));
-    EXPECT_GE(sitting.eyes().right - before, 1199);
+    EXPECT_EQ(sitting.eyes().kept - before, static_cast<int>(desk.card.refreshes - began));
+    EXPECT_GE(sitting.eyes().kept - before, 1199);
     EXPECT_EQ(sitting.eyes().wrongs, "");
     EXPECT_TRUE(sitting.in_order());
 }
@@ -72,7 +72,7 @@ TEST_F(EyeOrderTest, AThreadThatWakesLateCostsRefreshesAndNeverTheOrder) {
     }
 }
 
-TEST_F(EyeOrderTest, AFlipThatTheCardShowsLateIsFollowedByTheRightEye) {
+TEST_F(EyeOrderTest, AFlipThatTheCardShowsLateIsFollowedByTheEyeOfTheNextRefresh) {
     Sitting sitting(desk, 5);
     sitting.frames(5);
     for (const int late : {1, 2, 3, 5}) {
@@ -172,7 +172,7 @@ TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
         EXPECT_TRUE(sitting.in_order()) << seed << ": " << sitting.state();
         EXPECT_EQ(sitting.eyes().wrongs, "") << seed;
         EXPECT_TRUE(has_words(sitting.state(), "each eye gets 60 Hz")) << sitting.state();
-        refreshes += sitting.eyes().right;
+        refreshes += sitting.eyes().kept;
     }
     EXPECT_GT(refreshes, 20'000);
 }

@@ -142,7 +142,7 @@ public:
     ShownEyes(const ShownEyes&) = delete;
     ShownEyes& operator=(const ShownEyes&) = delete;
 
-    int right = 0;    ///< refreshes that show an eye's picture for the first time, as they should
+    int kept = 0;     ///< refreshes that a flip reached in time, since both eyes are shown
     int repeated = 0; ///< refreshes without a flip
     int dark = 0;
     int by_card = 0;          ///< flips that took the card longer than to the next refresh
@@ -196,7 +196,7 @@ private:
         if (scanned_.waited != 1 || !begun_) {
             return; // the order begins with the right eye's first picture after the mode was set
         }
-        ++right;
+        ++kept;
         if (static_cast<std::uint32_t>(eye) != card_.refreshes % 2) {
             wrong("the other eye's picture");
         }
@@ -282,11 +282,11 @@ public:
     /// Whether the next pictures are shown to the eyes in their order, at every refresh.
     [[nodiscard]] bool in_order(int pictures = 60) {
         frames(10);
-        const int right = eyes().right;
+        const int kept = eyes().kept;
         const std::uint32_t before = desk_.card.refreshes;
         frames(pictures);
         const int refreshes = static_cast<int>(desk_.card.refreshes - before);
-        return refreshes >= 2 * pictures - 2 && eyes().right - right == refreshes;
+        return refreshes >= 2 * pictures - 2 && eyes().kept - kept == refreshes;
     }
     [[nodiscard]] const ShownEyes& eyes() const { return *seen_eyes_; }
     [[nodiscard]] bool is_open() const { return seen_eyes_.has_value(); }
