@@ -65,15 +65,20 @@ void turn_off_crtc(Commit& commit, const KmsProperties& crtc) {
     commit.set(crtc, "MODE_ID", 0);
 }
 
-/// Shows the whole framebuffer on the plane, whatever an earlier program has set there.
+/// A number of pixels in the plane's fixed point.
+std::uint64_t fixed_point(int pixels) {
+    return static_cast<std::uint64_t>(pixels) << 16U;
+}
+
+/// Shows the framebuffer from its first row on the plane, whatever an earlier program has set there.
 void show_on_plane(Commit& commit, const KmsProperties& plane, std::uint32_t crtc, const ScannedOut& shown) {
     const auto number = [](int pixels) { return static_cast<std::uint64_t>(pixels); };
     commit.set(plane, "FB_ID", shown.framebuffer);
     commit.set(plane, "CRTC_ID", crtc);
     commit.set(plane, "SRC_X", 0);
     commit.set(plane, "SRC_Y", 0);
-    commit.set(plane, "SRC_W", number(shown.size.width) << 16U);
-    commit.set(plane, "SRC_H", number(shown.size.height) << 16U);
+    commit.set(plane, "SRC_W", fixed_point(shown.size.width));
+    commit.set(plane, "SRC_H", fixed_point(shown.size.height));
     commit.set(plane, "CRTC_X", number(shown.place.x));
     commit.set(plane, "CRTC_Y", number(shown.place.y));
     commit.set(plane, "CRTC_W", number(shown.place.width));
@@ -130,11 +135,15 @@ std::optional<AtomicKms::Route> AtomicKms::route_to(std::uint32_t connector) con
     for (const KmsCrtc& crtc : crtcs_for(file_, connector)) {
         if (const std::uint32_t plane = primary_plane(file_, planes, crtc.index); plane != 0) {
             const KmsProperties properties(file_, plane, DRM_MODE_OBJECT_PLANE);
-            const KmsProperty* shown = properties.find("FB_ID");
+            const auto number_of = [&properties](std::string_view name) {
+                const KmsProperty* property = properties.find(name);
+                return property != nullptr ? property->id : 0;
+            };
             return Route{.connector = connector,
                          .crtc = crtc.id,
                          .plane = plane,
-                         .plane_framebuffer = shown != nullptr ? shown->id : 0};
+                         .plane_framebuffer = number_of("FB_ID"),
+                         .plane_row = number_of("SRC_Y")};
         }
     }
     return std::nullopt;
@@ -213,6 +222,16 @@ KmsAnswer AtomicKms::flip(FramebufferId shown, std::uint64_t ticket) {
     }
     Commit commit(file_);
     commit.set(route_->plane, route_->plane_framebuffer, shown);
+    return commit.send(DRM_MODE_PAGE_FLIP_EVENT, ticket);
+}
+
+KmsAnswer AtomicKms::flip_from(int first_row, FramebufferId shown, std::uint64_t ticket) {
+    if (!route_) {
+        return KmsAnswer::Refused;
+    }
+    Commit commit(file_);
+    commit.set(route_->plane, route_->plane_framebuffer, shown);
+    commit.set(route_->plane, route_->plane_row, fixed_point(first_row));
     return commit.send(DRM_MODE_PAGE_FLIP_EVENT, ticket);
 }
 

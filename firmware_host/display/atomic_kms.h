@@ -10,12 +10,13 @@
 #include "firmware_host/display/output_properties.h"
 
 #include <optional>
+#include <string>
 
 namespace frustumscreen::display {
 
 class AtomicKms final : public KmsDevice {
 public:
-    explicit AtomicKms(const KmsCard& card) : file_(card.file()), flips_(file_) {}
+    explicit AtomicKms(const KmsCard& card) : file_(card.file()), card_(card.path()), flips_(file_) {}
     ~AtomicKms() override;
     AtomicKms(const AtomicKms&) = delete;
     AtomicKms& operator=(const AtomicKms&) = delete;
@@ -23,6 +24,7 @@ public:
     [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override;
+    [[nodiscard]] KmsAnswer flip_from(int first_row, FramebufferId shown, std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer darken() override;
     [[nodiscard]] bool become_master() override { return take_screen(file_); }
     [[nodiscard]] std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
@@ -30,6 +32,7 @@ public:
     }
     [[nodiscard]] bool flips_keep_time() const override { return flips_.keep_time(); }
     [[nodiscard]] std::string_view shortcoming() const override { return shortcoming_; }
+    [[nodiscard]] std::string_view card() const override { return card_; }
     [[nodiscard]] MonotonicTime now() const override { return monotonic_now(); }
 
 private:
@@ -39,6 +42,7 @@ private:
         std::uint32_t crtc = 0;
         std::uint32_t plane = 0;
         std::uint32_t plane_framebuffer = 0; ///< the property's number
+        std::uint32_t plane_row = 0;         ///< the same, of the first row that is shown
     };
     [[nodiscard]] std::optional<Route> route_to(std::uint32_t connector) const;
     /// One commit that lights `route` and turns off everything else; `settings` are the connector's.
@@ -47,6 +51,7 @@ private:
     void forget_mode();
 
     int file_;
+    std::string card_;
     FlipEvents flips_;
     std::optional<Route> route_;
     std::uint32_t mode_blob_ = 0;

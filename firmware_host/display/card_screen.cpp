@@ -8,9 +8,9 @@
 
 namespace frustumscreen::display {
 
-Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize picture_size) {
+Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize shown, EyeLayout eyes) {
     TRY(DrawingGpu gpu, DrawingGpu::choose_for(card));
-    TRY(PictureFramebuffer picture, PictureFramebuffer::create(picture_size.width, picture_size.height));
+    TRY(PictureFramebuffer picture, PictureFramebuffer::create(shown.width, shown.height * stacked(eyes)));
     TRY(EglContext copying, gpu.context().sharing());
     Result<PictureCopy> copy = [&]() -> Result<PictureCopy> {
         const CopyingNow now(copying, gpu.context());
@@ -18,7 +18,7 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
             return fail(ErrorKind::Internal, "display.second_context",
                         "display: the second OpenGL ES context cannot be made current");
         }
-        return PictureCopy::create();
+        return PictureCopy::create(stacked(eyes));
     }();
     TRY_VOID(copy);
     std::unique_ptr<CardScreen> screen(

@@ -16,8 +16,10 @@ namespace frustumscreen::display {
 
 class CardScreen {
 public:
-    /// `card` must stay open for the lifetime of the result. The picture's context is current afterwards.
-    [[nodiscard]] static Result<std::unique_ptr<CardScreen>> create(int card, PixelSize picture);
+    /// `card` must stay open for the lifetime of the result. The picture's context is current afterwards. `shown`: size of
+    /// what the screen shows at a time; the picture and its framebuffers hold that for both eyes, if `eyes` are in turn.
+    [[nodiscard]] static Result<std::unique_ptr<CardScreen>> create(int card, PixelSize shown,
+                                                                    EyeLayout eyes = EyeLayout::One);
 
     [[nodiscard]] const PictureFramebuffer& picture() const { return picture_; }
     /// Errors   a clause, for the output's state.

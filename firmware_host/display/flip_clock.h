@@ -18,6 +18,7 @@ public:
     explicit FlipClock(double refresh_hz)
         : period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / refresh_hz))) {}
 
+    [[nodiscard]] Nanoseconds period() const { return period_; }
     void flipped(MonotonicTime time) { last_ = time; }
     [[nodiscard]] bool known() const { return last_.has_value() && period_ > Nanoseconds(0); }
     /// The first refresh later than `time`; `time` itself before the first flip.

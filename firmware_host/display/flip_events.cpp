@@ -59,7 +59,9 @@ bool FlipEvents::read() {
                                      std::chrono::microseconds(flip.tv_usec));
             if (flip.crtc_id == 0 || flip.crtc_id == crtc_) {
                 ask_whether_they_keep_time();
-                seen_.push_back({monotonic_ ? time : monotonic_now(), flip.user_data});
+                seen_.push_back({.time = monotonic_ ? time : monotonic_now(),
+                                 .ticket = flip.user_data,
+                                 .refresh = flip.sequence});
             }
         }
         at += event.length;

@@ -57,14 +57,15 @@ std::vector<std::string> card_paths(const std::filesystem::path& folder) {
 Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request,
                               const std::string& folder) {
     if (!name.empty()) {
-        return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
+        return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name),
+                         request);
     }
     Result<KmsCard> best = fail(ErrorKind::DeviceLost, "display.no_card",
                                 "display: no graphics card in {}; load its driver", folder);
     CardRank best_rank{};
     const std::vector<std::string> paths = card_paths(folder);
     for (const std::string& path : paths) {
-        Result<KmsCard> card = open_path(path);
+        Result<KmsCard> card = open_path(path, request);
         if (card) {
             card->any_ = true;
             const CardRank rank = paths.size() > 1 ? rank_of(card->look(true), request) : CardRank{};
@@ -79,7 +80,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
     return best;
 }
 
-Result<KmsCard> KmsCard::open_path(const std::string& path) {
+Result<KmsCard> KmsCard::open_path(const std::string& path, const OutputRequest& request) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
         const bool refused = errno == EACCES || errno == EPERM;
@@ -96,6 +97,9 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
     }
     card.atomic_ = drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
                    drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) == 0;
+    if (request.eyes == EyeLayout::SideBySide || request.eyes == EyeLayout::TopBottom) {
+        static_cast<void>(drmSetClientCap(file, DRM_CLIENT_CAP_STEREO_3D, 1)); // else no such mode is listed
+    }
     return card;
 }
 
@@ -184,7 +188,7 @@ bool OtherCards::have_projector() {
         if (path == own_path_ || !has_connected(connected, path, request_.connector)) {
             continue;
         }
-        const Result<KmsCard> card = KmsCard::open_path(path);
+        const Result<KmsCard> card = KmsCard::open_path(path, request_);
         if (card && rank_of(card->look(true), request_) < CardRank::NothingCertain) {
             return true;
         }

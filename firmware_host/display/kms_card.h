@@ -18,7 +18,8 @@ namespace frustumscreen::display {
 
 class KmsCard {
 public:
-    /// `name`: a path, or "card1", or empty for the first card of the best `CardRank` in `folder`.
+    /// `name`: a path, or "card1", or empty for the first card of the best `CardRank` in `folder`. Only for a request of
+    /// two halves does the kernel list HDMI's 3D modes, where the projector has them.
     [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request,
                                               const std::string& folder = "/dev/dri");
     ~KmsCard();
@@ -38,7 +39,7 @@ public:
 private:
     friend class OtherCards;
     KmsCard(int file, std::string path) : file_(file), path_(std::move(path)) {}
-    [[nodiscard]] static Result<KmsCard> open_path(const std::string& path);
+    [[nodiscard]] static Result<KmsCard> open_path(const std::string& path, const OutputRequest& request);
     /// The state of a card that does not answer: it, or another one, may be back.
     [[nodiscard]] CardState state() const;
 

@@ -29,16 +29,18 @@ enum class KmsAnswer : std::uint8_t {
 /// The kernel's number of a framebuffer.
 using FramebufferId = std::uint32_t;
 
-/// A scanned-out framebuffer: shown whole, at `place` on the screen, with black around it.
+/// A scanned-out framebuffer: its first rows, shown at `place` on the screen, with black around it.
 struct ScannedOut {
     FramebufferId framebuffer = 0;
-    PixelSize size;
+    PixelSize size; ///< of what is shown
     PixelRectangle place;
 };
 
 struct Flipped {
     MonotonicTime time;
-    std::uint64_t ticket = 0; ///< ticket of the call that requested it
+    std::uint64_t ticket = 0;  ///< ticket of the call that requested it
+    std::uint32_t refresh = 0; ///< number of the refresh that shows it; the card counts its refreshes
+    KmsAnswer answer = KmsAnswer::Done; ///< any other: the flip failed after it was queued
 };
 
 class KmsDevice {
@@ -50,6 +52,11 @@ public:
                                           const ScannedOut& shown, std::uint64_t ticket) = 0;
     /// Shows another framebuffer of the same size from the next refresh on; a flip follows.
     [[nodiscard]] virtual KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) = 0;
+    /// As `flip`, shown from this row on. Refused also if the card cannot change the row in a flip.
+    [[nodiscard]] virtual KmsAnswer flip_from(int /*first_row*/, FramebufferId /*shown*/,
+                                              std::uint64_t /*ticket*/) {
+        return KmsAnswer::Refused;
+    }
     /// Turns off the output that `light` turned on.
     [[nodiscard]] virtual KmsAnswer darken() = 0;
     /// Takes the screen, unless another program holds it.
@@ -61,6 +68,12 @@ public:
     [[nodiscard]] virtual bool flips_keep_time() const = 0;
     /// A clause about a possible fault of the lit output that cannot be fixed from here; empty: none.
     [[nodiscard]] virtual std::string_view shortcoming() const { return {}; }
+    /// Whether the refreshes of the lit output show the halves of a framebuffer in turn (EyeLayout::InTurn).
+    [[nodiscard]] virtual bool in_turn() const { return false; }
+    /// The card's name, for sentences.
+    [[nodiscard]] virtual std::string_view card() const { return "the graphics card"; }
+    /// Time until which the device's own thread has promised a sign of life; nullopt: there is no such thread.
+    [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return std::nullopt; }
     [[nodiscard]] virtual MonotonicTime now() const = 0;
 };
 

@@ -1,11 +1,27 @@
 #include "firmware_host/display/kms_display.h"
 
+#include "firmware_host/display/eye_thread.h"
+
 #include <GLES3/gl31.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen::display {
+
+namespace {
+
+/// Without atomic commits no flip can change the shown rows: the left eye's are shown.
+std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes) {
+    std::unique_ptr<KmsDevice> device = make_kms_device(card);
+    if (eyes == EyeLayout::InTurn && card.is_atomic()) {
+        return std::make_unique<EyeThread>(std::move(device), card.file());
+    }
+    return device;
+}
+
+} // namespace
 
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name,
                                                        const OutputRequest& request) {
@@ -23,7 +39,7 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
                     card->path());
     }
     TRY(std::unique_ptr<CardScreen> screen,
-        CardScreen::create(card->file(), {request.picture_width, request.picture_height}));
+        CardScreen::create(card->file(), {request.picture_width, request.picture_height}, request.eyes));
     return std::unique_ptr<KmsDisplay>(
         new KmsDisplay(std::move(*card), card_name.empty(), std::move(screen), request));
 }
@@ -32,7 +48,7 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
                        const OutputRequest& request)
     : card_(std::move(card)), request_(request),
       other_cards_(any_card ? std::optional<OtherCards>(OtherCards(card_.path(), request)) : std::nullopt),
-      screen_(std::move(screen)), kms_(make_kms_device(card_)),
+      screen_(std::move(screen)), kms_(make_device(card_, request.eyes)),
       presenter_(
           *kms_, [this](PixelSize size) { return screen_->make_pair(size); }, request),
       watch_(
@@ -40,6 +56,10 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
               return look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, request_, thoroughly);
           },
           make_udev_hotplug()) {}
+
+std::optional<MonotonicTime> KmsDisplay::alive_until() const {
+    return std::min(watch_.alive_until(), kms_->alive_until().value_or(MonotonicTime::max()));
+}
 
 void KmsDisplay::take_news() {
     if (std::optional<CardSeen> seen = watch_.news()) {

@@ -1,11 +1,14 @@
 /// The projector on a connector of this machine's graphics card.
 ///
+/// For EyeLayout::InTurn the picture is twice as high as what the projector shows: the left eye's above the right eye's.
+///
 /// The renderer draws into one framebuffer object of the picture's size. Each picture is copied from there to
 /// the scanned-out framebuffer, scaled if the projector's mode has another size, so plugging, unplugging or
 /// exchanging the projector never affects the renderer.
 ///
 /// Time     CLOCK_MONOTONIC, from the card's page flips.
-/// Threads  the creating thread, on which the context is current. Another thread probes the connectors.
+/// Threads  the creating thread, on which the context is current. Another thread probes the connectors; a third one flips
+///          from eye to eye, if the eyes' pictures are shown in turn.
 /// Errors   at the start: no card, no permission, no OpenGL ES 3. Later: the card has returned after it was
 ///          gone, it hangs, or the projector is now at another card. `state` describes all other faults.
 #pragma once
@@ -23,7 +26,7 @@ namespace frustumscreen::display {
 
 class KmsDisplay final : public Display {
 public:
-    /// `card`: as KmsCard::open; the picture's size is in `request`.
+    /// `card`: as KmsCard::open; the size of what the projector shows is in `request`.
     [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>> create(std::string_view card,
                                                                     const OutputRequest& request);
 
@@ -42,7 +45,7 @@ public:
         return presenter_.read_shown(rgba);
     }
     [[nodiscard]] bool settled() const override { return presenter_.settled(); }
-    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return watch_.alive_until(); }
+    [[nodiscard]] std::optional<MonotonicTime> alive_until() const override;
     [[nodiscard]] std::string name() const override { return card_.path() + ", " + gl_driver_name(); }
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
     [[nodiscard]] DeviceCondition condition() const override { return presenter_.condition(); }

@@ -47,6 +47,7 @@ constexpr ModeTiming hd_1080{.clock_khz = 148500,
                              .flags = mode_hsync_positive | mode_vsync_positive,
                              .preferred = false};
 
+/// The best of these is chosen; a mode in HDMI's 3D follows from it.
 bool is_usable(const ModeTiming& mode) {
     return mode.width > 0 && mode.height > 0 && refresh_hz(mode) > 0.0 && (mode.flags & mode_stereo) == 0;
 }
@@ -77,13 +78,47 @@ auto rank_asked(const ModeTiming& mode, const OutputRequest& request) {
     return std::make_tuple(!asked, !asked && !mode.preferred, distance(mode, request));
 }
 
-/// Smaller is better, without a requested mode: the picture's size at its rate (the preferred one first), its
-/// size at another rate, the preferred mode, the nearest.
+/// Smaller is better, without a requested mode: one that is fast enough, the picture's size at its rate (the preferred one
+/// first), its size at another rate, the preferred mode, the nearest.
 auto rank_unasked(const ModeTiming& mode, const OutputRequest& request) {
     const bool fits =
         mode.width == request.picture_width && mode.height == request.picture_height && !is_halved(mode);
     const bool in_time = fits && off_rate(mode, request) <= 2.0 * same_refresh_hz;
-    return std::make_tuple(!fits, !in_time, !mode.preferred, distance(mode, request));
+    const bool flickers = request.fast && refresh_hz(mode) < min_in_turn_hz;
+    return std::make_tuple(flickers, !fits, !in_time, !mode.preferred, distance(mode, request));
+}
+
+/// The flag of HDMI's 3D for this layout; 0: there is none.
+std::uint32_t stereo_flag(EyeLayout eyes) {
+    switch (eyes) {
+    case EyeLayout::SideBySide:
+        return mode_side_by_side;
+    case EyeLayout::TopBottom:
+        return mode_top_bottom;
+    case EyeLayout::One:
+    case EyeLayout::InTurn:
+        break;
+    }
+    return 0;
+}
+
+/// Puts before each mode that of the same timing which tells the projector the layout of the eyes' pictures.
+std::vector<ModeTiming> with_twins(const std::vector<ModeTiming>& plain,
+                                   const std::vector<ModeTiming>& listed, EyeLayout eyes) {
+    std::vector<ModeTiming> modes;
+    for (const ModeTiming& mode : plain) {
+        ModeTiming twin = mode;
+        twin.flags |= stereo_flag(eyes);
+        const auto found = std::find_if(listed.begin(), listed.end(), [&twin](ModeTiming one) {
+            one.preferred = twin.preferred;
+            return one == twin;
+        });
+        if (found != listed.end()) {
+            modes.push_back(*found);
+        }
+        modes.push_back(mode);
+    }
+    return modes;
 }
 
 int rank_of(const ConnectorSeen& connector) {
@@ -148,7 +183,7 @@ std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector, const Outpu
             modes.insert(modes.begin(), made);
         }
     }
-    return modes;
+    return stereo_flag(request.eyes) != 0 ? with_twins(modes, connector.modes, request.eyes) : modes;
 }
 
 bool fulfils(const ModeTiming& mode, const OutputRequest& request) {

@@ -1,5 +1,8 @@
 /// Chooses a connector and a mode from the connectors that a graphics card reports.
 ///
+/// Stereo   for two eyes' pictures in one, the mode of the same timing that tells the projector so (HDMI's 3D) comes before
+///          the plain one; without stereo none of HDMI's 3D modes is ever chosen. Frame packing, two whole pictures in one
+///          frame, is not used: no layout has a picture of its height.
 /// Units    pixels, lines, kilohertz, hertz.
 /// Threads  values; any.
 /// Source   struct drm_mode_modeinfo of the kernel's KMS; VESA CVT 1.2 for timings made here; CTA-861 for the
@@ -36,7 +39,9 @@ inline constexpr std::uint32_t mode_vsync_positive = 1U << 2U;
 inline constexpr std::uint32_t mode_vsync_negative = 1U << 3U;
 inline constexpr std::uint32_t mode_interlaced = 1U << 4U;
 inline constexpr std::uint32_t mode_doublescan = 1U << 5U;
-inline constexpr std::uint32_t mode_stereo = 0x1FU << 14U;
+inline constexpr std::uint32_t mode_stereo = 0x1FU << 14U; ///< mask of HDMI's 3D layouts; 0: a plain mode
+inline constexpr std::uint32_t mode_top_bottom = 7U << 14U;
+inline constexpr std::uint32_t mode_side_by_side = 8U << 14U; ///< each half has half of the columns
 
 /// Pictures a second; 0 for an invalid timing.
 [[nodiscard]] double refresh_hz(const ModeTiming& mode);
@@ -65,6 +70,20 @@ struct CardSeen {
     [[nodiscard]] bool operator==(const CardSeen&) const = default;
 };
 
+/// Contents of the exhibit's picture.
+enum class EyeLayout : std::uint8_t {
+    One,        ///< one picture for both eyes, or two that differ in colour
+    SideBySide, ///< the left eye's picture in the left half, the right eye's in the right half
+    TopBottom,  ///< the left eye's picture in the upper half, the right eye's in the lower half
+    InTurn, ///< two pictures of the screen's size, the left eye's above the right eye's; a refresh shows one of them
+};
+/// Pictures of the screen's size in the exhibit's picture, above each other.
+[[nodiscard]] constexpr int stacked(EyeLayout eyes) {
+    return eyes == EyeLayout::InTurn ? 2 : 1;
+}
+/// Below this rate, one picture for each eye in turn flickers.
+inline constexpr double min_in_turn_hz = 100.0;
+
 /// The settings of the output.
 struct OutputRequest {
     std::string connector; ///< empty = any that has a projector
@@ -73,9 +92,11 @@ struct OutputRequest {
     double refresh_hz = 0.0; ///< 0 = any
     bool force = false;      ///< use the mode even if the projector does not list it, and light the named
                              ///< connector even if it reports that nothing is connected
-    int picture_width = 0;   ///< the exhibit's; the nearest size wins if nothing else decides; 0 = any
+    int picture_width = 0;   ///< on the screen; the nearest size wins if nothing else decides; 0 = any
     int picture_height = 0;
-    double picture_hz = 60.0;
+    double picture_hz = 60.0; ///< of the screen
+    EyeLayout eyes = EyeLayout::One;
+    bool fast = false; ///< without a requested mode, one of at least `min_in_turn_hz` goes before all others
 };
 
 /// Whether this connector is lit by force although it reports that nothing is connected.
@@ -90,7 +111,7 @@ enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTh
 [[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputRequest& request);
 
 /// The modes to try, best first: the requested one; without a request, those of the picture's own size, then
-/// the preferred one; then the rest by nearness.
+/// the preferred one; then the rest by nearness. Before each, its twin in HDMI's 3D, if the request's layout has one.
 [[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector,
                                                    const OutputRequest& request);
 

@@ -27,7 +27,7 @@ bool set_properties(int card, const KmsProperties& connector) {
 
 } // namespace
 
-/// Shows a framebuffer only without scaling. The connector's first CRTC is used; all others are turned off
+/// Shows a framebuffer only without scaling, and of a higher one its first rows. The connector's first CRTC is used; all others are turned off
 /// first, because they may hold resources that this mode needs.
 KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                            std::uint64_t ticket) {
@@ -55,7 +55,7 @@ KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, cons
         crtc_ = crtc;
         shortcoming_ = range_in_doubt(properties.all(), is_hdmi(file_, connector), mode, set);
         flips_.expect_of(crtc);
-        flips_.add({monotonic_now(), ticket});
+        flips_.add({.time = monotonic_now(), .ticket = ticket});
     }
     return answer;
 }

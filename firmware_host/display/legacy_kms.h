@@ -10,11 +10,13 @@
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/kms_device.h"
 
+#include <string>
+
 namespace frustumscreen::display {
 
 class LegacyKms final : public KmsDevice {
 public:
-    explicit LegacyKms(const KmsCard& card) : file_(card.file()), flips_(file_) {}
+    explicit LegacyKms(const KmsCard& card) : file_(card.file()), card_(card.path()), flips_(file_) {}
 
     [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket) override;
@@ -26,10 +28,12 @@ public:
     }
     [[nodiscard]] bool flips_keep_time() const override { return flips_.keep_time(); }
     [[nodiscard]] std::string_view shortcoming() const override { return shortcoming_; }
+    [[nodiscard]] std::string_view card() const override { return card_; }
     [[nodiscard]] MonotonicTime now() const override { return monotonic_now(); }
 
 private:
     int file_;
+    std::string card_;
     FlipEvents flips_;
     std::uint32_t crtc_ = 0; ///< feeds the lit output; 0 = nothing is lit
     std::string_view shortcoming_;

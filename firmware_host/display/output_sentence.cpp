@@ -16,6 +16,48 @@ std::string kernel_argument(std::string_view connector, int width, int height, d
                        hz > 0.0 ? std::lround(hz) : std::lround(OutputRequest{}.picture_hz));
 }
 
+/// Says how the eyes' pictures reach the eyes, at the end of the sentence about a lit output.
+struct EyeClause {
+    DeviceCondition condition{DeviceHealth::Well, "display.lit"};
+    std::string words; ///< empty: one picture
+};
+
+EyeClause clause_in_turn(const LitOutput& output) {
+    const double hz = refresh_hz(output.mode);
+    if (!output.in_turn) {
+        return {
+            {DeviceHealth::Impaired, "display.one_eye"},
+            fmt::format("; {} cannot show the eyes in turn, so the left eye's picture is shown alone: set "
+                        "eye.stereo to another layout, or use another graphics card",
+                        output.card)};
+    }
+    if (hz < min_in_turn_hz) {
+        return {{DeviceHealth::Impaired, "display.eyes_flicker"},
+                fmt::format("; each eye gets {:.4g} Hz, which flickers: set display.mode to one of at least "
+                            "{:.4g} Hz",
+                            0.5 * hz, min_in_turn_hz)};
+    }
+    return {.words = fmt::format("; each eye gets {:.4g} Hz", 0.5 * hz)};
+}
+
+EyeClause clause_of(const LitOutput& output) {
+    const std::string_view layout = output.eyes == EyeLayout::SideBySide ? "side by side" : "top and bottom";
+    switch (output.eyes) {
+    case EyeLayout::One:
+        break;
+    case EyeLayout::InTurn:
+        return clause_in_turn(output);
+    case EyeLayout::SideBySide:
+    case EyeLayout::TopBottom:
+        if ((output.mode.flags & mode_stereo) != 0) {
+            return {.words = fmt::format("; HDMI tells it that the picture is 3D, {}", layout)};
+        }
+        return {{DeviceHealth::Well, "display.choose_layout"},
+                fmt::format("; choose 3D, {}, in the projector's own menu", layout)};
+    }
+    return {};
+}
+
 DeviceState dark(MessageId id, Sentence why) {
     return {{DeviceHealth::Away, id}, why};
 }
@@ -25,22 +67,21 @@ DeviceState dark(MessageId id, Sentence why) {
 DeviceState state_of(const LitOutput& output) {
     const ModeTiming& mode = output.mode;
     const double hz = refresh_hz(mode);
+    const EyeClause eyes = clause_of(output);
     if (output.blindly) {
         return {
             {DeviceHealth::Well, "display.lit_blindly"},
             format_sentence("{} is lit, {} x {} at {:.4g} Hz, though it says that nothing is connected; if "
-                            "it stays dark, start the kernel with {}",
+                            "it stays dark, start the kernel with {}{}",
                             output.connector, mode.width, mode.height, hz,
-                            kernel_argument(output.connector, mode.width, mode.height, hz))};
+                            kernel_argument(output.connector, mode.width, mode.height, hz), eyes.words)};
     }
-    const DeviceCondition condition = output.as_requested
-                                          ? DeviceCondition{DeviceHealth::Well, "display.lit"}
-                                          : DeviceCondition{DeviceHealth::Impaired, "display.other_mode"};
-    return {condition,
-            format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}{}{}", output.connector,
+    const bool other_mode = !output.as_requested && eyes.condition.health == DeviceHealth::Well;
+    return {other_mode ? DeviceCondition{DeviceHealth::Impaired, "display.other_mode"} : eyes.condition,
+            format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}{}{}{}", output.connector,
                             mode.width, mode.height, hz,
                             output.as_requested ? "" : ", because it cannot do the mode in the settings",
-                            output.shortcoming.empty() ? "" : "; ", output.shortcoming)};
+                            eyes.words, output.shortcoming.empty() ? "" : "; ", output.shortcoming)};
 }
 
 DeviceState why_dark(const CardSeen& card, const OutputRequest& request) {

@@ -16,6 +16,9 @@ struct LitOutput {
     bool as_requested = true;     ///< the mode satisfies the settings
     bool blindly = false;         ///< the connector reports that nothing is connected
     std::string_view shortcoming; ///< possible fault, from KmsDevice::shortcoming
+    EyeLayout eyes = EyeLayout::One;
+    bool in_turn = false;  ///< of EyeLayout::InTurn, both eyes' pictures are shown
+    std::string_view card; ///< the graphics card's name
 };
 [[nodiscard]] DeviceState state_of(const LitOutput& output);
 

@@ -1,5 +1,7 @@
 /// Copies the exhibit's picture into the framebuffer of a screen.
 ///
+/// Pictures above each other, for the eyes in turn, are each copied into its own part of the framebuffer.
+///
 /// On a screen of the picture's size every sRGB code arrives unchanged. On any other screen the picture is
 /// scaled as large as fits, with black around it; the first `probe_pixels` of its top row are written
 /// unscaled into the screen's top left corner.
@@ -26,7 +28,8 @@ enum class TopRow { First, Last };
 
 class PictureCopy {
 public:
-    [[nodiscard]] static Result<PictureCopy> create();
+    /// `stacked`: number of pictures of equal height above each other, in the picture and in the framebuffer.
+    [[nodiscard]] static Result<PictureCopy> create(int stacked = 1);
 
     /// Draws into the bound framebuffer, whose colour has 8 bits a channel and stores codes as written.
     /// `part` is the part of the picture that the framebuffer lacks; for the whole picture the surroundings
@@ -37,8 +40,9 @@ public:
 private:
     struct Pass;
     void draw(const PictureFramebuffer& picture, const Pass& pass) const;
-    PictureCopy(gl::GlProgram program, gl::GlSampler nearest, gl::GlSampler interpolated);
+    PictureCopy(int stacked, gl::GlProgram program, gl::GlSampler nearest, gl::GlSampler interpolated);
 
+    int stacked_;
     gl::GlProgram program_;
     gl::GlSampler nearest_;
     gl::GlSampler interpolated_;

@@ -120,7 +120,9 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     if (!queued_) {
         return device_.now();
     }
-    const MonotonicTime expected = clock_.first_after(device_.now());
+    // In turn, the flip for the next refresh is already queued.
+    const Nanoseconds ahead = device_.in_turn() ? clock_.period() : Nanoseconds(0);
+    const MonotonicTime expected = clock_.first_after(device_.now() + ahead);
     if (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
         take(*flipped);
         return queued_ ? expected : flipped->time; // an emulated card's flip comes at once
@@ -168,6 +170,12 @@ void Presenter::take(const Flipped& flipped) {
     if (!queued_ || flipped.ticket != queued_->ticket) {
         return; // the flip of a picture that was given up
     }
+    if (flipped.answer != KmsAnswer::Done) {
+        queued_.reset();
+        late_ = false;
+        flip_failed(flipped.answer);
+        return;
+    }
     if (device_.flips_keep_time()) {
         clock_.flipped(flipped.time);
     }
@@ -175,8 +183,9 @@ void Presenter::take(const Flipped& flipped) {
     queued_.reset();
     stuck_since_.reset();
     shown_before_.reset();
-    const bool first = lit_ && !std::exchange(lit_->shown, true);
-    if (std::exchange(late_, false) || first) {
+    const bool first = !std::exchange(lit_->shown, true);
+    lit_->flips = !first;
+    if (std::exchange(late_, false) || first || lit_->in_turn != device_.in_turn()) {
         say_lit();
     }
 }
@@ -258,12 +267,12 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     return light(connector, mode, screen);
 }
 
-bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize framebuffer) {
-    if (!make_scanout(framebuffer)) {
+bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize size) {
+    if (!make_scanout(framebuffer_for(size))) {
         return false;
     }
-    const PixelRectangle place = letterbox(framebuffer, {mode.width, mode.height});
-    const KmsAnswer answer = device_.light(connector.id, mode, {fill(), framebuffer, place}, ++ticket_);
+    const PixelRectangle place = letterbox(size, {mode.width, mode.height});
+    const KmsAnswer answer = device_.light(connector.id, mode, {fill(), size, place}, ++ticket_);
     if (answer == KmsAnswer::Done) {
         const bool as_requested = request_.width == 0 || fulfils(mode, request_) ||
                                   (request_.force && mode == modes_to_try(connector, request_).front());
@@ -289,17 +298,24 @@ void Presenter::flip() {
     const KmsAnswer answer = device_.flip(fill(), ++ticket_);
     if (answer == KmsAnswer::Done) {
         queued_ = Queued{device_.now(), ticket_, free_};
-        lit_->flips = true;
         return;
     }
+    flip_failed(answer);
+}
+
+void Presenter::flip_failed(KmsAnswer answer) {
     if (answer == KmsAnswer::Refused && !lit_->flips) {
-        if (scanout_->size() == PixelSize{lit_->mode.width, lit_->mode.height}) {
+        if (scanout_->size() == framebuffer_for({lit_->mode.width, lit_->mode.height})) {
             unfit_.push_back(lit_->mode);
         } else {
             card_scales_ = false;
         }
     }
     went_wrong(answer);
+}
+
+PixelSize Presenter::framebuffer_for(PixelSize size) const {
+    return {size.width, size.height * stacked(request_.eyes)};
 }
 
 bool Presenter::make_scanout(PixelSize size) {
@@ -316,7 +332,8 @@ bool Presenter::make_scanout(PixelSize size) {
         shown_before_ = std::move(scanout_);
     }
     scanout_ = std::move(*made);
-    stale_.fill({.x = 0, .y = 0, .width = request_.picture_width, .height = request_.picture_height});
+    const PixelSize picture = framebuffer_for({request_.picture_width, request_.picture_height});
+    stale_.fill({.x = 0, .y = 0, .width = picture.width, .height = picture.height});
     return true;
 }
 
@@ -365,11 +382,15 @@ void Presenter::lose(MessageId id, std::string_view why) {
 }
 
 void Presenter::say_lit() {
+    lit_->in_turn = device_.in_turn();
     state_ = state_of({.connector = lit_->name,
                        .mode = lit_->mode,
                        .as_requested = lit_->as_requested,
                        .blindly = lit_->blindly,
-                       .shortcoming = device_.shortcoming()});
+                       .shortcoming = device_.shortcoming(),
+                       .eyes = request_.eyes,
+                       .in_turn = lit_->in_turn,
+                       .card = device_.card()});
 }
 
 } // namespace frustumscreen::display

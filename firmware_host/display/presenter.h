@@ -7,6 +7,9 @@
 /// `stay_dark` turns the projector off, as DPMS does, whatever is plugged in or out; the next picture lights
 /// it again.
 ///
+/// If the picture holds two above each other (EyeLayout::InTurn), the device shows one at each refresh; both are replaced
+/// together.
+///
 /// A picture without a size is drawn in the mode's size. If picture and mode differ in size, the card's own
 /// scaler fills the mode if it can; otherwise the picture is scaled while it is copied.
 ///
@@ -73,6 +76,7 @@ private:
         bool blindly = false;     ///< the connector reports that nothing is connected
         bool shown = false;       ///< the flip to its first picture is done
         bool flips = false;       ///< it has shown more than its first picture
+        bool in_turn = false;     ///< the last sentence's: both eyes' pictures are shown in turn
     };
     struct Queued {
         MonotonicTime at;
@@ -93,8 +97,12 @@ private:
     void darken();
     void light();
     [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode);
-    [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize framebuffer);
+    /// `size`: of what the screen shows of the framebuffer.
+    [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize size);
     void flip();
+    void flip_failed(KmsAnswer answer);
+    /// The framebuffer of which the screen shows `size`.
+    [[nodiscard]] PixelSize framebuffer_for(PixelSize size) const;
     [[nodiscard]] bool make_scanout(PixelSize size);
     /// Updates the framebuffer that is not shown.
     [[nodiscard]] FramebufferId fill();

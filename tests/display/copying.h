@@ -81,14 +81,16 @@ protected:
         glFinish();
         return picture;
     }
+    /// `copy`: none: that of one picture.
     std::vector<Texel> copied(const PictureFramebuffer& picture, PixelSize size, TopRow top,
-                              std::optional<PixelRectangle> part = std::nullopt) {
+                              std::optional<PixelRectangle> part = std::nullopt,
+                              const PictureCopy* copy = nullptr) {
         EXPECT_TRUE(copying_->make_current());
         std::vector<Texel> texels;
         {
             const Screen screen(size);
-            drawn_ = copy_->draw(picture, size, top,
-                                 part.value_or(PixelRectangle{0, 0, picture.width(), picture.height()}));
+            const PixelRectangle whole{0, 0, picture.width(), picture.height()};
+            drawn_ = (copy != nullptr ? *copy : *copy_).draw(picture, size, top, part.value_or(whole));
             EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
             texels = screen.read();
         }

@@ -338,12 +338,41 @@ int FakeCard::sequence(std::uint32_t crtc) const {
 }
 
 void FakeCard::refresh() {
-    time_us += 16'667;
-    for (const auto& [crtc, pending] : std::exchange(pending_, {})) {
-        if (pending.file != nullptr) {
-            send_event(pending, crtc);
+    time_us += refresh_us;
+    ++refreshes;
+    for (auto& [crtc, scanned] : scanned_) {
+        scanned.waited = 0;
+    }
+    if (late > 0) {
+        --late;
+    } else {
+        for (const auto& [crtc, pending] : std::exchange(pending_, {})) {
+            if (pending.file != nullptr && lost == 0) {
+                send_event(pending, crtc);
+            }
+            lost -= lost > 0 ? 1 : 0;
+            if (const FakePlane* plane = primary(crtc); plane != nullptr) {
+                scanned_[crtc] =
+                    Scanned{.framebuffer = static_cast<std::uint32_t>(value(plane->id, "FB_ID")),
+                            .first_row = static_cast<std::uint32_t>(value(plane->id, "SRC_Y") >> 16U),
+                            .waited = refreshes - pending.queued_at,
+                            .modeset = pending.modeset};
+            }
         }
     }
+    if (refreshed) {
+        refreshed();
+    }
+}
+
+std::optional<FakeCard::Scanned> FakeCard::scanned(std::uint32_t connector) const {
+    const auto crtc = static_cast<std::uint32_t>(value(connector, "CRTC_ID"));
+    const auto found = scanned_.find(crtc);
+    if (crtc == 0 || value(crtc, "ACTIVE") == 0 || found == scanned_.end() ||
+        !framebuffers_.contains(found->second.framebuffer)) {
+        return std::nullopt;
+    }
+    return found->second;
 }
 
 void FakeCard::send_event(const Pending& pending, std::uint32_t crtc) const {
@@ -353,6 +382,7 @@ void FakeCard::send_event(const Pending& pending, std::uint32_t crtc) const {
     event.user_data = pending.given_back;
     event.tv_sec = static_cast<std::uint32_t>(time_us / 1'000'000);
     event.tv_usec = static_cast<std::uint32_t>(time_us % 1'000'000);
+    event.sequence = refreshes;
     event.crtc_id = crtc;
     static_cast<void>(!::write(pending.file->events, &event, sizeof event));
 }

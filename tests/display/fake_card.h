@@ -21,12 +21,15 @@
 ///                               atomic commits the CRTC
 ///          drm_property.c       a blob lives as long as a file or a state holds it; foreign ones cannot be
 ///                               destroyed: EPERM
+///          drm_connector.c      drm_mode_expose_to_userspace: HDMI's 3D modes are listed only for a file with
+///                               DRM_CLIENT_CAP_STEREO_3D
 ///          drm_vblank.c         drm_crtc_get_sequence_ioctl: EOPNOTSUPP without vertical blanks, EINVAL
 ///                               while the CRTC is off
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,6 +54,7 @@ struct FakeFile {
     int events = -1; ///< the end of the file to which the kernel writes
     bool universal_planes = false;
     bool atomic = false;
+    bool stereo = false; ///< HDMI's 3D modes are listed for it
     bool was_master = false;
     std::string renderer; ///< of a render node: the GPU's name in OpenGL; empty: the processor draws
     std::set<std::uint32_t> framebuffers, blobs, handles;
@@ -111,6 +115,11 @@ public:
     bool gone = false;
     bool flips_at_once = true; ///< like an emulated card; otherwise flips happen in `refresh`
     std::uint64_t time_us = 1'000'000;
+    std::uint64_t refresh_us = 16'667; ///< from one refresh to the next
+    std::uint32_t refreshes = 0;       ///< so far; the kernel counts them for each CRTC
+    int late = 0;                      ///< refreshes that pass before queued flips take effect
+    int lost = 0;                      ///< flips that will take effect without their event
+    std::function<void()> refreshed;   ///< called after each refresh
 
     std::uint32_t add_crtc();
     std::uint32_t add_encoder(std::uint32_t possible_crtcs);
@@ -138,9 +147,21 @@ public:
     };
     /// The picture of a monitor at the connector; nullopt: it is dark.
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
+    /// The scanout since the last refresh.
+    struct Scanned {
+        std::uint32_t framebuffer = 0, first_row = 0;
+        std::uint32_t waited = 0; ///< refreshes from its commit to this one; 0: it was shown before
+        bool modeset = false;     ///< the commit set a mode
+    };
+    /// nullopt: the connector is dark.
+    [[nodiscard]] std::optional<Scanned> scanned(std::uint32_t connector) const;
     /// A framebuffer's memory, row by row.
     [[nodiscard]] std::span<const std::byte> pixels(std::uint32_t framebuffer) const {
         return *framebuffers_.at(framebuffer).memory;
+    }
+    [[nodiscard]] bool has(std::uint32_t framebuffer) const { return framebuffers_.contains(framebuffer); }
+    [[nodiscard]] std::uint32_t height(std::uint32_t framebuffer) const {
+        return framebuffers_.at(framebuffer).height;
     }
     [[nodiscard]] std::uint64_t value(std::uint32_t object, const std::string& property) const;
     void set(std::uint32_t object, const std::string& property, std::uint64_t value);
@@ -196,6 +217,8 @@ private:
     struct Pending {
         FakeFile* file = nullptr; ///< nullptr: no file waits for the event
         std::uint64_t given_back = 0;
+        std::uint32_t queued_at = 0; ///< number of the refresh before
+        bool modeset = false;        ///< it may set a mode
     };
     std::uint32_t add_object(std::uint32_t kind);
     [[nodiscard]] std::uint64_t get(const State& state, std::uint32_t object, const std::string& name) const;
@@ -226,6 +249,7 @@ private:
     std::map<std::uint32_t, FakeBuffer> buffers_;
     State state_;
     std::map<std::uint32_t, Pending> pending_; ///< by CRTC
+    std::map<std::uint32_t, Scanned> scanned_; ///< by CRTC
     FakeFile* master_ = nullptr;
     int removed_while_shown_ = 0;
 };

@@ -173,7 +173,11 @@ int FakeCard::commit(FakeFile& file, std::span<const FakeChange> changes, std::u
         }
     }
     for (const std::uint32_t crtc : touched) {
-        pending_[crtc] = {event ? &file : nullptr, given_back};
+        const bool modeset = (flags & DRM_MODE_ATOMIC_ALLOW_MODESET) != 0;
+        pending_[crtc] = Pending{.file = event ? &file : nullptr,
+                                 .given_back = given_back,
+                                 .queued_at = refreshes,
+                                 .modeset = modeset};
     }
     settle(std::move(next));
     if (flips_at_once) {
@@ -251,7 +255,9 @@ int FakeCard::page_flip(FakeFile& file, std::uint32_t crtc, std::uint32_t frameb
         return -ENOSPC;
     }
     put(state_, plane->id, "FB_ID", framebuffer);
-    pending_[crtc] = {(flags & DRM_MODE_PAGE_FLIP_EVENT) != 0 ? &file : nullptr, given_back};
+    pending_[crtc] = Pending{.file = (flags & DRM_MODE_PAGE_FLIP_EVENT) != 0 ? &file : nullptr,
+                             .given_back = given_back,
+                             .queued_at = refreshes};
     if (flips_at_once) {
         refresh();
     }

@@ -23,6 +23,12 @@ inline drmModeModeInfo kernel_mode(int width, int height, double hz, bool prefer
     return mode;
 }
 
+/// The same mode as HDMI's 3D; `layout`: DRM_MODE_FLAG_3D_...
+inline drmModeModeInfo in_3d(drmModeModeInfo mode, std::uint32_t layout) {
+    mode.flags |= layout;
+    return mode;
+}
+
 inline std::vector<drmModeModeInfo> projector_modes() {
     return {kernel_mode(320, 200, 60.0, true), kernel_mode(256, 192, 60.0), kernel_mode(160, 120, 60.0)};
 }
@@ -101,6 +107,9 @@ public:
         return device_.light(connector, mode, shown, ticket);
     }
     KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override { return device_.flip(shown, ticket); }
+    KmsAnswer flip_from(int first_row, FramebufferId shown, std::uint64_t ticket) override {
+        return device_.flip_from(first_row, shown, ticket);
+    }
     KmsAnswer darken() override { return device_.darken(); }
     bool become_master() override { return device_.become_master(); }
     std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
@@ -110,6 +119,7 @@ public:
     }
     [[nodiscard]] bool flips_keep_time() const override { return device_.flips_keep_time(); }
     [[nodiscard]] std::string_view shortcoming() const override { return device_.shortcoming(); }
+    [[nodiscard]] std::string_view card() const override { return device_.card(); }
     [[nodiscard]] MonotonicTime now() const override { return time; }
 
     MonotonicTime time = from_microseconds(1'000'000);

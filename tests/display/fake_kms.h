@@ -102,14 +102,19 @@ public:
         queued_.pop_front();
         longest_wait = std::max(longest_wait, Nanoseconds(done.at - time));
         time = std::max(time, done.at);
+        if (fails_later != KmsAnswer::Done) {
+            return Flipped{.time = done.at, .ticket = done.ticket, .answer = fails_later};
+        }
         screen = done.what;
         setting_a_mode_ = false;
         flipped = done.at;
-        return Flipped{done.at, done.ticket};
+        return Flipped{.time = done.at, .ticket = done.ticket};
     }
     /// The kernel cannot tell while a mode is being set.
     bool flips_keep_time() const override { return keeps_time && !setting_a_mode_; }
     std::string_view shortcoming() const override { return lacks; }
+    bool in_turn() const override { return turns; }
+    std::string_view card() const override { return "/dev/dri/card0"; }
     MonotonicTime now() const override { return time; }
 
     MonotonicTime time = from_microseconds(1'000'000);
@@ -117,9 +122,11 @@ public:
     std::vector<ModeTiming> refused;
     std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
     std::string_view lacks;           ///< the shortcoming it reports
+    bool turns = false;               ///< it shows both halves of a framebuffer in turn
     bool scales = false;              ///< it can scale framebuffers to the mode's size
     bool no_scaled_flips = false;
     int scalings_refused = 0;
+    KmsAnswer fails_later = KmsAnswer::Done; ///< of flips that were queued
     bool gone = false;
     bool master = true;
     bool held_by_another = false;
@@ -166,6 +173,7 @@ struct FakeMemory {
     int alive = 0;
     int fills = 0;
     PixelRectangle filled; ///< most recent part
+    PixelSize size;        ///< of the newest pair
     bool none_left = false;
 
     class Pair final : public ScanoutPair {
@@ -202,6 +210,7 @@ struct FakeMemory {
             if (none_left) {
                 return fail(ErrorKind::BadConfiguration, "test.device", "no memory");
             }
+            this->size = size;
             return std::make_unique<Pair>(*this, size, ++pairs);
         };
     }

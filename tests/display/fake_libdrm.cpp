@@ -78,7 +78,11 @@ drmModeConnectorPtr connector_of(const Call& call, std::uint32_t id, bool probes
         call.card().probe(connector);
     }
     const auto made = std::make_shared<WithLists<drmModeConnector>>();
-    made->modes = connector.modes;
+    for (const drmModeModeInfo& mode : connector.modes) {
+        if (call.file->stereo || (mode.flags & DRM_MODE_FLAG_3D_MASK) == 0) {
+            made->modes.push_back(mode);
+        }
+    }
     made->first = connector.encoders;
     made->value.connector_id = id;
     made->value.encoder_id = call.card().encoder_of(connector);
@@ -108,6 +112,10 @@ int drmSetClientCap(int number, std::uint64_t capability, std::uint64_t value) {
     }
     if (capability == DRM_CLIENT_CAP_ATOMIC && call.card().atomic && value <= 2) {
         call.file->atomic = call.file->universal_planes = value != 0;
+        return 0;
+    }
+    if (capability == DRM_CLIENT_CAP_STEREO_3D && value <= 1) { // of the kernel, not of the driver
+        call.file->stereo = value == 1;
         return 0;
     }
     errno = capability == DRM_CLIENT_CAP_ATOMIC ? EOPNOTSUPP : EINVAL;
@@ -426,7 +434,7 @@ int drmCrtcGetSequence(int number, std::uint32_t crtc, std::uint64_t* sequence, 
         errno = -refused;
         return -1;
     }
-    *sequence = 0;
+    *sequence = call.card().refreshes;
     *ns = call.card().time_us * 1000;
     return 0;
 }

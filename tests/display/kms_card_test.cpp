@@ -61,6 +61,32 @@ TEST_F(KmsCardTest, AskingThoroughlyFindsWhatWasPluggedSilently) {
     EXPECT_EQ(card->look(true).connectors[0].plugged, Plugged::No);
 }
 
+TEST_F(KmsCardTest, Hdmis3DModesAreListedOnlyForTwoHalves) {
+    const drmModeModeInfo plain = kernel_mode(320, 200, 60.0, true);
+    desk.card.plug(desk.hdmi, {plain, in_3d(plain, DRM_MODE_FLAG_3D_TOP_AND_BOTTOM),
+                               in_3d(plain, DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF),
+                               in_3d(plain, DRM_MODE_FLAG_3D_FRAME_PACKING)});
+    EXPECT_EQ(mode_top_bottom, std::uint32_t{DRM_MODE_FLAG_3D_TOP_AND_BOTTOM});
+    EXPECT_EQ(mode_side_by_side, std::uint32_t{DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF});
+    EXPECT_EQ(mode_stereo, std::uint32_t{DRM_MODE_FLAG_3D_MASK});
+    const auto listed = [this](EyeLayout eyes) {
+        OutputRequest request;
+        request.eyes = eyes;
+        return KmsCard::open(card_path, request)->look(true).connectors[0].modes.size();
+    };
+    const auto capabilities = [this] {
+        return std::count(kernel.calls().begin(), kernel.calls().end(), "drmSetClientCap");
+    };
+    EXPECT_EQ(listed(EyeLayout::One), 1U);
+    EXPECT_EQ(listed(EyeLayout::InTurn), 1U);
+    EXPECT_EQ(capabilities(), 4) << "universal planes and atomic commits, and no more";
+    EXPECT_EQ(listed(EyeLayout::SideBySide), 4U);
+    EXPECT_EQ(listed(EyeLayout::TopBottom), 4U);
+    EXPECT_EQ(capabilities(), 10);
+    kernel.fail(kernel.calls().size() + 5, EINVAL); // open, resources, two capabilities, this one
+    EXPECT_EQ(listed(EyeLayout::SideBySide), 1U) << "an older kernel";
+}
+
 TEST_F(KmsCardTest, ACardWithoutAtomicCommitsIsDrivenByTheOlderCalls) {
     desk.card.atomic = false;
     EXPECT_FALSE(KmsCard::open(card_path, {})->is_atomic());

@@ -301,6 +301,37 @@ TEST_P(AtomicDevice, WithoutAPropertyThatItNeedsTheCardIsRefused) {
     EXPECT_TRUE(lights_without(desk.planes[0], "type")) << "the other CRTC has a primary plane too";
 }
 
+TEST_P(AtomicDevice, AFlipMayShowOtherRowsOfAFramebuffer) {
+    const FramebufferId both = framebuffer(320, 400);
+    EXPECT_EQ(kms_->flip_from(200, both, 1), KmsAnswer::Refused) << "nothing is lit";
+    ASSERT_EQ(light(both), KmsAnswer::Done);
+    static_cast<void>(done());
+    EXPECT_EQ(kms_->flip_from(200, both, 2), KmsAnswer::Done);
+    EXPECT_EQ(done(), std::vector<std::uint64_t>{2});
+    EXPECT_EQ(desk.card.value(desk.planes[0], "SRC_Y"), std::uint64_t{200} << 16U);
+    EXPECT_EQ(kms_->flip_from(201, both, 3), KmsAnswer::Refused) << "its last row is above the screen's";
+    EXPECT_EQ(kms_->flip_from(0, both, 4), KmsAnswer::Done);
+    EXPECT_EQ(done(), std::vector<std::uint64_t>{4});
+    EXPECT_EQ(desk.card.value(desk.planes[0], "SRC_Y"), 0U);
+    EXPECT_EQ(kms_->flip_from(200, both, 5), KmsAnswer::Done);
+    static_cast<void>(done());
+    ASSERT_EQ(light(both, 320, 200, 6), KmsAnswer::Done);
+    EXPECT_EQ(desk.card.value(desk.planes[0], "SRC_Y"), 0U) << "a new mode begins with the first row";
+    static_cast<void>(done());
+}
+
+TEST_P(Device, AFlipTellsTheNumberOfItsRefresh) {
+    const FramebufferId picture = lit();
+    desk.card.refreshes = 40;
+    ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
+    desk.card.refresh();
+    const std::optional<Flipped> flipped = kms_->wait_flip(Nanoseconds(0));
+    ASSERT_TRUE(flipped);
+    EXPECT_EQ(flipped->refresh, 41U);
+    EXPECT_EQ(kms_->card(), card_path);
+    EXPECT_FALSE(kms_->in_turn());
+}
+
 TEST_P(AtomicDevice, WithoutAPlaneOfItsFormatTheCardIsRefused) {
     FakeCard& card = kernel.add_card("/dev/dri/fake1");
     const std::uint32_t crtc = card.add_crtc();

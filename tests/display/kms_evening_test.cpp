@@ -87,6 +87,7 @@ protected:
         desk.card.atomic = GetParam();
         desk.card.flips_at_once = false;
     }
+    std::string told_; ///< the last sentence about the output
 };
 INSTANTIATE_TEST_SUITE_P(Kms, KmsEvening, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Atomic" : "Legacy"; });
@@ -143,6 +144,32 @@ TEST_P(KmsEvening, TheModeThatIsWishedForGoesBeforeThePreferredOne) {
     EXPECT_EQ(evening.mode(), "320x200") << "the projector has no such mode";
     EXPECT_TRUE(holds(evening.state(), "cannot do the mode in the settings")) << evening.state();
     EXPECT_EQ(evening.health(), DeviceHealth::Impaired);
+}
+
+TEST_P(KmsEvening, OfTwoHalvesTheProjectorIsToldByHdmiOrTheTechnicianByTheSentence) {
+    const drmModeModeInfo plain = kernel_mode(320, 200, 60.0, true);
+    OutputRequest halves = wish();
+    const auto layout_shown = [&](EyeLayout eyes) {
+        halves.eyes = eyes;
+        Evening evening(desk, halves);
+        evening.frames(3);
+        EXPECT_EQ(evening.health(), DeviceHealth::Well);
+        told_ = evening.state();
+        const auto shown = desk.card.shown(desk.hdmi);
+        return shown ? shown->mode.flags & DRM_MODE_FLAG_3D_MASK : DRM_MODE_FLAG_3D_MASK;
+    };
+    const std::string lit = "the projector at HDMI-A-1 is lit, 320 x 200 at 60 Hz";
+    EXPECT_EQ(layout_shown(EyeLayout::SideBySide), 0U);
+    EXPECT_EQ(told_, lit + "; choose 3D, side by side, in the projector's own menu");
+    desk.card.plug(desk.hdmi, {in_3d(plain, DRM_MODE_FLAG_3D_FRAME_PACKING),
+                               in_3d(plain, DRM_MODE_FLAG_3D_TOP_AND_BOTTOM),
+                               in_3d(plain, DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF), plain});
+    EXPECT_EQ(layout_shown(EyeLayout::SideBySide), std::uint32_t{DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF});
+    EXPECT_EQ(told_, lit + "; HDMI tells it that the picture is 3D, side by side");
+    EXPECT_EQ(layout_shown(EyeLayout::TopBottom), std::uint32_t{DRM_MODE_FLAG_3D_TOP_AND_BOTTOM});
+    EXPECT_EQ(told_, lit + "; HDMI tells it that the picture is 3D, top and bottom");
+    EXPECT_EQ(layout_shown(EyeLayout::One), 0U) << "the projector is switched back";
+    EXPECT_EQ(told_, lit);
 }
 
 TEST_P(KmsEvening, AModeThatTheCardRefusesIsFollowedByTheNext) {

@@ -201,5 +201,59 @@ TEST(KmsMode, AProjectorWithoutAnEdidGetsUsualModesAndNoOtherIsTouched) {
     EXPECT_TRUE(card.connectors[2].modes.empty());
 }
 
+ModeTiming flagged(ModeTiming mode, std::uint32_t layout) {
+    mode.flags |= layout;
+    return mode;
+}
+
+constexpr std::uint32_t frame_packing = 1U << 14U;
+
+TEST(KmsMode, OfTwoHalvesTheTwinInHdmis3DGoesBeforeThePlainMode) {
+    const ModeTiming plain = a_mode(1280, 800, 60.0, true);
+    const ModeTiming other = a_mode(1024, 768, 60.0);
+    ModeTiming twin = flagged(plain, mode_side_by_side);
+    twin.preferred = false; // whether the kernel copies this from the plain mode or not
+    const auto list = with({flagged(other, mode_side_by_side), flagged(plain, mode_top_bottom),
+                            flagged(plain, frame_packing), twin, other, plain});
+    OutputRequest halves = request();
+    halves.eyes = EyeLayout::SideBySide;
+    EXPECT_EQ(modes_to_try(list, halves),
+              (std::vector<ModeTiming>{twin, plain, flagged(other, mode_side_by_side), other}));
+    halves.eyes = EyeLayout::TopBottom;
+    EXPECT_EQ(modes_to_try(list, halves),
+              (std::vector<ModeTiming>{flagged(plain, mode_top_bottom), plain, other}));
+    for (const EyeLayout eyes : {EyeLayout::One, EyeLayout::InTurn}) {
+        halves.eyes = eyes;
+        EXPECT_EQ(modes_to_try(list, halves), (std::vector<ModeTiming>{plain, other}))
+            << "never for another picture";
+    }
+    halves.eyes = EyeLayout::SideBySide;
+    EXPECT_EQ(modes_to_try(with({plain, flagged(a_mode(1280, 800, 50.0), mode_side_by_side)}), halves),
+              std::vector<ModeTiming>{plain})
+        << "not of another timing";
+    halves.width = 1024;
+    halves.height = 768;
+    EXPECT_EQ(modes_to_try(list, halves)[0], flagged(other, mode_side_by_side)) << "the requested one's";
+}
+
+TEST(KmsMode, ForTheEyesInTurnAFastModeGoesBeforeThePicturesSize) {
+    OutputRequest turns = request();
+    turns.eyes = EyeLayout::InTurn;
+    turns.fast = true;
+    turns.picture_hz = 120.0;
+    const auto first = [&turns](std::vector<ModeTiming> modes) {
+        return modes_to_try(with(std::move(modes)), turns)[0];
+    };
+    const ModeTiming usual = a_mode(1280, 800, 60.0, true);
+    EXPECT_NEAR(refresh_hz(first({usual, a_mode(1280, 800, 120.0)})), 120.0, 0.1);
+    EXPECT_EQ(first({usual, a_mode(1024, 768, 120.0), a_mode(640, 480, 120.0)}).width, 1024);
+    EXPECT_EQ(first({usual, a_mode(1280, 800, 85.0)}), usual) << "none is fast enough";
+    EXPECT_NEAR(refresh_hz(first({usual, a_mode(1280, 800, 144.0), a_mode(1280, 800, 119.9)})), 119.9, 0.1);
+    turns.width = 1280;
+    turns.height = 800;
+    EXPECT_NEAR(refresh_hz(first({usual, a_mode(1024, 768, 120.0)})), 60.0, 0.1) << "the settings decide";
+    EXPECT_NEAR(refresh_hz(first({usual, a_mode(1280, 800, 120.0)})), 120.0, 0.1);
+}
+
 } // namespace
 } // namespace frustumscreen::display

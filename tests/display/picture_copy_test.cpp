@@ -121,6 +121,53 @@ TEST_F(Copying, ScalesCodes) {
     }
 }
 
+TEST_F(Copying, OfTwoPicturesEachIsCopiedIntoItsHalfAsIfItWereAlone) {
+    const auto upper = [](int x, int y) { return colour_of(x, y); };
+    const auto lower = [](int x, int y) { return colour_of(255 - x, 90 + y); };
+    const auto both = [](int x, int y) { return y < 40 ? colour_of(x, y) : colour_of(255 - x, 90 + y - 40); };
+    const PictureFramebuffer two = picture_of(64, 80, both);
+    const PictureFramebuffer first = picture_of(64, 40, upper);
+    const PictureFramebuffer second = picture_of(64, 40, lower);
+    ASSERT_TRUE(copying_->make_current());
+    std::optional<PictureCopy> copy_of_two = PictureCopy::create(2).value();
+    ASSERT_TRUE(drawing_->make_current());
+    // The same size, bars above and below, bars at the sides, no bars, smaller.
+    for (const PixelSize half : {PixelSize{64, 40}, {128, 100}, {200, 80}, {128, 80}, {50, 30}}) {
+        const std::size_t count =
+            static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height);
+        const PixelSize target{half.width, 2 * half.height};
+        const std::vector<Texel> screen = copied(two, target, TopRow::First, std::nullopt, &*copy_of_two);
+        EXPECT_EQ(drawn_, (PixelRectangle{0, 0, target.width, target.height}));
+        const std::vector<Texel> above = copied(first, half, TopRow::First);
+        const std::vector<Texel> below = copied(second, half, TopRow::First);
+        std::size_t different = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool code_of_one = half.width != 64 && k < static_cast<std::size_t>(probe_pixels);
+            for (std::size_t c = 0; c < 4;
+                 ++c) { // the hardware's interpolation counts from each picture's own edge
+                different += std::abs(screen[k][c] - above[k][c]) > 1 ? 1 : 0;
+                different += !code_of_one && std::abs(screen[count + k][c] - below[k][c]) > 1 ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(different, 0U) << half.width << " x " << half.height;
+        const PixelRectangle part{10, 50, 20, 16}; // in the lower half
+        const std::vector<Texel> some = copied(two, target, TopRow::First, part, &*copy_of_two);
+        const PixelRectangle there = part_on_screen({10, 10, 20, 16}, {64, 40}, letterbox({64, 40}, half));
+        for (int y = 0; y < target.height; ++y) {
+            for (int x = 0; x < target.width; ++x) {
+                const bool in = x >= there.x && x < there.x + there.width && y - half.height >= there.y &&
+                                y - half.height < there.y + there.height;
+                const bool code = half.width != 64 && y == 0 && x < probe_pixels;
+                const auto at = static_cast<std::size_t>(target.width * y + x);
+                ASSERT_EQ(some[at], in || code ? screen[at] : (Texel{255, 0, 255, 255})) << x << ", " << y;
+            }
+        }
+    }
+    ASSERT_TRUE(copying_->make_current());
+    copy_of_two.reset();
+    ASSERT_TRUE(drawing_->make_current());
+}
+
 TEST_F(Copying, LeavesTheRenderersStateAlone) {
     const PictureFramebuffer picture = picture_of(16, 16);
     glBindFramebuffer(GL_FRAMEBUFFER, picture.name());

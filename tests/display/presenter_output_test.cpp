@@ -174,5 +174,73 @@ TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
     EXPECT_TRUE(other.says("because it cannot do the mode in the settings")) << other.presenter.state();
 }
 
+OutputRequest both_eyes(EyeLayout eyes) {
+    OutputRequest request = wish_for_the_preferred();
+    request.eyes = eyes;
+    return request;
+}
+
+TEST(PresenterOutput, TwoPicturesAboveEachOtherHaveAFramebufferOfTwiceTheHeight) {
+    for (const bool scales : {true, false}) {
+        PresentedExhibit exhibit(both_eyes(EyeLayout::InTurn));
+        exhibit.kms.scales = scales;
+        exhibit.kms.turns = true;
+        ConnectorSeen projector = a_projector();
+        projector.modes = {a_mode(1920, 1080, 120.0, true)};
+        exhibit.presenter.connected(a_card({projector}));
+        exhibit.frame({10, 20, 30, 40});
+        EXPECT_EQ(exhibit.memory.filled, (PixelRectangle{0, 0, 1280, 1600}));
+        EXPECT_EQ(exhibit.memory.size, scales ? (PixelSize{1280, 1600}) : (PixelSize{1920, 2160}));
+        exhibit.frames(5);
+        ASSERT_TRUE(exhibit.kms.screen);
+        EXPECT_EQ(exhibit.kms.screen->size, scales ? (PixelSize{1280, 800}) : (PixelSize{1920, 1080}));
+        EXPECT_EQ(exhibit.kms.screen->place,
+                  scales ? (PixelRectangle{96, 0, 1728, 1080}) : (PixelRectangle{0, 0, 1920, 1080}));
+        EXPECT_EQ(exhibit.presenter.state(),
+                  "the projector at HDMI-A-1 is lit, 1920 x 1080 at 120 Hz; each eye gets 60 Hz");
+        exhibit.kms.turns = false;
+        exhibit.frames(2);
+        EXPECT_EQ(exhibit.presenter.condition().id, "display.one_eye") << "told as soon as it is known";
+    }
+}
+
+TEST(PresenterOutput, TheEyesLayoutIsToldWithEveryOtherState) {
+    OutputRequest request = both_eyes(EyeLayout::SideBySide);
+    request.width = 1024;
+    request.height = 768;
+    PresentedExhibit other(request);
+    other.kms.lacks = "its range is unknown";
+    other.presenter.connected(a_card({a_projector()}));
+    other.frames(2);
+    EXPECT_EQ(other.presenter.state(),
+              "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz, because it cannot do the mode in the "
+              "settings; "
+              "choose 3D, side by side, in the projector's own menu; its range is unknown");
+    EXPECT_EQ(other.presenter.condition().id, "display.other_mode");
+    request = forced_on_hdmi();
+    request.eyes = EyeLayout::TopBottom;
+    PresentedExhibit blind(request);
+    blind.presenter.connected(a_card({unseen_projector()}));
+    blind.frames(5);
+    EXPECT_TRUE(blind.says("choose 3D, top and bottom, in the projector's own menu"))
+        << blind.presenter.state();
+}
+
+/// No flip of another picture is possible: the failure comes after the call.
+TEST(PresenterOutput, AFlipThatFailsAfterItWasQueuedIsActedOn) {
+    for (const KmsAnswer answer : {KmsAnswer::Refused, KmsAnswer::NotMaster, KmsAnswer::Gone}) {
+        PresentedExhibit exhibit;
+        exhibit.presenter.connected(a_card({a_projector()}));
+        exhibit.frames(5);
+        exhibit.kms.fails_later = answer;
+        exhibit.frames(2);
+        EXPECT_FALSE(exhibit.says("is lit"));
+        exhibit.kms.fails_later = KmsAnswer::Done;
+        exhibit.frames(100);
+        EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+        EXPECT_EQ(exhibit.kms.lights, 2);
+    }
+}
+
 } // namespace
 } // namespace frustumscreen::display

@@ -42,6 +42,26 @@ Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
 }
 
+/// A name in the settings; empty for any.
+std::string or_any(const std::string& name) {
+    return name == "any" ? std::string() : name;
+}
+
+display::EyeLayout eye_layout(settings::Stereo stereo) {
+    switch (stereo) {
+    case settings::Stereo::SideBySide:
+        return display::EyeLayout::SideBySide;
+    case settings::Stereo::TopBottom:
+        return display::EyeLayout::TopBottom;
+    case settings::Stereo::FrameSequential:
+        return display::EyeLayout::InTurn;
+    case settings::Stereo::Off:
+    case settings::Stereo::Anaglyph: // the picture's own colours tell the eyes apart
+        break;
+    }
+    return display::EyeLayout::One;
+}
+
 /// Opens a pose file or a packet recording.
 Result<std::unique_ptr<tracker::Tracker>> make_replay(const settings::TrackerSettings& tracker,
                                                       MonotonicTime start) {
@@ -188,22 +208,32 @@ void add_camera(show::Inputs& inputs, const settings::Settings& settings, const 
 
 } // namespace
 
-Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings, bool headless) {
+display::OutputRequest output_request(const settings::Settings& settings, Views views) {
     const settings::DisplaySettings& display = settings.display;
-    if (!headless && display.kind == settings::DisplayKind::Kms) {
-        display::OutputRequest request;
-        const auto named = [](const std::string& name) { return name == "any" ? std::string() : name; };
-        request.connector = named(display.connector);
-        request.width = display.mode.width;
-        request.height = display.mode.height;
-        request.refresh_hz = display.mode.refresh_hz;
-        request.force = display.force;
-        request.picture_width = settings.projector.pinhole.width;
-        request.picture_height = settings.projector.pinhole.height;
-        request.picture_hz = settings.projector.refresh_hz;
-        return display::KmsDisplay::create(named(display.card), request);
+    const settings::Stereo stereo = settings::stereo_of(settings);
+    const bool in_turn = stereo == settings::Stereo::FrameSequential;
+    display::OutputRequest request;
+    request.connector = or_any(display.connector);
+    request.width = display.mode.width;
+    request.height = display.mode.height;
+    request.refresh_hz = display.mode.refresh_hz;
+    request.force = display.force;
+    request.picture_width = settings.projector.pinhole.width;
+    request.picture_height = settings.projector.pinhole.height;
+    request.picture_hz = (in_turn ? 2.0 : 1.0) * settings.projector.refresh_hz; // each eye's pictures
+    request.eyes = views == Views::One ? display::EyeLayout::One : eye_layout(stereo);
+    request.fast = in_turn;
+    return request;
+}
+
+Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings, bool headless,
+                                                       Views views) {
+    if (!headless && settings.display.kind == settings::DisplayKind::Kms) {
+        return display::KmsDisplay::create(or_any(settings.display.card), output_request(settings, views));
     }
-    const PixelSize picture = scene::stereo_layout(settings).display;
+    const geometry::Pinhole& projector = settings.projector.pinhole;
+    const PixelSize picture = views == Views::One ? PixelSize{projector.width, projector.height}
+                                                  : scene::stereo_layout(settings).display;
     return display::SurfacelessDisplay::create(picture.width, picture.height);
 }
 

@@ -11,6 +11,7 @@
 #include "firmware_host/base/result.h"
 #include "firmware_host/camera/camera.h"
 #include "firmware_host/display/display.h"
+#include "firmware_host/display/kms_mode.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
 #include <filesystem>
@@ -20,8 +21,15 @@
 
 namespace frustumscreen::programs {
 
-[[nodiscard]] Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings,
-                                                                     bool headless);
+/// Pictures in the display's picture. One: a plain picture of the projector's size, in the exhibit's mode, whatever the
+/// layout of the eyes' pictures.
+enum class Views { OfLayout, One };
+
+/// The display's picture has the size that the layout of the eyes' pictures has (app/scene/stereo.h).
+[[nodiscard]] Result<std::unique_ptr<display::Display>>
+make_display(const settings::Settings& settings, bool headless, Views views = Views::OfLayout);
+[[nodiscard]] display::OutputRequest output_request(const settings::Settings& settings,
+                                                    Views views = Views::OfLayout);
 
 /// Creates a new file for the tracker's packets.
 [[nodiscard]] Result<std::unique_ptr<tracker::PacketRecorder>>

@@ -1,0 +1,61 @@
+// The display that is asked for, for each layout of the eyes' pictures.
+#include "app/programs/devices/wiring.h"
+#include "app/scene/stereo.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen::programs {
+namespace {
+
+settings::Settings settings_with(settings::Stereo stereo) {
+    settings::Settings settings;
+    settings.projector.pinhole = settings.projector.pinhole.scaled_to(640, 400);
+    settings.eye.stereo = stereo;
+    return settings;
+}
+
+TEST(OutputRequestOfSettings, AsksForTheModeOfTheProjectorAndTheLayoutOfThePicture) {
+    using display::EyeLayout;
+    using settings::Stereo;
+    for (const auto& [stereo, eyes] : {std::pair{Stereo::Off, EyeLayout::One},
+                                       {Stereo::SideBySide, EyeLayout::SideBySide},
+                                       {Stereo::TopBottom, EyeLayout::TopBottom},
+                                       {Stereo::FrameSequential, EyeLayout::InTurn},
+                                       {Stereo::Anaglyph, EyeLayout::One}}) {
+        const settings::Settings settings = settings_with(stereo);
+        const display::OutputRequest request = output_request(settings);
+        EXPECT_EQ(request.eyes, eyes) << name_of(stereo);
+        EXPECT_EQ(request.picture_width, 640);
+        EXPECT_EQ(request.picture_height, 400) << "of the projector, also where the picture holds two";
+        EXPECT_EQ(request.picture_hz, stereo == Stereo::FrameSequential ? 120.0 : 60.0);
+        EXPECT_EQ(request.fast, stereo == Stereo::FrameSequential);
+        const PixelSize drawn = scene::stereo_layout(settings).display;
+        EXPECT_EQ(drawn, (PixelSize{request.picture_width, request.picture_height * stacked(request.eyes)}));
+        const auto headless = make_display(settings, true);
+        ASSERT_TRUE(headless) << headless.error().message;
+        EXPECT_EQ((PixelSize{(*headless)->width(), (*headless)->height()}), drawn);
+    }
+}
+
+TEST(OutputRequestOfSettings, AProjectorsOwnLayoutGoesBeforeThatOfTheEyes) {
+    settings::Settings settings = settings_with(settings::Stereo::SideBySide);
+    settings.projector.stereo = settings::Stereo::TopBottom;
+    EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::TopBottom);
+    settings.projector.stereo = settings::Stereo::Off;
+    EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::One);
+}
+
+TEST(OutputRequestOfSettings, AMeasurementHasOnePictureInTheExhibitsMode) {
+    const settings::Settings settings = settings_with(settings::Stereo::FrameSequential);
+    const display::OutputRequest exhibit = output_request(settings);
+    const display::OutputRequest plain = output_request(settings, Views::One);
+    EXPECT_EQ(plain.eyes, display::EyeLayout::One);
+    EXPECT_EQ(plain.fast, exhibit.fast);
+    EXPECT_EQ(plain.picture_hz, exhibit.picture_hz);
+    const auto headless = make_display(settings, true, Views::One);
+    ASSERT_TRUE(headless) << headless.error().message;
+    EXPECT_EQ((PixelSize{(*headless)->width(), (*headless)->height()}), (PixelSize{640, 400}));
+}
+
+} // namespace
+} // namespace frustumscreen::programs
