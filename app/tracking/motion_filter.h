@@ -10,6 +10,7 @@
 
 #include "app/tracking/motion_track.h"
 #include "app/tracking/pose_filter.h"
+#include "app/tracking/pose_noise.h"
 
 namespace frustumscreen::tracking {
 
@@ -21,11 +22,6 @@ struct MotionFilterOptions {
     double manoeuvre_lasts_s = 0.0;
 };
 
-/// Scatter of a tracker's poses at rest, on each axis, RMS.
-struct PoseNoise {
-    double place_m = 0.0003;
-    double turn_rad = 0.0026; ///< 0.15 degrees
-};
 [[nodiscard]] MotionFilterOptions exhibit_filter(const PoseNoise& noise = {});
 [[nodiscard]] MotionFilterOptions constant_velocity_filter(const PoseNoise& noise = {});
 
