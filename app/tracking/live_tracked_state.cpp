@@ -1,6 +1,7 @@
 #include "app/tracking/live_tracked_state.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/tracking/held_filter.h"
 #include "app/tracking/motion_filter.h"
 
 #include <algorithm>
@@ -52,10 +53,15 @@ PoseEstimator estimator() {
     return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
 }
 
+/// The prop by its tracker: on the table and in the hand.
+PoseEstimator prop_estimator(double lever_m) {
+    return PoseEstimator(std::make_unique<HeldFilter>(PoseNoise{}, lever_m));
+}
+
 } // namespace
 
 LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m)
-    : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
+    : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m)), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
       source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
       shown_head_({.lever_m = head_lever_m}) {}

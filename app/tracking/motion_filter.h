@@ -14,15 +14,28 @@
 
 namespace frustumscreen::tracking {
 
+/// How long a motion goes on beyond the latest pose: its velocity and its acceleration decay with these time constants.
+/// 0 = no decay.
+struct Coasting {
+    double velocity_s = 0.0;
+    double acceleration_s = 0.0;
+};
+
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
     MotionTrackOptions turn;  ///< radians
     /// While it manoeuvres, the motion decays with this time constant, because a hand that changes its
     /// direction may stop. 0 = no decay.
     double manoeuvre_lasts_s = 0.0;
+    Coasting place_coasts{};
+    Coasting turn_coasts{};
 };
 
+/// For a prop that stands or slides on the table.
 [[nodiscard]] MotionFilterOptions exhibit_filter(const PoseNoise& noise = {});
+/// For a prop in a hand, which hardly ever rests: a calm and a vigorous manoeuvre, and no model of rest. Tuned on
+/// recordings of hands at 1, 2 and 4 times their speed (docs/bench.md).
+[[nodiscard]] MotionFilterOptions hand_filter(const PoseNoise& noise = {});
 [[nodiscard]] MotionFilterOptions constant_velocity_filter(const PoseNoise& noise = {});
 
 class MotionFilter final : public PoseFilter {
@@ -40,6 +53,8 @@ private:
     MotionTrack place_;
     MotionTrack turn_;
     double manoeuvre_lasts_s_;
+    Coasting place_coasts_;
+    Coasting turn_coasts_;
     geometry::RigidTransform pose_; ///< reference of both tracks
 };
 
