@@ -27,6 +27,9 @@ constexpr double tags_off_m = 0.0015;
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
 
+/// A brisk hand. A prop that was lost and found elsewhere is not followed faster.
+constexpr double fastest_return_m_s = 1.0;
+
 /// Heads seen by a camera scatter more than sensors, and move less than hands.
 constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.004},
                                          MotionModel{MotionModel::Kind::Glide, 1.0}};
@@ -63,7 +66,7 @@ PoseEstimator prop_estimator(double lever_m) {
 LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m)
     : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m)), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
-      source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
+      source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
       shown_head_({.lever_m = head_lever_m}) {}
 
 bool LiveTrackedState::take(const tracker::PoseSample& sample) {
