@@ -38,7 +38,8 @@ double blur_px(const ProjectorSettings& projector, double focus_m, double depth_
 DepthRange sharp_depths(const ProjectorSettings& projector, double focus_m) {
     const double s = sharpness_m(projector);
     return {.nearest_m = s * focus_m / (s + focus_m),
-            .farthest_m = s > focus_m ? s * focus_m / (s - focus_m) : std::numeric_limits<double>::infinity()};
+            .farthest_m =
+                s > focus_m ? s * focus_m / (s - focus_m) : std::numeric_limits<double>::infinity()};
 }
 
 double largest_aperture_mm(const ProjectorSettings& projector, const DepthRange& range) {

@@ -66,7 +66,8 @@ PoseEstimator prop_estimator(double lever_m) {
 LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m)
     : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m)), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
-      source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
+      source_arbiter_({.lever_m = lever_m}),
+      shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
       shown_head_({.lever_m = head_lever_m}) {}
 
 bool LiveTrackedState::take(const tracker::PoseSample& sample) {

@@ -31,8 +31,8 @@ public:
 private:
     ShownPoseOptions options_;
     geometry::RigidTransform shown_;
-    PoseStep left_;        ///< from the estimate to the old pose at the start of the return
-    MonotonicTime return_; ///< start of the return
+    PoseStep left_;          ///< from the estimate to the old pose at the start of the return
+    MonotonicTime return_;   ///< start of the return
     double returns_s_ = 1.0; ///< its length
     std::uint64_t reinitialisations_ = 0;
 };

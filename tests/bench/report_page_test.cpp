@@ -308,10 +308,12 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
                                 .slip = {1.25, 2.0, 1.5},
                                 .overshoot = {0.5, 1.0, 0.6}};
     put("latency/latency_hand.csv", replay_csv({&replayed, 1}));
-    expect_table("hand", "| tracker, recording | speed | slip: for the table | constant velocity | exhibit | best weights "
-                         "| overshoot: for the table | constant velocity | exhibit | slid, slip: for the table | "
-                         "exhibit |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
-                         "| Polhemus VIPER, Vicon | 2 | | | 1.25 | | | | 0.50 | | |\n");
+    expect_table(
+        "hand",
+        "| tracker, recording | speed | slip: for the table | constant velocity | exhibit | best weights "
+        "| overshoot: for the table | constant velocity | exhibit | slid, slip: for the table | "
+        "exhibit |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+        "| Polhemus VIPER, Vicon | 2 | | | 1.25 | | | | 0.50 | | |\n");
 
     const ThrowZone zone{.throw_ratio = 2.0,
                          .picture_m = {0.5, 0.25},

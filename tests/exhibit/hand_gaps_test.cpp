@@ -48,12 +48,12 @@ private:
 };
 
 struct Seen {
-    double hand_step_mm = 0.0;   ///< the hand's longest, of a corner, between two pictures
-    double shown_step_mm = 0.0;  ///< that of the lit picture
-    double step_off_mm = 0.0;    ///< the longest before the loss, beyond the hand's own step
-    double darkest = 1.0;        ///< of the prop's picture
+    double hand_step_mm = 0.0;  ///< the hand's longest, of a corner, between two pictures
+    double shown_step_mm = 0.0; ///< that of the lit picture
+    double step_off_mm = 0.0;   ///< the longest before the loss, beyond the hand's own step
+    double darkest = 1.0;       ///< of the prop's picture
     double last_off_mm = 0.0;
-    bool flickers = false; ///< the light rose before it fell, or fell after it rose
+    bool flickers = false;    ///< the light rose before it fell, or fell after it rose
     bool jumps_place = false; ///< from the prop to the idle place, or back, while it was lit
     bool attracted = false;
     double last_brightness = 0.0;
@@ -74,7 +74,9 @@ Seen play(Followed followed, double gap_s, std::uint64_t seed) {
     const geometry::PropShape prop = geometry::make_cube(2.0 * lever_m);
     std::normal_distribution<double> normal;
     const auto noisy = [&](const geometry::RigidTransform& pose) {
-        const auto any = [&](double sd) { return sd * glm::dvec3(normal(random), normal(random), normal(random)); };
+        const auto any = [&](double sd) {
+            return sd * glm::dvec3(normal(random), normal(random), normal(random));
+        };
         return tracking::moved(pose, {any(0.0003), any(0.0015)});
     };
     tracking::LiveTrackedState live({0.0, -0.5, 0.5}, lever_m);
@@ -89,7 +91,8 @@ Seen play(Followed followed, double gap_s, std::uint64_t seed) {
         for (; followed != Followed::ByTags && trackers / 60.0 + 0.018 <= now_s; ++trackers) {
             if (!covered(trackers / 60.0)) {
                 const geometry::RigidTransform pose = noisy(hand.at(trackers / 60.0));
-                live.take({time_at(trackers / 60.0), tracker::prop_station, pose.translation, pose.rotation, true});
+                live.take(
+                    {time_at(trackers / 60.0), tracker::prop_station, pose.translation, pose.rotation, true});
             }
         }
         // If both follow, a hand hides the tags first, and for longer.
@@ -113,7 +116,8 @@ Seen play(Followed followed, double gap_s, std::uint64_t seed) {
                 seen.jumps_place = seen.jumps_place || lit;
             } else if (!drawn.attracts && lit) {
                 seen.shown_step_mm = std::fmax(seen.shown_step_mm, step_mm);
-                seen.step_off_mm = now_s < lost_s ? std::fmax(seen.step_off_mm, step_mm - hand_mm) : seen.step_off_mm;
+                seen.step_off_mm =
+                    now_s < lost_s ? std::fmax(seen.step_off_mm, step_mm - hand_mm) : seen.step_off_mm;
             }
             if (before->attracts == drawn.attracts && !drawn.attracts) {
                 rose = rose || drawn.brightness > before->brightness;
@@ -150,7 +154,8 @@ TEST_P(HandGaps, NeverMakeTheShownPropJump) {
     for (const double gap_s : gaps(57)) {
         const Seen seen = play(GetParam(), gap_s, seed++);
         // The hand goes on while the picture glides after it, which adds 1 m/s at most.
-        const double allowed_mm = seen.hand_step_mm + std::fmax(seen.step_off_mm, 0.0) + 1e3 * 1.1 / picture_hz;
+        const double allowed_mm =
+            seen.hand_step_mm + std::fmax(seen.step_off_mm, 0.0) + 1e3 * 1.1 / picture_hz;
         EXPECT_LT(seen.shown_step_mm, allowed_mm) << gap_s << " s, seed " << seed - 1;
         EXPECT_FALSE(seen.jumps_place) << gap_s;
         EXPECT_LT(seen.last_off_mm, 12.0) << gap_s;
@@ -159,7 +164,8 @@ TEST_P(HandGaps, NeverMakeTheShownPropJump) {
             worst_gap_s = gap_s;
         }
     }
-    std::printf("the longest step is %.2f times the hand's longest, after a gap of %.3f s\n", worst, worst_gap_s);
+    std::printf("the longest step is %.2f times the hand's longest, after a gap of %.3f s\n", worst,
+                worst_gap_s);
 }
 
 TEST_P(HandGaps, DimToNothingAndComeBackWithoutAFlicker) {
@@ -178,7 +184,8 @@ TEST_P(HandGaps, DimToNothingAndComeBackWithoutAFlicker) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, HandGaps, ::testing::Values(Followed::ByTracker, Followed::ByTags, Followed::ByBoth));
+INSTANTIATE_TEST_SUITE_P(Each, HandGaps,
+                         ::testing::Values(Followed::ByTracker, Followed::ByTags, Followed::ByBoth));
 
 TEST(HandFade, IsAClosedFormOfAgeAtAnyRhythmOfFrames) {
     for (int ms = 0; ms < 2000; ms += 13) {

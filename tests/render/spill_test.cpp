@@ -81,7 +81,8 @@ struct Spill {
 };
 
 /// `allowed_px`: how far from the face a pixel's centre may lie whose samples still meet it.
-void add_spill(const image::Image8& picture, const std::vector<Outline>& outlines, double allowed_px, Spill& spill) {
+void add_spill(const image::Image8& picture, const std::vector<Outline>& outlines, double allowed_px,
+               Spill& spill) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const glm::u8vec4& code = picture.at(x, y);
@@ -130,12 +131,13 @@ TEST(Spill, NoPixelOutsideTheLitFacesOfAPropInTheHandIsLit) {
                 const double allowed_px = samples == 1 ? grid_px : std::sqrt(0.5) + grid_px;
                 for (const scene::PlacedLevel* const each : {&rig.level, &rig.raster}) {
                     const image::Image8 picture =
-                        rig.one(table, *each, pose % 2 == 0 ? scene::LightCompensation{0.25} : scene::LightCompensation{});
+                        rig.one(table, *each,
+                                pose % 2 == 0 ? scene::LightCompensation{0.25} : scene::LightCompensation{});
                     add_spill(picture, outlines, allowed_px, spill);
                 }
             }
-            std::printf("%s, %d samples: %zu lit pixels, %zu outside, at most %.3f px; %zu dark faces\n", name, samples,
-                        spill.lit, spill.outside, spill.farthest_px, dark);
+            std::printf("%s, %d samples: %zu lit pixels, %zu outside, at most %.3f px; %zu dark faces\n",
+                        name, samples, spill.lit, spill.outside, spill.farthest_px, dark);
             EXPECT_EQ(spill.outside, 0U) << name << ' ' << samples << ": " << spill.farthest_px << " px";
             EXPECT_GT(spill.lit, 1'000U);
             EXPECT_GT(dark, 3U) << "nothing is proved of dark faces";

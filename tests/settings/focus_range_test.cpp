@@ -42,11 +42,13 @@ TEST(FocusRange, IsSharpWhereTheCircleIsSmallerThanAPixel) {
             EXPECT_TRUE(std::isinf(sharp.farthest_m));
             ++endless;
         } else {
-            EXPECT_NEAR(sharp.farthest_m, equal_between(projector, focus, focus, 1e9), 1e-6 * sharp.farthest_m);
+            EXPECT_NEAR(sharp.farthest_m, equal_between(projector, focus, focus, 1e9),
+                        1e-6 * sharp.farthest_m);
         }
         const double depth = focused(random);
         const double pixel = depth / projector.pinhole.fx;
-        EXPECT_NEAR(blur_px(projector, focus, depth), circle_less_pixel(projector, focus, depth) / pixel + 1.0, 1e-9);
+        EXPECT_NEAR(blur_px(projector, focus, depth),
+                    circle_less_pixel(projector, focus, depth) / pixel + 1.0, 1e-9);
     }
     EXPECT_GT(endless, 10);
 }

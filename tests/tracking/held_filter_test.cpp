@@ -107,7 +107,8 @@ TEST(HeldFilter, GoesOverSoftlyWhenThePropIsLiftedAndLaidDown) {
         };
         const double high = eased((t_s - lifted_s) / lift_s) - eased((t_s - laid_s) / lift_s);
         const double waves = t_s > lifted_s && t_s < laid_s ? 0.02 * high * std::sin(3.0 * t_s) : 0.0;
-        return geometry::RigidTransform{rotation_of({0.3 * waves / 0.02, 0.0, 0.0}), {0.0, 0.0, 0.1 * high + waves}};
+        return geometry::RigidTransform{rotation_of({0.3 * waves / 0.02, 0.0, 0.0}),
+                                        {0.0, 0.0, 0.1 * high + waves}};
     };
     HeldFilter filter(PoseNoise{}, lever_m);
     Noise noise(6);
@@ -138,7 +139,8 @@ TEST(HeldFilter, IsStableForStepsFromAMicrosecondToASecond) {
         Noise noise(7);
         filter.restart(noise.on(is_held(0.0)));
         for (int k = 1; k < 3000; ++k) {
-            filter.take(noise.on({glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, k % 40 < 20 ? 0.0 : 0.01}}), step_s);
+            filter.take(noise.on({glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, k % 40 < 20 ? 0.0 : 0.01}}),
+                        step_s);
             const geometry::RigidTransform pose = filter.ahead(0.08);
             ASSERT_NEAR(glm::length(pose.rotation), 1.0, 1e-12);
             ASSERT_LT(glm::length(pose.translation), 1.0) << step_s << ' ' << k;

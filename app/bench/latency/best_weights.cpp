@@ -3,7 +3,6 @@
 #include "app/tracking/pose_math.h"
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,7 +12,7 @@ namespace frustumscreen::bench {
 namespace {
 
 constexpr double memory_s = 0.2;
-constexpr double max_samples = 40.0; ///< 80 unknowns
+constexpr double max_samples = 40.0;   ///< 80 unknowns
 constexpr double usual_ahead_s = 0.04; ///< brings all columns to one scale
 
 /// A picture that is to be predicted.
@@ -23,8 +22,9 @@ struct Asked {
     double ahead_s = 0.0;
 };
 
-std::vector<Asked> asked_pictures(std::span<const RecordedPose> samples, double length_s, const TrackedBy& tracker,
-                                  const LatencySetting& setting, std::size_t memory) {
+std::vector<Asked> asked_pictures(std::span<const RecordedPose> samples, double length_s,
+                                  const TrackedBy& tracker, const LatencySetting& setting,
+                                  std::size_t memory) {
     std::vector<Asked> pictures;
     std::size_t arrived = 0;
     for (int frame = 0;; ++frame) {
@@ -76,9 +76,9 @@ Eigen::VectorXd fitted_weights(std::span<const RecordedPose> samples, const Hand
 
 } // namespace
 
-std::vector<LitPicture> pictures_by_best_weights(std::span<const RecordedPose> samples, const HandMotion& truth,
-                                                 double length_s, const TrackedBy& tracker,
-                                                 const LatencySetting& setting) {
+std::vector<LitPicture> pictures_by_best_weights(std::span<const RecordedPose> samples,
+                                                 const HandMotion& truth, double length_s,
+                                                 const TrackedBy& tracker, const LatencySetting& setting) {
     const auto memory = static_cast<std::size_t>(std::clamp(memory_s * tracker.rate_hz, 2.0, max_samples));
     const std::vector<Asked> pictures = asked_pictures(samples, length_s, tracker, setting, memory);
     const Eigen::VectorXd shift_weights = fitted_weights(samples, truth, pictures, memory, false);
@@ -86,7 +86,8 @@ std::vector<LitPicture> pictures_by_best_weights(std::span<const RecordedPose> s
     std::vector<LitPicture> lit;
     lit.reserve(pictures.size());
     for (const Asked& asked : pictures) {
-        const Eigen::RowVector3d shift = shift_weights.transpose() * past_steps(samples, asked, memory, false);
+        const Eigen::RowVector3d shift =
+            shift_weights.transpose() * past_steps(samples, asked, memory, false);
         const Eigen::RowVector3d turn = turn_weights.transpose() * past_steps(samples, asked, memory, true);
         lit.push_back({asked.lit_s,
                        tracking::moved(samples[asked.latest].pose,

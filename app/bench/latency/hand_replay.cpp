@@ -67,17 +67,20 @@ HandMotion faster(const std::vector<RecordedPose>& poses, double times) {
 
 std::vector<Contestant> hand_contestants(double lever_m) {
     using tracking::MotionFilter, tracking::PoseNoise;
-    return {{"for the table",
-             [](const PoseNoise& noise) { return std::make_unique<MotionFilter>(tracking::exhibit_filter(noise)); }},
-            {"constant velocity",
-             [](const PoseNoise& noise) {
-                 return std::make_unique<MotionFilter>(tracking::constant_velocity_filter(noise));
-             }},
-            {"for the hand",
-             [](const PoseNoise& noise) { return std::make_unique<MotionFilter>(tracking::hand_filter(noise)); }},
-            {"exhibit, as shown",
-             [lever_m](const PoseNoise& noise) { return std::make_unique<tracking::HeldFilter>(noise, lever_m); },
-             true, true}};
+    return {
+        {"for the table",
+         [](const PoseNoise& noise) {
+             return std::make_unique<MotionFilter>(tracking::exhibit_filter(noise));
+         }},
+        {"constant velocity",
+         [](const PoseNoise& noise) {
+             return std::make_unique<MotionFilter>(tracking::constant_velocity_filter(noise));
+         }},
+        {"for the hand",
+         [](const PoseNoise& noise) { return std::make_unique<MotionFilter>(tracking::hand_filter(noise)); }},
+        {"exhibit, as shown",
+         [lever_m](const PoseNoise& noise) { return std::make_unique<tracking::HeldFilter>(noise, lever_m); },
+         true, true}};
 }
 
 } // namespace
@@ -93,7 +96,8 @@ Slip overshoot_at_turns(std::span<const LitPicture> pictures) {
             double beyond = 0.0;
             for (const LitPicture& picture : pictures) {
                 if (std::abs(picture.lit_s - pictures[turn.picture].lit_s) < around_turn_s) {
-                    beyond = std::fmax(beyond, turn.sign * (picture.drawn.translation[axis] - truth[turn.picture]));
+                    beyond = std::fmax(beyond,
+                                       turn.sign * (picture.drawn.translation[axis] - truth[turn.picture]));
                 }
             }
             beyond_mm.push_back(1e3 * beyond);
@@ -124,20 +128,22 @@ std::vector<ReplayResult> replay(const PoseRecording& recording, const TrackedBy
                 add(contestant.name,
                     lit_pictures(motion, length_s, tracker, options.setting, contestant, options.seed));
             }
-            add("best weights", pictures_by_best_weights(tracked_samples(motion, length_s, tracker, options.seed),
-                                                         motion, length_s, tracker, options.setting));
+            add("best weights",
+                pictures_by_best_weights(tracked_samples(motion, length_s, tracker, options.seed), motion,
+                                         length_s, tracker, options.setting));
         }
     }
     return results;
 }
 
 std::string replay_table(std::span<const ReplayResult> results) {
-    std::string text = "recordings in the hand and flattened onto the table, mm: slip mean, 95th percentile, RMS; "
-                       "overshoot mean, 95th percentile\n";
+    std::string text =
+        "recordings in the hand and flattened onto the table, mm: slip mean, 95th percentile, RMS; "
+        "overshoot mean, 95th percentile\n";
     std::string before;
     for (const ReplayResult& result : results) {
-        const std::string head = fmt::format("{}, {}, {:g} times, {}\n", result.tracker, result.recording, result.times,
-                                             result.on_table ? "on the table" : "in the hand");
+        const std::string head = fmt::format("{}, {}, {:g} times, {}\n", result.tracker, result.recording,
+                                             result.times, result.on_table ? "on the table" : "in the hand");
         text += head != before ? head : std::string();
         before = head;
         text += fmt::format("  {:<29} {:6.2f} {:6.2f} {:6.2f}   {:6.2f} {:6.2f}\n", result.contestant,
@@ -151,10 +157,10 @@ std::string replay_csv(std::span<const ReplayResult> results) {
     std::string text = "tracker,recording,contestant,times,where,slip_mean_mm,slip_p95_mm,slip_rms_mm,"
                        "overshoot_mean_mm,overshoot_p95_mm\n";
     for (const ReplayResult& result : results) {
-        text += fmt::format("\"{}\",\"{}\",\"{}\",{:g},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", result.tracker,
-                            result.recording, result.contestant, result.times, result.on_table ? "table" : "hand",
-                            result.slip.mean, result.slip.p95, result.slip.rms, result.overshoot.mean,
-                            result.overshoot.p95);
+        text += fmt::format("\"{}\",\"{}\",\"{}\",{:g},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n",
+                            result.tracker, result.recording, result.contestant, result.times,
+                            result.on_table ? "table" : "hand", result.slip.mean, result.slip.p95,
+                            result.slip.rms, result.overshoot.mean, result.overshoot.p95);
     }
     return text;
 }

@@ -121,7 +121,8 @@ std::vector<RecordedPose> tracked_samples(const HandMotion& motion, double lengt
 std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, const TrackedBy& tracker,
                                      const LatencySetting& setting, const Contestant& contestant,
                                      std::uint64_t seed) {
-    return play(tracked_samples(motion, length_s, tracker, seed), motion, length_s, tracker, setting, contestant);
+    return play(tracked_samples(motion, length_s, tracker, seed), motion, length_s, tracker, setting,
+                contestant);
 }
 
 std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples, const TrackedBy& tracker,

@@ -12,16 +12,15 @@ struct Column {
     const char* where;
     const char* field;
 };
-constexpr std::array columns = {
-    Column{"for the table", "hand", "slip_mean_mm"},
-    Column{"constant velocity", "hand", "slip_mean_mm"},
-    Column{"exhibit, as shown", "hand", "slip_mean_mm"},
-    Column{"best weights", "hand", "slip_mean_mm"},
-    Column{"for the table", "hand", "overshoot_mean_mm"},
-    Column{"constant velocity", "hand", "overshoot_mean_mm"},
-    Column{"exhibit, as shown", "hand", "overshoot_mean_mm"},
-    Column{"for the table", "table", "slip_mean_mm"},
-    Column{"exhibit, as shown", "table", "slip_mean_mm"}};
+constexpr std::array columns = {Column{"for the table", "hand", "slip_mean_mm"},
+                                Column{"constant velocity", "hand", "slip_mean_mm"},
+                                Column{"exhibit, as shown", "hand", "slip_mean_mm"},
+                                Column{"best weights", "hand", "slip_mean_mm"},
+                                Column{"for the table", "hand", "overshoot_mean_mm"},
+                                Column{"constant velocity", "hand", "overshoot_mean_mm"},
+                                Column{"exhibit, as shown", "hand", "overshoot_mean_mm"},
+                                Column{"for the table", "table", "slip_mean_mm"},
+                                Column{"exhibit, as shown", "table", "slip_mean_mm"}};
 
 /// One figure of a replay, in mm; empty if it was not measured.
 Result<std::string> replayed_mm(const CsvTable& table, std::vector<std::size_t> rows, const Column& column) {

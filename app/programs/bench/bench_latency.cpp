@@ -70,9 +70,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         fmt::print("{}\n{}\n", bench::recordings_table(recordings), bench::replay_table(replayed));
     }
     fmt::print("{}", bench::lines_of(bench::judge(results.front(), arguments.options)));
-    Result<void> written =
-        write_all(arguments.out, {{"latency.csv", bench::latency_csv(results, recordings)},
-                                  {"latency_hand.csv", bench::replay_csv(replayed)}});
+    Result<void> written = write_all(arguments.out, {{"latency.csv", bench::latency_csv(results, recordings)},
+                                                     {"latency_hand.csv", bench::replay_csv(replayed)}});
     return written ? draw_all(arguments.out, {"latency.csv"}) : written;
 }
 

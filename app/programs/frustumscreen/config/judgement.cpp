@@ -175,24 +175,25 @@ void judge_focus(const settings::Settings& settings, Page& page) {
     const settings::ProjectorSettings& projector = settings.projector;
     const double focus_m = lit->middle_m();
     const settings::DepthRange sharp = settings::sharp_depths(projector, focus_m);
-    page.text += fmt::format(
-        "  Focused at {:.3f} m, the middle of what is lit, the picture blurs by less than a pixel from {:.3f} m {} "
-        "in front of the lens (projector.aperture_mm = {:g}).\n",
-        focus_m, sharp.nearest_m,
-        std::isfinite(sharp.farthest_m) ? fmt::format("to {:.3f} m", sharp.farthest_m) : std::string("on"),
-        projector.aperture_mm);
+    page.text += fmt::format("  Focused at {:.3f} m, the middle of what is lit, the picture blurs by less "
+                             "than a pixel from {:.3f} m {} "
+                             "in front of the lens (projector.aperture_mm = {:g}).\n",
+                             focus_m, sharp.nearest_m,
+                             std::isfinite(sharp.farthest_m) ? fmt::format("to {:.3f} m", sharp.farthest_m)
+                                                             : std::string("on"),
+                             projector.aperture_mm);
     if (settings.prop.zone != settings::PropZone::Hand) {
         return;
     }
     const double blur = settings::blur_px(projector, focus_m, lit->nearest_m);
     const std::string zone =
         fmt::format("the zone of the hand, {:.3f} to {:.3f} m", lit->nearest_m, lit->farthest_m);
-    page.text +=
-        blur < 1.0
-            ? fmt::format("  All of {}, is sharp: the blur is {:.2f} pixels at most.\n", zone, blur)
-            : fmt::format("  Not all of {}, is sharp: at its near end the blur is {:.1f} pixels; an aperture of {:.2g} "
-                          "mm or less keeps it below one.\n",
-                          zone, blur, settings::largest_aperture_mm(projector, *lit));
+    page.text += blur < 1.0
+                     ? fmt::format("  All of {}, is sharp: the blur is {:.2f} pixels at most.\n", zone, blur)
+                     : fmt::format("  Not all of {}, is sharp: at its near end the blur is {:.1f} pixels; an "
+                                   "aperture of {:.2g} "
+                                   "mm or less keeps it below one.\n",
+                                   zone, blur, settings::largest_aperture_mm(projector, *lit));
 }
 
 void judge_words(const settings::Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
