@@ -51,6 +51,7 @@ struct ExhibitPlace {
         settings::button_commands.size();            ///< of the panel; the chord is the first and the last
     std::optional<guidance::GuidanceSetup> guidance; ///< none: no guidance
     std::vector<AdviceLanguage> words;               ///< empty: guidance has no words
+    bool in_hand = false;                            ///< the prop is lifted and turned in any way
     bool staff_stays = false;                        ///< there is no calibration: as StaffTool
     bool table_pictures = false;                     ///< the set's artifacts lie on the table to choose from
     Nanoseconds rest = std::chrono::seconds(60);     ///< time without a visitor before State::Attract

@@ -29,7 +29,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
     }
     staff_.step(now);
     if (!idle_pose_) {
-        idle_pose_.emplace(place_.attract_place_m, tracked_state.prop_known, now);
+        idle_pose_.emplace(place_.attract_place_m, tracked_state.prop_known, now, place_.in_hand);
     }
     const DrawnPose drawn =
         idle_pose_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);

@@ -11,8 +11,12 @@ enum Shown : std::size_t { Prop, Turning };
 
 } // namespace
 
-IdlePose::IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now)
-    : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {}
+IdlePose::IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now, bool in_hand)
+    : place_m_(place_m), fade_(known ? Prop : Turning, each_way, now - each_way), turns_since_(now) {
+    if (in_hand) {
+        hand_fade_.emplace();
+    }
+}
 
 bool IdlePose::lost() const {
     return fade_.goal() == Turning;
@@ -30,10 +34,11 @@ DrawnPose IdlePose::at(MonotonicTime now, bool known, Nanoseconds age,
         fade_.turn_to(Turning, due);
     }
     const Faded faded = fade_.at(now);
+    const double in_hand = hand_fade_ ? hand_fade_->at(now, age) : 1.0;
     if (faded.which == Prop) {
         return {.table_from_prop = table_from_prop,
-                .brightness = faded.brightness,
-                .changing = faded.changing,
+                .brightness = faded.brightness * in_hand,
+                .changing = faded.changing || (in_hand > 0.0 && in_hand < 1.0),
                 .attracts = false};
     }
     const double turns = to_seconds(now - turns_since_) / to_seconds(turn);

@@ -1,5 +1,6 @@
 /// The artifact's pose while the prop's pose is unknown. The artifact keeps the last pose for a while, then fades,
-/// and turns slowly at the idle place until the pose is known again. A prop that is put there shows it too.
+/// and turns slowly at the idle place until the pose is known again. A prop that is put there shows it too. On a prop in
+/// the hand the last pose is dark sooner (hand_fade.h), because a hand carries it on.
 ///
 /// Frames   table T.
 /// Time     a closed form of the pose's age and of the time when it became known again: the rhythm of frames does not
@@ -8,6 +9,7 @@
 #pragma once
 
 #include "app/exhibit/fade.h"
+#include "app/exhibit/hand_fade.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/typography/captions.h"
@@ -30,7 +32,7 @@ public:
     static constexpr Nanoseconds turn = std::chrono::seconds(40);
 
     /// Turns at `place_m` on the table. `known`: it begins at the prop, otherwise at `place_m`.
-    IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now);
+    IdlePose(const glm::dvec2& place_m, bool known, MonotonicTime now, bool in_hand = false);
 
     /// `known`: the prop's pose is good. Otherwise `age` is that of the last good pose; 0 = there was none yet.
     [[nodiscard]] DrawnPose at(MonotonicTime now, bool known, Nanoseconds age,
@@ -42,6 +44,7 @@ public:
 private:
     glm::dvec2 place_m_;
     Fade fade_;
+    std::optional<HandFade> hand_fade_;
     MonotonicTime turns_since_;
 };
 

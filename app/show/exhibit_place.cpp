@@ -19,6 +19,7 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
         geometry::picture_planes(settings.projector.pinhole, settings.projector.table_from_projector);
     place.picture_edges.assign(edges.begin(), edges.end());
     place.attract_place_m = settings::lit_rectangle(settings).centre_m;
+    place.in_hand = settings.prop.zone == settings::PropZone::Hand;
     place.buttons = settings.panel.buttons();
     if (settings::guides_visitors(settings)) {
         place.guidance = exhibit::guidance_setup(settings);

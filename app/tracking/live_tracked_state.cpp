@@ -1,6 +1,7 @@
 #include "app/tracking/live_tracked_state.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/tracking/held_filter.h"
 #include "app/tracking/level_head.h"
 #include "app/tracking/motion_filter.h"
 
@@ -26,6 +27,9 @@ constexpr double tags_off_m = 0.0015;
 /// ms.
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
+
+/// A brisk hand. A prop that was lost and found elsewhere is not followed faster.
+constexpr double fastest_return_m_s = 1.0;
 
 /// Heads seen by a camera scatter more than sensors, and move less than hands.
 constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.004},
@@ -53,12 +57,18 @@ PoseEstimator estimator() {
     return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
 }
 
+/// The prop by its tracker: on the table and in the hand.
+PoseEstimator prop_estimator(double lever_m) {
+    return PoseEstimator(std::make_unique<HeldFilter>(PoseNoise{}, lever_m));
+}
+
 } // namespace
 
 LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes)
-    : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
+    : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m)), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
-      source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
+      source_arbiter_({.lever_m = lever_m}),
+      shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
       shown_head_({.lever_m = head_lever_m}), two_eyes_(two_eyes),
       shown_turn_({.lever_m = two_eyes.half_apart_m}), eyes_apart_(two_eyes.fixed_viewer) {}
 

@@ -16,6 +16,10 @@ constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionMode
                                      MotionModel{Kind::Glide, 3.0}, MotionModel{Kind::Manoeuvre, 7.4}};
 constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
                                     MotionModel{Kind::Manoeuvre, 5.7}};
+constexpr std::array hand_place_models = {MotionModel{Kind::Glide, 0.049}, MotionModel{Kind::Manoeuvre, 4.2},
+                                          MotionModel{Kind::Manoeuvre, 29.0}};
+constexpr std::array hand_turn_models = {MotionModel{Kind::Glide, 2.7}, MotionModel{Kind::Manoeuvre, 4.9},
+                                         MotionModel{Kind::Manoeuvre, 16.6}};
 constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
 constexpr std::array turn_glide = {MotionModel{Kind::Glide, 0.3}};
 
@@ -25,25 +29,40 @@ double faded(double ahead_s, double lasts_s) {
     return lasts_s > 0.0 ? -lasts_s * std::expm1(-ahead_s / lasts_s) : ahead_s;
 }
 
-glm::dvec3 way(const MotionTrack& track, double ahead_s, double manoeuvre_lasts_s) {
+/// The same for the distance covered by a steady acceleration.
+double acceleration_faded(double ahead_s, double lasts_s) {
+    return lasts_s > 0.0 ? lasts_s * (ahead_s - faded(ahead_s, lasts_s)) : 0.5 * ahead_s * ahead_s;
+}
+
+glm::dvec3 way(const MotionTrack& track, double ahead_s, double manoeuvre_lasts_s, const Coasting& coasts) {
     const double t = glm::mix(ahead_s, faded(ahead_s, manoeuvre_lasts_s), track.manoeuvring());
-    return t * track.velocity() + 0.5 * t * t * track.acceleration();
+    return faded(t, coasts.velocity_s) * track.velocity() +
+           acceleration_faded(t, coasts.acceleration_s) * track.acceleration();
 }
 
 } // namespace
 
 MotionFilterOptions exhibit_filter(const PoseNoise& noise) {
-    return {{place_models, noise.place_m, 0.065, 2.0, 0.02},
-            {turn_models, noise.turn_rad, 0.18, 5.0, 0.8},
-            0.078};
+    return {.place = {place_models, noise.place_m, 0.065, 2.0, 0.02},
+            .turn = {turn_models, noise.turn_rad, 0.18, 5.0, 0.8},
+            .manoeuvre_lasts_s = 0.078};
+}
+
+MotionFilterOptions hand_filter(const PoseNoise& noise) {
+    return {.place = {hand_place_models, noise.place_m, 0.5, 3.0, 1.16},
+            .turn = {hand_turn_models, noise.turn_rad, 2.0, 20.0, 0.57},
+            .place_coasts = {.velocity_s = 0.28, .acceleration_s = 0.03},
+            .turn_coasts = {.velocity_s = 0.04, .acceleration_s = 0.004}};
 }
 
 MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {
-    return {{place_glide, noise.place_m, 0.3, 0.0, 0.0}, {turn_glide, noise.turn_rad, 2.0, 0.0, 0.0}, 0.0};
+    return {.place = {place_glide, noise.place_m, 0.3, 0.0, 0.0},
+            .turn = {turn_glide, noise.turn_rad, 2.0, 0.0, 0.0}};
 }
 
 MotionFilter::MotionFilter(const MotionFilterOptions& options)
-    : place_(options.place), turn_(options.turn), manoeuvre_lasts_s_(options.manoeuvre_lasts_s) {}
+    : place_(options.place), turn_(options.turn), manoeuvre_lasts_s_(options.manoeuvre_lasts_s),
+      place_coasts_(options.place_coasts), turn_coasts_(options.turn_coasts) {}
 
 void MotionFilter::restart(const geometry::RigidTransform& measured) {
     place_.restart();
@@ -59,7 +78,8 @@ void MotionFilter::take(const geometry::RigidTransform& measured, double dt_s) {
 }
 
 geometry::RigidTransform MotionFilter::ahead(double ahead_s) const {
-    return moved(pose_, {way(place_, ahead_s, manoeuvre_lasts_s_), way(turn_, ahead_s, manoeuvre_lasts_s_)});
+    return moved(pose_, {way(place_, ahead_s, manoeuvre_lasts_s_, place_coasts_),
+                         way(turn_, ahead_s, manoeuvre_lasts_s_, turn_coasts_)});
 }
 
 } // namespace frustumscreen::tracking

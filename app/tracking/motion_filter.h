@@ -10,8 +10,16 @@
 
 #include "app/tracking/motion_track.h"
 #include "app/tracking/pose_filter.h"
+#include "app/tracking/pose_noise.h"
 
 namespace frustumscreen::tracking {
+
+/// How long a motion goes on beyond the latest pose: its velocity and its acceleration decay with these time constants.
+/// 0 = no decay.
+struct Coasting {
+    double velocity_s = 0.0;
+    double acceleration_s = 0.0;
+};
 
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
@@ -19,14 +27,15 @@ struct MotionFilterOptions {
     /// While it manoeuvres, the motion decays with this time constant, because a hand that changes its
     /// direction may stop. 0 = no decay.
     double manoeuvre_lasts_s = 0.0;
+    Coasting place_coasts{};
+    Coasting turn_coasts{};
 };
 
-/// Scatter of a tracker's poses at rest, on each axis, RMS.
-struct PoseNoise {
-    double place_m = 0.0003;
-    double turn_rad = 0.0026; ///< 0.15 degrees
-};
+/// For a prop that stands or slides on the table.
 [[nodiscard]] MotionFilterOptions exhibit_filter(const PoseNoise& noise = {});
+/// For a prop in a hand, which hardly ever rests: a calm and a vigorous manoeuvre, and no model of rest. Tuned on
+/// recordings of hands at 1, 2 and 4 times their speed (docs/bench.md).
+[[nodiscard]] MotionFilterOptions hand_filter(const PoseNoise& noise = {});
 [[nodiscard]] MotionFilterOptions constant_velocity_filter(const PoseNoise& noise = {});
 
 class MotionFilter final : public PoseFilter {
@@ -44,6 +53,8 @@ private:
     MotionTrack place_;
     MotionTrack turn_;
     double manoeuvre_lasts_s_;
+    Coasting place_coasts_;
+    Coasting turn_coasts_;
     geometry::RigidTransform pose_; ///< reference of both tracks
 };
 

@@ -71,6 +71,7 @@ Taken PoseEstimator::take(MonotonicTime time, const geometry::RigidTransform& me
     if (step < Nanoseconds(0)) {
         return ++late_ >= options_.clock_set_back_by ? take_up(now) : Taken::Late;
     }
+    const bool is_gap = step >= std::max(options_.gap_from, 5 * usual_interval() / 2);
     steps_ = {step, steps_[0]};
     if (step > options_.forgotten_after) {
         return take_up(now);
@@ -80,6 +81,7 @@ Taken PoseEstimator::take(MonotonicTime time, const geometry::RigidTransform& me
         return doubt(now);
     }
     filter_->take(now.pose, dt_s);
+    reinitialisations_ += is_gap ? 1U : 0U;
     remember({time, filter_->ahead(0.0)});
     return Taken::Used;
 }
@@ -92,8 +94,7 @@ geometry::RigidTransform PoseEstimator::predicted(double age_s) const {
 }
 
 Nanoseconds PoseEstimator::stale_after() const {
-    const Nanoseconds usual = std::min(steps_[0], steps_[1]);
-    return std::max(options_.stale_after, std::min(5 * usual / 2, options_.stale_at_last));
+    return std::max(options_.stale_after, std::min(5 * usual_interval() / 2, options_.stale_at_last));
 }
 
 PoseEstimate PoseEstimator::at(MonotonicTime time) const {

@@ -10,6 +10,7 @@
 #include "app/tracking/pose_filter.h"
 #include "firmware_host/tracker/tracker.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -28,7 +29,7 @@ struct PoseEstimate {
     geometry::RigidTransform pose;
     PoseStatus status = PoseStatus::Stale;
     Nanoseconds age{0}; ///< from the latest sample to the requested time
-    /// Number of restarts, perhaps with a jump; 0 = no pose was ever seen.
+    /// Number of restarts and of gaps in the samples, each perhaps with a jump; 0 = no pose was ever seen.
     std::uint64_t reinitialisations = 0;
 };
 
@@ -48,6 +49,8 @@ struct PoseEstimatorOptions {
     /// at most `stale_at_last`.
     Nanoseconds stale_after = std::chrono::milliseconds(1000);
     Nanoseconds stale_at_last = std::chrono::seconds(5);
+    /// A sample after a gap of at least this, and of two and a half usual intervals, may lie beside what was predicted.
+    Nanoseconds gap_from = std::chrono::milliseconds(50);
     Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< a longer gap restarts the filter
     /// Allowed distance of a sample from its prediction: the effect of a knock.
     double surprise_m = 0.015;
@@ -83,6 +86,8 @@ private:
 
     [[nodiscard]] const Moment& moment(std::size_t back) const; ///< 0 = the latest
     void remember(const Moment& moment);
+    /// Of the latest two, the shorter.
+    [[nodiscard]] Nanoseconds usual_interval() const { return std::min(steps_[0], steps_[1]); }
     [[nodiscard]] Nanoseconds stale_after() const;
     Taken take_up(const Moment& measured);
     [[nodiscard]] bool plausible(const geometry::RigidTransform& expected,

@@ -1,5 +1,6 @@
 // The tables of a page from CSV files: small CSV files and pages written by hand, and bad input.
 
+#include "app/bench/latency/hand_replay.h"
 #include "app/bench/latency/latency_report.h"
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/scaling_bakes.h"
@@ -299,6 +300,21 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
                               "| no filter, 60 Hz | | | | | |\n"
                               "| constant velocity, predicted, 60 Hz | | | | | |\n");
 
+    const ReplayResult replayed{.tracker = "Polhemus VIPER",
+                                .recording = "vicon_handheld_1.csv",
+                                .contestant = "exhibit, as shown",
+                                .times = 2.0,
+                                .on_table = false,
+                                .slip = {1.25, 2.0, 1.5},
+                                .overshoot = {0.5, 1.0, 0.6}};
+    put("latency/latency_hand.csv", replay_csv({&replayed, 1}));
+    expect_table(
+        "hand",
+        "| tracker, recording | speed | slip: for the table | constant velocity | exhibit | best weights "
+        "| overshoot: for the table | constant velocity | exhibit | slid, slip: for the table | "
+        "exhibit |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+        "| Polhemus VIPER, Vicon | 2 | | | 1.25 | | | | 0.50 | | |\n");
+
     const ThrowZone zone{.throw_ratio = 2.0,
                          .picture_m = {0.5, 0.25},
                          .zone_m = {0.25, 0.125},
@@ -322,7 +338,7 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
                           "| star | 3 | 1.5 | 2 | 0.25 |\n");
 }
 
-/// No table of docs/measurements.md is written by hand, and none is missing there.
+/// No table of docs/measurements.md is written by hand, and none is missing there or in docs/bench.md.
 TEST(ReportTables, ThePageHasAllOfThemAndNoOther) {
     const std::string page = text_of(source_dir() + "/docs/measurements.md");
     const auto marked = marked_tables(page, "measurements.md");
@@ -330,6 +346,11 @@ TEST(ReportTables, ThePageHasAllOfThemAndNoOther) {
     std::set<std::string> on_page, known;
     for (const MarkedTable& table : *marked) {
         on_page.insert(table.name);
+    }
+    const auto in_bench = marked_tables(text_of(source_dir() + "/docs/bench.md"), "bench.md");
+    ASSERT_TRUE(in_bench) << in_bench.error().message;
+    for (const MarkedTable& table : *in_bench) {
+        EXPECT_TRUE(on_page.insert(table.name).second) << table.name << " is on both pages";
     }
     for (const ReportTable& table : all_report_tables()) {
         known.insert(table.name);
@@ -348,7 +369,7 @@ TEST(ReportTables, NamesAreThoseOfOneTableEach) {
         EXPECT_TRUE(names.insert(table.name).second) << table.name;
         EXPECT_FALSE(table.files.empty());
     }
-    EXPECT_EQ(names.size(), 20U);
+    EXPECT_EQ(names.size(), 21U);
 }
 
 } // namespace

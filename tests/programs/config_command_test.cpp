@@ -89,6 +89,26 @@ TEST_F(ConfigCommand, ExplainsACubeInTheHand) {
     EXPECT_EQ(said.find("evenly"), std::string::npos);
 }
 
+TEST_F(ConfigCommand, SaysOverWhichDepthTheHandsZoneIsSharp) {
+    const std::string hand =
+        std::string(lens) +
+        "position_m = [0, 0, 1.2]\naperture_mm = {}\n[prop]\nkind = \"cube\"\nbase_m = 0.1\n";
+    // The picture's half height is 400 pixels at 1920 pixels of focal length. A ball of 0.1 sqrt(3) / 2 m touches it
+    // above and below at this distance:
+    const double ball = 0.05 * std::sqrt(3.0);
+    const double near = ball / std::sin(std::atan(400.0 / 1920.0)) - ball;
+    const double focus = 0.5 * (near + 1.2);
+    // A (1 - near / focus) is the circle there, and near / 1920 a pixel.
+    const double blur = 0.010 * (1.0 - near / focus) / (near / 1920.0);
+    expect_words(page(fmt::format(fmt::runtime(hand), 10)),
+                 {fmt::format("Focused at {:.3f} m", focus),
+                  fmt::format("Not all of the zone of the hand, {:.3f} to 1.200 m, is sharp", near),
+                  fmt::format("the blur is {:.1f} pixels", blur),
+                  fmt::format("aperture of {:.2g} mm", 10.0 / blur)});
+    expect_words(page(fmt::format(fmt::runtime(hand), 0.2)),
+                 {"All of the zone of the hand", "m on in front"});
+}
+
 TEST_F(ConfigCommand, SaysWhichFilesAreMissingAndPrintsTheSettings) {
     ASSERT_TRUE(
         write_file(folder / "kiosk.toml",

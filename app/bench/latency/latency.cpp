@@ -1,6 +1,7 @@
 #include "app/bench/latency/latency.h"
 
 #include "app/bench/latency/one_euro.h"
+#include "app/tracking/held_filter.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
 #include "firmware_host/base/quantile.h"
@@ -92,7 +93,7 @@ std::vector<Contestant> contestants() {
         return std::make_unique<tracking::MotionFilter>(tracking::constant_velocity_filter(noise));
     };
     const auto exhibit = [](const tracking::PoseNoise& noise) {
-        return std::make_unique<tracking::MotionFilter>(tracking::exhibit_filter(noise));
+        return std::make_unique<tracking::HeldFilter>(noise);
     };
     return {{"no filter", none, false, false},
             {"One Euro", one_euro, false, false},
@@ -104,9 +105,8 @@ std::vector<Contestant> contestants() {
             {"exhibit, as shown", exhibit, true, true}};
 }
 
-std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, const TrackedBy& tracker,
-                                     const LatencySetting& setting, const Contestant& contestant,
-                                     std::uint64_t seed) {
+std::vector<RecordedPose> tracked_samples(const HandMotion& motion, double length_s, const TrackedBy& tracker,
+                                          std::uint64_t seed) {
     Noise noise(tracker.noise, seed);
     std::vector<RecordedPose> samples;
     const double step_s = 1.0 / (tracker.rate_hz * clock_drift);
@@ -115,7 +115,14 @@ std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, 
         const double t_s = step_s * static_cast<double>(k);
         samples.push_back({t_s, noise.on(motion(t_s))});
     }
-    return play(samples, motion, length_s, tracker, setting, contestant);
+    return samples;
+}
+
+std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, const TrackedBy& tracker,
+                                     const LatencySetting& setting, const Contestant& contestant,
+                                     std::uint64_t seed) {
+    return play(tracked_samples(motion, length_s, tracker, seed), motion, length_s, tracker, setting,
+                contestant);
 }
 
 std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples, const TrackedBy& tracker,

@@ -51,6 +51,10 @@ struct LitPicture {
     geometry::RigidTransform truth;
 };
 
+/// The tracker's samples of a motion.
+[[nodiscard]] std::vector<RecordedPose> tracked_samples(const HandMotion& motion, double length_s,
+                                                        const TrackedBy& tracker, std::uint64_t seed);
+
 [[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);

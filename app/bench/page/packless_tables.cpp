@@ -209,6 +209,7 @@ std::vector<ReportTable> packless_tables() {
              .files = {"latency.csv"},
              .header = {"slid at, mm/s", "2", "5", "15", "50", "150"},
              .rows = tremble_rows},
+            hand_table(),
             {.name = "ladder",
              .folder = "ladder",
              .one_folder_each = false,

@@ -1,3 +1,4 @@
+#include "app/bench/latency/hand_replay.h"
 #include "app/bench/latency/latency_report.h"
 #include "app/bench/latency/recorded_poses.h"
 #include "app/programs/bench/bench_command.h"
@@ -45,6 +46,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         fmt::print("{}\n", bench::latency_table(results.back(), arguments.options));
     }
     std::vector<bench::RecordingResult> recordings;
+    std::vector<bench::ReplayResult> replayed;
     for (const RecordingFile& file : recording_files) {
         const std::filesystem::path path = arguments.recordings / file.name;
         if (!std::filesystem::exists(path)) {
@@ -53,15 +55,23 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
             continue;
         }
         TRY(std::vector<bench::RecordedPose> poses, bench::read_recorded_poses(path));
-        recordings.push_back(bench::measure_recording({std::string(file.name), std::move(poses), file.noisy},
-                                                      arguments.options));
+        const bench::PoseRecording recording{std::string(file.name), std::move(poses), file.noisy};
+        recordings.push_back(bench::measure_recording(recording, arguments.options));
+        if (!file.noisy) { // the truth of a noisy one is not known
+            for (const bench::TrackedBy& tracker : measured_trackers) {
+                progress.show(fmt::format("{}, {}", tracker.name, file.name), 1.0);
+                std::vector<bench::ReplayResult> more = bench::replay(recording, tracker, arguments.options);
+                replayed.insert(replayed.end(), more.begin(), more.end());
+                progress.clear();
+            }
+        }
     }
     if (!recordings.empty()) {
-        fmt::print("{}\n", bench::recordings_table(recordings));
+        fmt::print("{}\n{}\n", bench::recordings_table(recordings), bench::replay_table(replayed));
     }
     fmt::print("{}", bench::lines_of(bench::judge(results.front(), arguments.options)));
-    Result<void> written =
-        write_all(arguments.out, {{"latency.csv", bench::latency_csv(results, recordings)}});
+    Result<void> written = write_all(arguments.out, {{"latency.csv", bench::latency_csv(results, recordings)},
+                                                     {"latency_hand.csv", bench::replay_csv(replayed)}});
     return written ? draw_all(arguments.out, {"latency.csv"}) : written;
 }
 

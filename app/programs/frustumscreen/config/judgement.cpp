@@ -4,6 +4,7 @@
 #include "app/pack/words_file.h"
 #include "app/programs/frustumscreen/config/named_packs.h"
 #include "app/programs/frustumscreen/config/week_page.h"
+#include "app/settings/focus_range.h"
 #include "app/settings/stereo_parallax.h"
 #include "app/settings/whole_zone.h"
 #include "app/typography/captions.h"
@@ -203,6 +204,36 @@ void judge_stereo(const settings::Settings& settings, Page& page) {
     }
 }
 
+/// Over which depth the picture is sharp; for a prop in the hand, whether all of its zone is.
+void judge_focus(const settings::Settings& settings, Page& page) {
+    const std::optional<settings::DepthRange> lit = settings::lit_depths(settings);
+    if (!lit) {
+        return; // setup_page says that the prop fits nowhere
+    }
+    const settings::ProjectorSettings& projector = settings.projector;
+    const double focus_m = lit->middle_m();
+    const settings::DepthRange sharp = settings::sharp_depths(projector, focus_m);
+    page.text += fmt::format("  Focused at {:.3f} m, the middle of what is lit, the picture blurs by less "
+                             "than a pixel from {:.3f} m {} "
+                             "in front of the lens (projector.aperture_mm = {:g}).\n",
+                             focus_m, sharp.nearest_m,
+                             std::isfinite(sharp.farthest_m) ? fmt::format("to {:.3f} m", sharp.farthest_m)
+                                                             : std::string("on"),
+                             projector.aperture_mm);
+    if (settings.prop.zone != settings::PropZone::Hand) {
+        return;
+    }
+    const double blur = settings::blur_px(projector, focus_m, lit->nearest_m);
+    const std::string zone =
+        fmt::format("the zone of the hand, {:.3f} to {:.3f} m", lit->nearest_m, lit->farthest_m);
+    page.text += blur < 1.0
+                     ? fmt::format("  All of {}, is sharp: the blur is {:.2f} pixels at most.\n", zone, blur)
+                     : fmt::format("  Not all of {}, is sharp: at its near end the blur is {:.1f} pixels; an "
+                                   "aperture of {:.2g} "
+                                   "mm or less keeps it below one.\n",
+                                   zone, blur, settings::largest_aperture_mm(projector, *lit));
+}
+
 void judge_words(const settings::Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
     if (settings.exhibit.words.empty()) {
         page.text += "  The exhibit has no words of its own: exhibit.words is left out.\n";
@@ -260,6 +291,7 @@ std::string judgement_page(const settings::Settings& settings, std::chrono::sys_
                                  settings.exhibit.packs.size(), unread);
     }
     const settings::Rectangle zone = judge_zone(settings, packs, page);
+    judge_focus(settings, page);
     judge_letters(settings, page);
     judge_stereo(settings, page);
     judge_caption_room(settings, packs, zone, page);
