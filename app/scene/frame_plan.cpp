@@ -2,6 +2,7 @@
 
 #include "app/geometry/collineation.h"
 #include "app/geometry/corner_fan.h"
+#include "app/geometry/inner_point.h"
 #include "app/scene/face_view.h"
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
@@ -56,9 +57,8 @@ Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> part
 /// nullopt if no eye looks through the face, or no light meets it.
 std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const geometry::PropFace& face = shared.prop.faces[index];
-    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[face.corners.size() / 2]);
     if (!(face.plane.distance(shared.projector_in_prop) >
-          geometry::min_sine * glm::distance(shared.projector_in_prop, middle))) {
+          geometry::min_sine * glm::distance(shared.projector_in_prop, geometry::inner_point(face)))) {
         return std::nullopt;
     }
     const glm::dvec3 eye = shared.eye(index);

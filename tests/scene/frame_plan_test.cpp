@@ -1,11 +1,15 @@
 #include "app/scene/frame_plan.h"
 
+#include "app/geometry/collineation.h"
+#include "tests/solid/example_props.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace frustumscreen::scene {
 namespace {
@@ -73,6 +77,34 @@ TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{3, 4}));
     kiosk.view.table_from_prop.translation = {0.0, -0.28, 0.0};
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{4}));
+}
+
+/// The lens is low over a triangle's plane, and its distance from the mean of the corners decides.
+TEST(FramePlan, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
+    Kiosk kiosk;
+    kiosk.prop = solid::example_prop("tetrahedron");
+    const geometry::PropFace& face = kiosk.prop.faces[0];
+    ASSERT_EQ(face.corners.size(), 3U);
+    const glm::dvec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
+    kiosk.eye = middle + 0.6 * face.plane.normal;
+    int lit = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        for (const double towards : {-1.0, 1.0}) {
+            const glm::dvec3 outward = towards * glm::normalize(face.corners[corner] - middle);
+            const glm::dvec3 across = glm::cross(face.plane.normal, outward);
+            for (const double share : {0.99, 1.01}) {
+                // It looks along the face, at its middle.
+                kiosk.view.table_from_projector = {
+                    glm::quat_cast(glm::dmat3(across, -face.plane.normal, -outward)),
+                    middle + 0.7 * (outward + share * geometry::min_sine * face.plane.normal)};
+                const std::vector<int> faces = kiosk.faces();
+                const bool is_lit = std::find(faces.begin(), faces.end(), 0) != faces.end();
+                EXPECT_EQ(is_lit, share > 1.0) << corner << ' ' << towards;
+                lit += is_lit ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_EQ(lit, 6);
 }
 
 TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
