@@ -242,6 +242,34 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
     EXPECT_GT(compared, 2000);
 }
 
+/// A triangle just behind the front, of which a tenth of a millimetre is dark below the upper edge: the top shows nothing.
+TEST(FramePlan, AnEdgeIsSoftenedTowardsAFaceThatShowsNothing) {
+    Kiosk kiosk;
+    kiosk.view.light = LightCompensation{.reference = 0.25, .min_share = 1.0, .hull = {}};
+    const glm::dvec3 upper(0.0, kiosk.prop.faces[4].corners[0].y, kiosk.prop.faces[4].corners[0].z);
+    const glm::dvec3 lower(0.0, kiosk.prop.faces[3].corners[0].y, 0.0);
+    const auto behind_front = [&](double x, double share) {
+        const glm::dvec3 at = glm::mix(upper, lower, share) + glm::dvec3(x, 0.0, 0.0);
+        return glm::vec3((at + 1e-3 * glm::normalize(at - kiosk.eye)) / kiosk.artifact.metres_per_box);
+    };
+    auto triangles = std::make_shared<LevelTriangles>();
+    triangles->positions = {behind_front(-0.02, 1e-3), behind_front(0.02, 1e-3), behind_front(0.0, 0.3)};
+    triangles->indices = {0, 1, 2, 0, 2, 1};
+    triangles->clusters = kiosk.artifact.triangles->clusters;
+    triangles->clusters.front().index_count = 6;
+    triangles->clusters.front().radius = 2.0F;
+    find_planes(*triangles);
+    find_extents(*triangles);
+    kiosk.artifact.triangles = triangles;
+    ASSERT_EQ(kiosk.faces(), std::vector<int>{3});
+    const FramePlan plan = kiosk.plan();
+    ASSERT_EQ(plan.feathers.size(), 1U);
+    // The front gets less light than the top, so its gain is larger.
+    EXPECT_GT(plan.feathers[0].share.x, 0.0F);
+    EXPECT_LT(plan.feathers[0].share.x, 0.9F);
+    EXPECT_LT(plan.feathers[0].share.y, 0.9F);
+}
+
 TEST(FramePlan, AFadeIsTwoPartsThatShareThePixels) {
     Kiosk kiosk;
     kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
