@@ -53,8 +53,10 @@ Holder holder_for(const geometry::PropShape& prop) {
         high_m = std::fmax(high_m, corner.z);
     }
     const double rim_m = std::fmin(max_rim_m, max_rim_share * high_m);
-    Holder holder{
-        .pocket = widened(covered_up_to(prop, rim_m), holder_play_m), .plate = {}, .plate_m = plate_m, .rim_m = rim_m};
+    Holder holder{.pocket = widened(covered_up_to(prop, rim_m), holder_play_m),
+                  .plate = {},
+                  .plate_m = plate_m,
+                  .rim_m = rim_m};
     holder.plate = widened(holder.pocket, holder_rim_width_m);
     return holder;
 }

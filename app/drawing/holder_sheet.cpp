@@ -76,7 +76,8 @@ void draw_above(SvgSheet& sheet, const Holder& holder, double mm_per_m) {
 }
 
 /// Along A, with the prop behind it.
-void draw_section(SvgSheet& sheet, const settings::Polygon& prop_front, const Holder& holder, double mm_per_m) {
+void draw_section(SvgSheet& sheet, const settings::Polygon& prop_front, const Holder& holder,
+                  double mm_per_m) {
     const double y = section_y(holder);
     const auto [left, right] = ends_at(holder.plate, y);
     const auto [inner_left, inner_right] = ends_at(holder.pocket, y);
@@ -102,8 +103,9 @@ void draw_corners(SvgSheet& sheet, const Holder& holder) {
     sheet.text({225.0, 166.0}, "The pocket's corners: x, y from the red dot", heading);
     for (std::size_t k = 0; k < holder.pocket.size(); ++k) {
         const glm::dvec2& corner = holder.pocket[k];
-        sheet.text({225.0 + 55.0 * static_cast<double>(k / rows), 174.0 + 5.0 * static_cast<double>(k % rows)},
-                   fmt::format("{}: {}, {}", k + 1, mm_words(corner.x), mm_words(corner.y)), {3.0});
+        sheet.text(
+            {225.0 + 55.0 * static_cast<double>(k / rows), 174.0 + 5.0 * static_cast<double>(k % rows)},
+            fmt::format("{}: {}, {}", k + 1, mm_words(corner.x), mm_words(corner.y)), {3.0});
     }
 }
 

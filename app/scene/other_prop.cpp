@@ -46,10 +46,11 @@ Result<void> check_sides(const settings::PropSettings& prop, const geometry::Pro
     if (face == shape.faces.end()) {
         return {};
     }
-    return bad_input("scene.pack_lacks_sides",
-                     "the pack was baked for a {}, without the sides that are seen from below; the prop's face "
-                     "{} would show them in the hand; bake it with --prop {}",
-                     pack.prop_kind, face->name, settings::baked_kind(prop));
+    return bad_input(
+        "scene.pack_lacks_sides",
+        "the pack was baked for a {}, without the sides that are seen from below; the prop's face "
+        "{} would show them in the hand; bake it with --prop {}",
+        pack.prop_kind, face->name, settings::baked_kind(prop));
 }
 
 std::optional<std::string> note_other_prop(const std::string& file, const settings::PropSettings& prop,
@@ -60,9 +61,10 @@ std::optional<std::string> note_other_prop(const std::string& file, const settin
         return std::nullopt;
     }
     const double mean_mm = 1e3 * plan.metres_per_box * shown_error(pack, plan).mean_box;
-    return fmt::format("{}: it was baked for a {}, and the prop of the settings is a {}; it is shown with a mean "
-                       "error of {:.2f} mm; bake it with --prop {}",
-                       file, kind, settings::name_of(prop.kind), mean_mm, wanted);
+    return fmt::format(
+        "{}: it was baked for a {}, and the prop of the settings is a {}; it is shown with a mean "
+        "error of {:.2f} mm; bake it with --prop {}",
+        file, kind, settings::name_of(prop.kind), mean_mm, wanted);
 }
 
 } // namespace frustumscreen::scene

@@ -35,8 +35,7 @@ TEST_P(SolidProps, TheFloorCoversTheFacesThatAreSeenAndLit) {
     const std::unique_ptr<Technique> floor = make_floor(kiosk_, FloorFilter::OneLevel).value();
     for (const BenchPose& pose : poses()) {
         floor->draw(pose);
-        const image::Image8 drawn =
-            render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
+        const image::Image8 drawn = render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
         const TruthPicture truth = ray_cast(truth_, pose);
         int covered = 0;
         int beside = 0;

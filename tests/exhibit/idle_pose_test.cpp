@@ -1,5 +1,4 @@
 #include "app/exhibit/idle_pose.h"
-
 #include "tests/solid/example_props.h"
 
 #include <gtest/gtest.h>
@@ -148,9 +147,9 @@ DrawnPose turned_by(double yaw) {
 
 /// How often a ray from the point to a place on the table meets the prop's planes at some turn, in and beside the area.
 struct Counted {
-    int hidden = 0;  ///< places that some turn hides
-    int outside = 0; ///< of them, those that do not lie in the area
-    int free = 0;    ///< places in the area that no turn hides
+    int hidden = 0;          ///< places that some turn hides
+    int outside = 0;         ///< of them, those that do not lie in the area
+    int free = 0;            ///< places in the area that no turn hides
     double farthest_m = 0.0; ///< how far outside
 };
 
@@ -163,11 +162,13 @@ Counted count_hidden(const geometry::PropShape& prop, const typography::TablePol
     Counted counted;
     for (double x = -0.4; x < 0.4; x += 0.005) {
         for (double y = -0.4; y < 0.4; y += 0.005) {
-            const glm::dvec3 place(place_m.x + x, place_m.y + y, 1e-4); // just above a foot that lies on the table
+            const glm::dvec3 place(place_m.x + x, place_m.y + y,
+                                   1e-4); // just above a foot that lies on the table
             const bool hidden = std::any_of(
                 prop_from_table.begin(), prop_from_table.end(), [&](const geometry::RigidTransform& in_prop) {
                     geometry::PropHit hit;
-                    return geometry::enter(prop, in_prop.point(from_m), in_prop.direction(place - from_m), hit) &&
+                    return geometry::enter(prop, in_prop.point(from_m), in_prop.direction(place - from_m),
+                                           hit) &&
                            hit.t < 1.0;
                 });
             const std::array<glm::dvec2, 1> at{glm::dvec2(place)};
@@ -194,8 +195,8 @@ TEST(IdlePose, TheAreaThatItHidesIsThatOfAllTurns) {
             ASSERT_TRUE(area) << prop.name;
             const Counted counted = count_hidden(prop.shape, *area, from_m);
             std::printf("%s from %.2f m: %d places hidden, %d outside by up to %.1f mm, %d free\n",
-                        prop.name.c_str(), from_m.z, counted.hidden, counted.outside, 1e3 * counted.farthest_m,
-                        counted.free);
+                        prop.name.c_str(), from_m.z, counted.hidden, counted.outside,
+                        1e3 * counted.farthest_m, counted.free);
             EXPECT_GT(counted.hidden, 300) << prop.name;
             if (prop.square) {
                 const double larger = from_m.z / (from_m.z - 2.0 * prop.shape.middle.z);
@@ -233,7 +234,8 @@ TEST(IdlePose, AFrustumAndACubeHideAnOctagonAndTheirTop) {
             typography::TablePolygon two;
             for (const double yaw : {0.0, 0.25 * std::numbers::pi}) {
                 two = typography::hull_of(
-                    two, typography::hidden_by_prop(prop.shape, turned_by(yaw).table_from_prop, from_m)->corners());
+                    two, typography::hidden_by_prop(prop.shape, turned_by(yaw).table_from_prop, from_m)
+                             ->corners());
             }
             ASSERT_EQ(area->count, two.count) << prop.name;
             EXPECT_TRUE(std::equal(area->corners().begin(), area->corners().end(), two.corners().begin()))

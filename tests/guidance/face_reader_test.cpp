@@ -39,8 +39,9 @@ bool in_picture(const GuidanceSetup& setup, const GuidedState& tracked_state,
 }
 
 class FacesOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {};
-INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup, &solid_cube_setup,
-                                            &hexagon_setup, &tetrahedron_setup, &gem_setup));
+INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf,
+                         ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup, &solid_cube_setup,
+                                           &hexagon_setup, &tetrahedron_setup, &gem_setup));
 
 TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
     const FaceReader reader(GetParam()());

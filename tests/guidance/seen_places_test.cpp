@@ -82,8 +82,9 @@ double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
 }
 
 class SeenIn : public ::testing::TestWithParam<Shown (*)()> {};
-INSTANTIATE_TEST_SUITE_P(EveryProp, SeenIn, ::testing::Values(&in_frustum, &in_cube, &beyond_frustum, &in_hexagon, &in_tetrahedron,
-                                            &in_gem));
+INSTANTIATE_TEST_SUITE_P(EveryProp, SeenIn,
+                         ::testing::Values(&in_frustum, &in_cube, &beyond_frustum, &in_hexagon,
+                                           &in_tetrahedron, &in_gem));
 
 TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     Shown shown = GetParam()();

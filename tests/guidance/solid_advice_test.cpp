@@ -11,7 +11,7 @@ namespace frustumscreen::guidance {
 namespace {
 
 struct Mended {
-    int cases = 0; ///< situations in which a seen face is not lit
+    int cases = 0;  ///< situations in which a seen face is not lit
     int within = 0; ///< of them, those that the advice mends within its steps
     int waits = 0;
     [[nodiscard]] double share() const { return within / static_cast<double>(cases); }
@@ -42,8 +42,8 @@ Mended follow(const std::string& name, const GuidanceSetup& setup, int situation
         }
         mended.within += every_seen_face_is_lit(reader, tracked_state) ? 1 : 0;
     }
-    std::printf("%s: mended within the steps named %d of %d (%.1f %%), %d to wait\n", name.c_str(), mended.within,
-                mended.cases, 100.0 * mended.share(), mended.waits);
+    std::printf("%s: mended within the steps named %d of %d (%.1f %%), %d to wait\n", name.c_str(),
+                mended.within, mended.cases, 100.0 * mended.share(), mended.waits);
     return mended;
 }
 

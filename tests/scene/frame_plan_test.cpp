@@ -1,6 +1,5 @@
-#include "app/scene/frame_plan.h"
-
 #include "app/geometry/collineation.h"
+#include "app/scene/frame_plan.h"
 #include "tests/solid/example_props.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // with their error otherwise.
 
 #include "app/scene/other_prop.h"
-
 #include "app/scene/scene_plan.h"
 #include "tests/settings/steep_table.h"
 #include "tests/solid/example_props.h"
@@ -119,7 +118,8 @@ TEST(OtherProp, IsToldWithTheMeasuredErrorIfItIsShown) {
     EXPECT_NE(note(cube, "frustum").find("a.fspack: it was baked for a frustum"), std::string::npos);
     EXPECT_NE(note(cube, "frustum").find(" 1.20 mm"), std::string::npos) << note(cube, "frustum");
     const geometry::PropShape top = with_one_face(solid::example_prop("cube"), "+Z");
-    EXPECT_NE(note(solid_settings(top, settings::PropZone::Hand), "frustum").find(" 1.20 mm"), std::string::npos);
+    EXPECT_NE(note(solid_settings(top, settings::PropZone::Hand), "frustum").find(" 1.20 mm"),
+              std::string::npos);
     EXPECT_EQ(note(solid_settings(top, settings::PropZone::Table), "frustum"), "") << "any pack serves it";
 }
 

@@ -85,8 +85,8 @@ double pixels_on(const geometry::PropShape& prop, const settings::ProjectorSetti
         const std::size_t count = face.corners.size();
         for (std::size_t quad = 0; quad < geometry::fan_quads(count); ++quad) {
             const auto [a, b, c, d] = geometry::fan_quad(count, quad);
-            pixels +=
-                pixels_through({face.corners[a], face.corners[b], face.corners[c], face.corners[d]}, h, sight);
+            pixels += pixels_through({face.corners[a], face.corners[b], face.corners[c], face.corners[d]}, h,
+                                     sight);
         }
     }
     return pixels;

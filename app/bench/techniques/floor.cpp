@@ -163,7 +163,9 @@ private:
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_floor(const Kiosk& kiosk, FloorFilter filter) {
-    TRY(gl::GlProgram program, gl::make_program(fmt::format("#define MAX_CORNERS {}\n", geometry::max_face_corners), vertex, fragment));
+    TRY(gl::GlProgram program,
+        gl::make_program(fmt::format("#define MAX_CORNERS {}\n", geometry::max_face_corners), vertex,
+                         fragment));
     return std::make_unique<Floor>(kiosk, std::move(program), filter);
 }
 

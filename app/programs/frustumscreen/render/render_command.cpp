@@ -5,6 +5,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 #include "app/simulation/visitor_view.h"
