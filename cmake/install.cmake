@@ -49,7 +49,7 @@ install(FILES systemd/frustumscreen.tmpfiles
 set(built_in ${CMAKE_BINARY_DIR}/kiosk/built_in)
 add_custom_command(OUTPUT ${built_in}.fspack
     COMMAND frustumscreen-artifact amphora --triangles 2000 -o ${built_in}.glb
-    COMMAND frustumscreen-bake ${built_in}.glb -o ${built_in}.fspack --size 256 --no-relief --title Amphora --language en
+    COMMAND frustumscreen-bake ${built_in}.glb -o ${built_in}.fspack --prop cube --size 256 --no-relief --title Amphora --language en
     DEPENDS frustumscreen-artifact frustumscreen-bake
     BYPRODUCTS ${built_in}.glb
     COMMENT "Baking the built-in artifact" VERBATIM)

@@ -21,4 +21,7 @@ namespace frustumscreen::drawing {
 /// The prop's faces unfolded in true size, with folds and glue tabs, to cut out; as large as necessary.
 [[nodiscard]] std::string net_sheet(const settings::Settings& settings, std::string_view name);
 
+/// A3: a holder for the prop, from above and in section.
+[[nodiscard]] std::string holder_sheet(const settings::Settings& settings, std::string_view name);
+
 } // namespace frustumscreen::drawing

@@ -1,5 +1,6 @@
 #include "app/exhibit/hotspot_labels.h"
 
+#include "app/geometry/inner_point.h"
 #include "app/geometry/time_curves.h"
 #include "app/settings/lit_zone.h"
 #include "app/typography/visitor_side.h"
@@ -46,8 +47,7 @@ std::uint32_t faces_lit_from(const geometry::PropShape& prop, const glm::dvec3& 
     std::uint32_t lit = 0;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const geometry::PropFace& face = prop.faces[k];
-        const double distance =
-            glm::distance(lens_in_prop_m, 0.5 * (face.corners[0] + face.corners[face.corners.size() / 2]));
+        const double distance = glm::distance(lens_in_prop_m, geometry::inner_point(face));
         lit |= face.plane.distance(lens_in_prop_m) >= settings::min_sine_of_light * distance ? 1U << k : 0U;
     }
     return lit;

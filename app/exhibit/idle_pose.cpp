@@ -1,6 +1,8 @@
 #include "app/exhibit/idle_pose.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace frustumscreen::exhibit {
@@ -8,6 +10,54 @@ namespace frustumscreen::exhibit {
 namespace {
 
 enum Shown : std::size_t { Prop, Turning };
+
+/// A square foot and the same one turned by an eighth make an octagon, which all other turns leave by 8 per cent of the
+/// foot's radius at most; captions keep farther away.
+typography::TablePolygon hidden_at_two_turns(const geometry::PropShape& prop, const glm::dvec3& place_m,
+                                             const glm::dvec3& from_m) {
+    constexpr double eighth = 0.25 * std::numbers::pi;
+    typography::TablePolygon all;
+    for (const double yaw : {0.0, eighth}) {
+        const geometry::RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), place_m};
+        if (const std::optional<typography::TablePolygon> one =
+                typography::hidden_by_prop(prop, pose, from_m)) {
+            all = typography::hull_of(all, one->corners());
+        }
+    }
+    return all;
+}
+
+/// Each corner runs on a circle about the vertical axis, and the point sees this circle as a circle on the table. The
+/// polygon has a side along the farthest of these circles in each of `sides` directions; it is at most 1 per cent
+/// wider than they are.
+typography::TablePolygon hidden_at_all_turns(const geometry::PropShape& prop, const glm::dvec3& place_m,
+                                             const glm::dvec3& from_m) {
+    constexpr std::size_t sides = 24;
+    constexpr double step = 2.0 * std::numbers::pi / sides;
+    const auto outward = [](std::size_t k) {
+        const double azimuth = step * static_cast<double>(k);
+        return glm::dvec2(std::cos(azimuth), std::sin(azimuth));
+    };
+    const auto reach = [&](const glm::dvec2& direction) {
+        double farthest = -std::numeric_limits<double>::infinity();
+        for (const glm::dvec3& corner : prop.corners) {
+            const double larger = from_m.z / (from_m.z - std::fmax(corner.z, 0.0));
+            const glm::dvec2 middle = glm::mix(glm::dvec2(from_m), glm::dvec2(place_m), larger);
+            farthest =
+                std::fmax(farthest, glm::dot(middle, direction) + larger * glm::length(glm::dvec2(corner)));
+        }
+        return farthest;
+    };
+    std::array<glm::dvec2, sides> corners{};
+    for (std::size_t k = 0; k < sides; ++k) {
+        const glm::dvec2 a = outward(k);
+        const glm::dvec2 b = outward(k + 1);
+        const double to_a = reach(a);
+        const double to_b = reach(b);
+        corners[k] = glm::dvec2(to_a * b.y - to_b * a.y, to_b * a.x - to_a * b.x) / std::sin(step);
+    }
+    return typography::hull_of({}, corners);
+}
 
 } // namespace
 
@@ -57,17 +107,9 @@ std::optional<typography::TablePolygon> area_hidden_by(const geometry::PropShape
     if (!hidden || !drawn.attracts) {
         return hidden;
     }
-    constexpr double eighth = 0.25 * std::numbers::pi;
-    typography::TablePolygon all;
-    for (const double yaw : {0.0, eighth}) {
-        const geometry::RigidTransform pose{glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)),
-                                            drawn.table_from_prop.translation};
-        if (const std::optional<typography::TablePolygon> one =
-                typography::hidden_by_prop(prop, pose, from_m)) {
-            all = typography::hull_of(all, one->corners());
-        }
-    }
-    return all;
+    const glm::dvec3& place_m = drawn.table_from_prop.translation;
+    return geometry::quarters_to_same(prop) == 1 ? hidden_at_two_turns(prop, place_m, from_m)
+                                                 : hidden_at_all_turns(prop, place_m, from_m);
 }
 
 } // namespace frustumscreen::exhibit

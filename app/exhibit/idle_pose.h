@@ -48,8 +48,8 @@ private:
     MonotonicTime turns_since_;
 };
 
-/// The area that the artifact's place hides from a point. An artifact that turns at the idle place hides the same
-/// area at any angle, so nothing next to it moves.
+/// The area that the artifact's place hides from a point. For an artifact that turns at the idle place it is the area
+/// of all turns, so nothing next to it moves.
 [[nodiscard]] std::optional<typography::TablePolygon>
 area_hidden_by(const geometry::PropShape& prop, const DrawnPose& drawn, const glm::dvec3& from_m);
 

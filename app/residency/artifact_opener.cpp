@@ -3,7 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
-#include "app/pack/prop_note.h"
+#include "app/scene/other_prop.h"
 #include "app/scene/prop_outline.h"
 #include "app/scene/stereo.h"
 #include "app/settings/whole_zone.h"
@@ -153,8 +153,7 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
             exhibit::add_language(all.languages, caption.language);
         }
         if (const auto note =
-                pack::note_other_prop(file.string(), pack, settings::name_of(settings.prop.kind),
-                                      settings::baked_kind(settings.prop))) {
+                scene::note_other_prop(file.string(), settings.prop, opened->outline, opened->plan)) {
             all.notes.push_back(*note);
         }
         if (!all.first) {

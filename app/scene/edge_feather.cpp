@@ -57,14 +57,8 @@ bool touches(const PictureEdge& edge, const PixelRectangle& bounds, double width
     return glm::dot(edge.inward, nearest - edge.ends_px[0]) < width_px;
 }
 
-const FacePlan* plan_of(const geometry::PropShape& prop, const geometry::PropFace& face,
-                        const FramePlan& plan) {
-    for (const FacePlan& planned : plan.faces) {
-        if (&prop.faces[static_cast<std::size_t>(planned.face)] == &face) {
-            return &planned;
-        }
-    }
-    return nullptr;
+std::size_t index_of(const geometry::PropFace& face, const geometry::PropShape& prop) {
+    return static_cast<std::size_t>(&face - prop.faces.data());
 }
 
 /// The neighbour's gain over the face's own at the edge's ends; 1 where the neighbour is not dimmer.
@@ -90,7 +84,8 @@ EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, co
 
 } // namespace
 
-void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
+void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector,
+                   std::span<const std::optional<FaceLight>> lights, FramePlan& plan) {
     plan.feathers.clear();
     const geometry::Pinhole ideal = plan.projector.ideal(); // the lens bends the draws later
     for (std::size_t face = 0; face < plan.faces.size(); ++face) {
@@ -106,8 +101,8 @@ void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector,
             const geometry::PropFace* const neighbour = geometry::neighbour_of(prop, shape, k);
             if (neighbour == nullptr || !(neighbour->plane.distance(projector) > 0.0)) {
                 plan.feathers.push_back(strip(face, *edge, outer_px, glm::vec2(outer_share), ideal));
-            } else if (const FacePlan* const planned = plan_of(prop, *neighbour, plan)) {
-                const glm::vec2 share = share_between(own.light, planned->light, *edge, ideal);
+            } else if (const std::optional<FaceLight>& other = lights[index_of(*neighbour, prop)]) {
+                const glm::vec2 share = share_between(own.light, *other, *edge, ideal);
                 if (std::min(share.x, share.y) < hardly_dimmer) {
                     plan.feathers.push_back(strip(face, *edge, shared_px, share, ideal));
                 }

@@ -4,7 +4,8 @@
 ///          Where the gains differ, such pixels would sparkle as the prop moves. The face with the larger
 ///          gain is therefore dimmed towards the other's gain over the last pixel before the edge: at the
 ///          edge both agree, and a pixel's light changes gradually when the edge crosses it. The dimmer gain
-///          wins, because a place that is too bright is more noticeable than one that is too dark.
+///          wins, because a place that is too bright is more noticeable than one that is too dark. So it is towards a
+///          face that shows nothing: half of such a pixel's light falls on it, and there it is as bright.
 /// Outer    at an edge of the prop's outline, as the projector sees it, half of a pixel's light would fall on
 ///          the table as a bright line. There the face goes dark half a pixel before the edge.
 ///
@@ -19,6 +20,8 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace frustumscreen::scene {
@@ -34,7 +37,9 @@ struct EdgeFeather {
     glm::vec2 share{1.0F};
 };
 
-/// Fills `plan.feathers` from its faces, whose light must be set. `projector`: prop frame.
-void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector, FramePlan& plan);
+/// Fills `plan.feathers` from its faces, whose light must be set. `projector`: prop frame. `lights`: for each of the
+/// prop's faces, its light; nullopt for one that the eye does not see, or that may show nothing.
+void feather_edges(const geometry::PropShape& prop, const glm::dvec3& projector,
+                   std::span<const std::optional<FaceLight>> lights, FramePlan& plan);
 
 } // namespace frustumscreen::scene

@@ -2,12 +2,14 @@
 
 #include "app/geometry/collineation.h"
 #include "app/geometry/corner_fan.h"
+#include "app/geometry/inner_point.h"
 #include "app/scene/face_view.h"
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
 #include "app/scene/prop_outline.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace frustumscreen::scene {
@@ -56,9 +58,8 @@ Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> part
 /// nullopt if no eye looks through the face, or no light meets it.
 std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const geometry::PropFace& face = shared.prop.faces[index];
-    const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[face.corners.size() / 2]);
     if (!(face.plane.distance(shared.projector_in_prop) >
-          geometry::min_sine * glm::distance(shared.projector_in_prop, middle))) {
+          geometry::min_sine * glm::distance(shared.projector_in_prop, geometry::inner_point(face)))) {
         return std::nullopt;
     }
     const glm::dvec3 eye = shared.eye(index);
@@ -166,14 +167,16 @@ bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan&
     return true;
 }
 
-/// Part by part, because the triangles that face the eye are found once for all faces that share the eye.
-void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
+/// Part by part, because the triangles that face the eye are found once for all faces that share the eye. Returns the
+/// faces, as bits, through which an eye looks at a part, whether or not they show some of it.
+std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
     const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
     std::array<std::optional<FaceView>, geometry::max_faces> through{};
     std::array<std::optional<std::size_t>, geometry::max_faces> planned{}; // index into plan.faces
     for (std::size_t face = 0; face < faces; ++face) {
         through[face] = look_through(face, shared);
     }
+    std::uint32_t open = 0;
     for (const Part& part : parts) {
         if (part.level.is_empty() || (part.level.relief && !plan_relief_draw(part.level, shared, plan))) {
             continue;
@@ -182,6 +185,7 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
             if (!through[face] || ((part.level.faces >> face) & 1U) == 0) {
                 continue;
             }
+            open |= std::uint32_t{1} << face;
             std::optional<Draw> draw = draw_part(part, shared.prop.faces[face], *through[face], shared, plan);
             if (!draw) {
                 continue;
@@ -201,6 +205,7 @@ void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& pl
             plan.draws.push_back(*draw);
         }
     }
+    return open;
 }
 
 double pixel_density(const Shared& shared, const FramePlan& plan) {
@@ -305,17 +310,23 @@ double dimmed_light(const Shared& shared, const LightCompensation& compensation)
 }
 
 /// All of the prop's faces count: the first triangle that comes to show on a face must not make the brightness of
-/// the others jump.
-void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
+/// the others jump. `open`: as plan_parts.
+void compensate(const Shared& shared, const LightCompensation& compensation, std::uint32_t open,
+                FramePlan& plan) {
     if (plan.faces.empty()) {
         return; // the eye or the lens may be inside the prop
     }
     const double reference = dimmed_light(shared, compensation);
-    for (FacePlan& face : plan.faces) {
-        face.light = face_light(shared.prop.faces[static_cast<std::size_t>(face.face)],
-                                shared.projector_from_prop, reference);
+    std::array<std::optional<FaceLight>, geometry::max_faces> lights{};
+    for (std::size_t face = 0; face < lights.size(); ++face) {
+        if ((open >> face & 1U) != 0) {
+            lights[face] = face_light(shared.prop.faces[face], shared.projector_from_prop, reference);
+        }
     }
-    feather_edges(shared.prop, shared.projector_in_prop, plan);
+    for (FacePlan& face : plan.faces) {
+        face.light = lights[static_cast<std::size_t>(face.face)].value_or(FaceLight{});
+    }
+    feather_edges(shared.prop, shared.projector_in_prop, lights, plan);
 }
 
 } // namespace
@@ -385,8 +396,9 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
     plan.lit.begin(view.projector.width, view.projector.height);
     plan.prop_bounds = prop_bounds(prop, view.projector, shared.clip_from_prop);
     plan_table(shared, plan);
+    std::uint32_t open = 0;
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
-        plan_parts(parts, shared, plan);
+        open = plan_parts(parts, shared, plan);
     }
     plan.lit.finish();
     const double density = pixel_density(shared, plan);
@@ -395,7 +407,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
         plan.relief_draws[k].samples = samples_at(density, std::max(plan.relief_draws[k].samples, 1));
     }
     if (view.light) {
-        compensate(shared, *view.light, plan);
+        compensate(shared, *view.light, open, plan);
     }
     plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);

@@ -2,6 +2,7 @@
 
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
+#include "app/scene/other_prop.h"
 #include "app/scene/prop_outline.h"
 #include "app/scene/stereo.h"
 #include "app/settings/guided.h"
@@ -379,6 +380,7 @@ Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::Pac
     plan.eyes = layout.count;
     plan.table_from_projector = settings.projector.table_from_projector;
     plan.prop = settings::make_prop(settings.prop);
+    TRY_VOID(check_sides(settings.prop, plan.prop, pack.description));
     plan.metres_per_box = pack::place(pack.description, plan.prop).metres_per_box;
     plan.visibility = request.visibility;
     if (request.light) {

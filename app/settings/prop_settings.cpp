@@ -22,10 +22,10 @@ geometry::PropShape make_prop(const PropSettings& prop) {
 }
 
 std::string_view baked_kind(const PropSettings& prop) {
-    if (prop.kind != PropKind::Solid) {
-        return name_of(prop.kind);
+    if (prop.zone == PropZone::Hand) {
+        return name_of(PropKind::Cube);
     }
-    return prop.zone == PropZone::Hand ? name_of(PropKind::Cube) : std::string_view();
+    return prop.kind == PropKind::Solid ? std::string_view() : name_of(prop.kind);
 }
 
 geometry::RigidTransform prop_from_tag(const TagSettings& tag) {

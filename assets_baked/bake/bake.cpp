@@ -36,17 +36,12 @@ void begin_stage(const BakeOptions& options, const BakeStage& stage) {
     options.progress(stage.name, stage.begin);
 }
 
-/// The axis closest to each face's normal.
-std::vector<pack::ReliefDirection> directions_of(const geometry::PropShape& prop) {
-    std::vector<pack::ReliefDirection> directions;
-    for (const geometry::PropFace& face : prop.faces) {
-        const glm::dvec3& n = face.plane.normal;
-        const glm::dvec3 size = glm::abs(n);
-        const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-        const auto direction = static_cast<pack::ReliefDirection>(2 * axis + (n[axis] < 0.0 ? 1 : 0));
-        if (std::find(directions.begin(), directions.end(), direction) == directions.end()) {
-            directions.push_back(direction);
-        }
+/// All of them, but for that from below where no visitor looks from.
+std::vector<pack::ReliefDirection> directions_of(const ViewingZone& zone) {
+    using enum pack::ReliefDirection;
+    std::vector<pack::ReliefDirection> directions{PlusX, MinusX, PlusY, MinusY, PlusZ};
+    if (zone.lowest_elevation_deg < 0.0) {
+        directions.push_back(MinusZ);
     }
     return directions;
 }
@@ -147,7 +142,7 @@ public:
             bake_reliefs({.finest = meshes.levels.front(),
                           .texture = meshes.texture,
                           .box_size = frame_.box_size,
-                          .directions = directions_of(options_.prop.shape),
+                          .directions = directions_of(options_.prop.zone),
                           .truth = source_,
                           .samples = samples_,
                           .zone = options_.prop.zone,

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace frustumscreen::drawing {
@@ -275,9 +276,75 @@ TEST_F(Drawing, TheShippedTableHasItsDimensions) {
     }
 }
 
+/// Of a convex polygon, counter-clockwise: how far a point lies within the edge that it is nearest to.
+double depth_in(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const glm::dvec2& a = polygon[k];
+        const glm::dvec2& b = polygon[(k + 1) % polygon.size()];
+        least = std::min(least, side_of(a, b, p) / glm::distance(a, b));
+    }
+    return least;
+}
+
+/// Places on the prop's faces up to a height, of the corners that the settings list: on lines between them.
+std::vector<glm::dvec2> places_below(const nlohmann::json& faces, double height_m) {
+    std::vector<glm::dvec2> places;
+    for (const nlohmann::json& face : faces) {
+        std::vector<glm::dvec3> corners;
+        for (const nlohmann::json& corner : face.at("corners")) {
+            corners.emplace_back(corner.at(0), corner.at(1), corner.at(2));
+        }
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            for (int step = 0; step <= 4000; ++step) {
+                const glm::dvec3 at = glm::mix(corners[k], corners[(k + 1) % corners.size()], step / 4000.0);
+                if (at.z <= height_m) {
+                    places.emplace_back(at);
+                }
+            }
+        }
+    }
+    return places;
+}
+
+TEST_F(Drawing, TheHolderHoldsThePropWithHalfAMillimetreOfPlay) {
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.what);
+        const std::string svg = drawn(each.settings, "holder");
+        const std::vector<glm::dvec2> pocket = polygon(svg, "above", "pocket");
+        const std::vector<glm::dvec2> plate = polygon(svg, "above", "plate");
+        const std::vector<glm::dvec2> rim = polygon(svg, "section", "left rim");
+        const nlohmann::json prop = config().at("prop");
+        double high_m = 0.0;
+        for (const nlohmann::json& face : prop.at("faces")) {
+            for (const nlohmann::json& corner : face.at("corners")) {
+                high_m = std::max(high_m, corner.at(2).get<double>());
+            }
+        }
+        const double rim_m = rim[2].y - rim[1].y;
+        EXPECT_LE(rim_m, 0.1 * high_m + 1e-4);
+        EXPECT_GT(rim_m, 0.0019);
+        double least_m = 1.0;
+        std::vector<bool> met(pocket.size());
+        for (const glm::dvec2& place : places_below(prop.at("faces"), rim_m)) {
+            least_m = std::min(least_m, depth_in(pocket, place));
+            for (std::size_t k = 0; k < pocket.size(); ++k) {
+                const glm::dvec2& a = pocket[k];
+                const glm::dvec2& b = pocket[(k + 1) % pocket.size()];
+                met[k] = met[k] || side_of(a, b, place) / glm::distance(a, b) < 0.0008;
+            }
+        }
+        EXPECT_NEAR(least_m, 0.0005, 1e-4);
+        EXPECT_EQ(std::count(met.begin(), met.end(), false), 0) << "each side of the pocket is near the prop";
+        for (const glm::dvec2& corner : pocket) {
+            EXPECT_NEAR(depth_in(plate, corner), 0.008, 1e-4);
+        }
+    }
+}
+
 TEST_F(Drawing, NoWordsLieOnOthersOrBesideThePaper) {
     for (const Case& each : cases) {
-        for (const char* sheet : {"table", "prop"}) {
+        for (const char* sheet : {"table", "prop", "holder"}) {
             SCOPED_TRACE(std::string(each.what) + ", " + sheet);
             const std::vector<SvgText> all = texts(drawn(each.settings, sheet));
             EXPECT_GT(all.size(), 10U);

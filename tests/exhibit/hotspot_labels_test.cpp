@@ -1,8 +1,10 @@
 // Labels of hotspots, through the exhibit: shown exactly where a cast ray meets the point.
 
 #include "app/geometry/picture_planes.h"
+#include "app/settings/lit_zone.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
+#include "tests/solid/example_props.h"
 
 #include <gtest/gtest.h>
 
@@ -263,6 +265,29 @@ TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
         last = brightness;
     }
     EXPECT_GT(dark, 30);
+}
+
+/// Over a triangle's plane the lens is low, and its distance decides: that to the mean of the corners, also where the
+/// middle of an edge is farther away or nearer.
+TEST(HotspotLabels, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
+    const geometry::PropShape prop = solid::example_prop("tetrahedron");
+    for (std::size_t k = 0; k < prop.faces.size(); ++k) {
+        const geometry::PropFace& face = prop.faces[k];
+        ASSERT_EQ(face.corners.size(), 3U);
+        const glm::dvec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            for (const double towards : {-1.0, 1.0}) {
+                const glm::dvec3 along = towards * 0.5 * glm::normalize(face.corners[corner] - middle);
+                for (const double share : {0.99, 1.01}) {
+                    const double sine = share * settings::min_sine_of_light;
+                    const glm::dvec3 lens =
+                        middle + along + 0.5 * sine / std::sqrt(1.0 - sine * sine) * face.plane.normal;
+                    EXPECT_EQ((faces_lit_from(prop, lens) >> k & 1U) != 0, share > 1.0)
+                        << face.name << ' ' << corner << ' ' << towards;
+                }
+            }
+        }
+    }
 }
 
 TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {

@@ -1,9 +1,14 @@
 #include "app/exhibit/idle_pose.h"
+#include "tests/solid/example_props.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace frustumscreen::exhibit {
 namespace {
@@ -116,6 +121,127 @@ TEST(IdlePose, WithoutAnyPoseYetItTurnsAtOnceAndGivesWayToTheFirst) {
     const DrawnPose later = idle_pose.at(start + seconds(8), true, Nanoseconds(0), held_pose);
     EXPECT_FALSE(later.attracts);
     EXPECT_EQ(later.brightness, 1.0);
+}
+
+struct IdleProp {
+    std::string name;
+    geometry::PropShape shape;
+    bool square = false; ///< its area is that of two turns
+};
+
+std::vector<IdleProp> idle_props() {
+    std::vector<IdleProp> props{{"frustum", geometry::make_frustum(geometry::shipped_frustum), true},
+                                {"cube", geometry::make_cube(0.12), true}};
+    for (const char* const name : {"hexagon", "tetrahedron", "gem"}) {
+        props.push_back({name, solid::example_prop(name, solid::Underside::Dark), false});
+    }
+    return props;
+}
+
+DrawnPose turned_by(double yaw) {
+    return {.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(place_m, 0.0)},
+            .brightness = 1.0,
+            .changing = false,
+            .attracts = true};
+}
+
+/// How often a ray from the point to a place on the table meets the prop's planes at some turn, in and beside the area.
+struct Counted {
+    int hidden = 0;          ///< places that some turn hides
+    int outside = 0;         ///< of them, those that do not lie in the area
+    int free = 0;            ///< places in the area that no turn hides
+    double farthest_m = 0.0; ///< how far outside
+};
+
+Counted count_hidden(const geometry::PropShape& prop, const typography::TablePolygon& area,
+                     const glm::dvec3& from_m) {
+    std::vector<geometry::RigidTransform> prop_from_table;
+    for (int k = 0; k < 120; ++k) {
+        prop_from_table.push_back(turned_by(2.0 * std::numbers::pi * k / 120.0).table_from_prop.inverse());
+    }
+    Counted counted;
+    for (double x = -0.4; x < 0.4; x += 0.005) {
+        for (double y = -0.4; y < 0.4; y += 0.005) {
+            const glm::dvec3 place(place_m.x + x, place_m.y + y,
+                                   1e-4); // just above a foot that lies on the table
+            const bool hidden = std::any_of(
+                prop_from_table.begin(), prop_from_table.end(), [&](const geometry::RigidTransform& in_prop) {
+                    geometry::PropHit hit;
+                    return geometry::enter(prop, in_prop.point(from_m), in_prop.direction(place - from_m),
+                                           hit) &&
+                           hit.t < 1.0;
+                });
+            const std::array<glm::dvec2, 1> at{glm::dvec2(place)};
+            const double away_m = typography::clearance(area.corners(), at);
+            counted.hidden += hidden ? 1 : 0;
+            counted.outside += hidden && away_m > 1e-3 ? 1 : 0;
+            counted.free += !hidden && away_m == 0.0 ? 1 : 0;
+            counted.farthest_m = std::fmax(counted.farthest_m, hidden ? away_m : 0.0);
+        }
+    }
+    return counted;
+}
+
+TEST(IdlePose, TheAreaThatItHidesIsThatOfAllTurns) {
+    const glm::dvec3 lens_m(0.1, 0.2, 1.9);
+    const glm::dvec3 eye_m(-0.2, -0.55, 0.5);
+    for (const IdleProp& prop : idle_props()) {
+        double radius_m = 0.0;
+        for (const glm::dvec3& corner : prop.shape.corners) {
+            radius_m = std::fmax(radius_m, glm::length(glm::dvec2(corner)));
+        }
+        for (const glm::dvec3& from_m : {lens_m, eye_m}) {
+            const auto area = area_hidden_by(prop.shape, turned_by(0.3), from_m);
+            ASSERT_TRUE(area) << prop.name;
+            const Counted counted = count_hidden(prop.shape, *area, from_m);
+            std::printf("%s from %.2f m: %d places hidden, %d outside by up to %.1f mm, %d free\n",
+                        prop.name.c_str(), from_m.z, counted.hidden, counted.outside,
+                        1e3 * counted.farthest_m, counted.free);
+            EXPECT_GT(counted.hidden, 300) << prop.name;
+            if (prop.square) {
+                const double larger = from_m.z / (from_m.z - 2.0 * prop.shape.middle.z);
+                EXPECT_LT(counted.farthest_m, 0.08 * radius_m * larger) << prop.name;
+                EXPECT_GT(counted.outside, 0) << prop.name << ": otherwise this test sees nothing";
+            } else {
+                EXPECT_EQ(counted.outside, 0) << prop.name;
+                EXPECT_LT(counted.free, counted.hidden / 20) << prop.name;
+            }
+        }
+    }
+}
+
+TEST(IdlePose, TheAreaThatItHidesStaysAsItTurns) {
+    const glm::dvec3 eye_m(-0.2, -0.55, 0.5);
+    for (const IdleProp& prop : idle_props()) {
+        const auto first = area_hidden_by(prop.shape, turned_by(0.0), eye_m);
+        const auto later = area_hidden_by(prop.shape, turned_by(1.1), eye_m);
+        ASSERT_TRUE(first && later) << prop.name;
+        ASSERT_EQ(first->count, later->count) << prop.name;
+        EXPECT_TRUE(std::equal(first->corners().begin(), first->corners().end(), later->corners().begin()))
+            << prop.name;
+    }
+}
+
+/// The places of captions beside an idle frustum or cube have been chosen with this area.
+TEST(IdlePose, AFrustumAndACubeHideAnOctagonAndTheirTop) {
+    for (const IdleProp& prop : idle_props()) {
+        if (!prop.square) {
+            continue;
+        }
+        for (const glm::dvec3& from_m : {glm::dvec3(0.1, 0.2, 1.9), glm::dvec3(-0.2, -0.55, 0.5)}) {
+            const auto area = area_hidden_by(prop.shape, turned_by(0.7), from_m);
+            ASSERT_TRUE(area);
+            typography::TablePolygon two;
+            for (const double yaw : {0.0, 0.25 * std::numbers::pi}) {
+                two = typography::hull_of(
+                    two, typography::hidden_by_prop(prop.shape, turned_by(yaw).table_from_prop, from_m)
+                             ->corners());
+            }
+            ASSERT_EQ(area->count, two.count) << prop.name;
+            EXPECT_TRUE(std::equal(area->corners().begin(), area->corners().end(), two.corners().begin()))
+                << prop.name;
+        }
+    }
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "app/geometry/corner_fan.h"
+#include "app/geometry/inner_point.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/union_find.h"
 #include "tests/geometry/random_geometry.h"
@@ -214,6 +215,16 @@ TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
             << face.name;
     }
     EXPECT_NEAR(prop.faces[0].middle().x, 0.25 * (0.16 + 0.09), 1e-15) << "between bottom and top";
+}
+
+TEST(PropShape, APointInAFaceIsThatOfItsDiagonalOrTheMeanOfItsCorners) {
+    for (const PropShape& prop : {make_frustum({0.16, 0.09, 0.12}), make_cube(0.1)}) {
+        for (const PropFace& face : prop.faces) {
+            EXPECT_EQ(inner_point(face), 0.5 * (face.corners[0] + face.corners[2])) << face.name;
+        }
+    }
+    const PropFace triangle{.name = "", .plane = {}, .corners = {{0, 0, 0}, {3, 0, 0}, {0, 6, 3}}};
+    EXPECT_EQ(inner_point(triangle), glm::dvec3(1, 2, 1));
 }
 
 /// A prism that stands on a polygon of `sides` corners, its first side perpendicular to +X.

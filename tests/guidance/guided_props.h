@@ -1,10 +1,12 @@
-/// Props for tests of guidance: a frustum on a table, a cube in a hand, and any other convex prop.
+/// Props for tests of guidance: a frustum on a table, a cube and solids in a hand, and a wedge.
 #pragma once
 
 #include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
+#include "tests/solid/example_props.h"
 
 #include <numbers>
+#include <string>
 
 namespace frustumscreen::guidance {
 
@@ -14,6 +16,25 @@ inline GuidanceSetup frustum_setup() {
 
 inline GuidanceSetup cube_setup() {
     return exhibit::guidance_setup(bench::cube_in_hand());
+}
+
+/// One of config/prop_*.obj in the hand, under the projector of `cube_setup`.
+inline GuidanceSetup solid_setup(const std::string& name) {
+    GuidanceSetup setup = cube_setup();
+    setup.prop = solid::example_prop(name);
+    return setup;
+}
+inline GuidanceSetup solid_cube_setup() {
+    return solid_setup("cube");
+}
+inline GuidanceSetup hexagon_setup() {
+    return solid_setup("hexagon");
+}
+inline GuidanceSetup tetrahedron_setup() {
+    return solid_setup("tetrahedron");
+}
+inline GuidanceSetup gem_setup() {
+    return solid_setup("gem");
 }
 
 /// A wedge: all of its sides differ.

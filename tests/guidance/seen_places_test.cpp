@@ -26,6 +26,16 @@ Shown beyond_frustum() {
     return {frustum_setup(), geometry::make_frustum({0.12, 0.10, 0.16})};
 }
 
+Shown in_hexagon() {
+    return {hexagon_setup(), geometry::make_frustum({0.07, 0.05, 0.11})};
+}
+Shown in_tetrahedron() {
+    return {tetrahedron_setup(), geometry::make_frustum({0.05, 0.02, 0.05})};
+}
+Shown in_gem() {
+    return {gem_setup(), geometry::make_frustum({0.08, 0.05, 0.08})};
+}
+
 /// The pixels of a pinhole at the eye through which the artifact would be seen, at places without light.
 double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
     const GuidanceSetup& setup = shown.setup;
@@ -72,7 +82,9 @@ double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
 }
 
 class SeenIn : public ::testing::TestWithParam<Shown (*)()> {};
-INSTANTIATE_TEST_SUITE_P(EveryProp, SeenIn, ::testing::Values(&in_frustum, &in_cube, &beyond_frustum));
+INSTANTIATE_TEST_SUITE_P(EveryProp, SeenIn,
+                         ::testing::Values(&in_frustum, &in_cube, &beyond_frustum, &in_hexagon,
+                                           &in_tetrahedron, &in_gem));
 
 TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     Shown shown = GetParam()();

@@ -6,49 +6,34 @@ copy_test.py [unittest's arguments]
 """
 
 import json
-import os
-import pathlib
-import subprocess
-import tempfile
-import time
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen/copy"
-ASKED = "run/frustumscreen-import/copy-asked"
-PRESSED = "run/frustumscreen/copy"
+from pressed_script import PressedScript
+
 REPORT = "run/frustumscreen-import/report.json"
 STICK = "stick7p1"
 # Active are the units that are named in the file.
-SYSTEMCTL = """#!/bin/sh
-echo "$*" >>"$SAID"
+SYSTEMCTL = """echo "$*" >>"$SAID"
 [ "$1" = is-active ] || exit 0
 for unit in "$@"; do if grep -qx -e "$unit" "$ACTIVE"; then exit 0; fi; done
-exit 3
-"""
+exit 3"""
 DEVICE = f"dev-frustumscreen-{STICK}.device"
 IMPORT = f"frustumscreen-import@{STICK}.service"
 
 
-class Copy(unittest.TestCase):
+class Copy(PressedScript, unittest.TestCase):
+    name = "copy"
+
     def setUp(self):
-        self.top = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
-        for name, text in {ASKED: STICK, PRESSED: "", REPORT: "", "mounts": "", "active": f"{DEVICE}\n", "bin/systemctl": SYSTEMCTL,
-                           "bin/sleep": "#!/bin/sh\n"}.items():
-            (self.top / name).parent.mkdir(parents=True, exist_ok=True)
-            (self.top / name).write_text(text, encoding="ascii")
+        super().setUp()
+        self.write({self.asked: STICK, REPORT: "", "mounts": "", "active": f"{DEVICE}\n"})
         (self.top / "run/frustumscreen-report").mkdir()
-        for program in ("systemctl", "sleep"):
-            (self.top / "bin" / program).chmod(0o755)
+        self.write_program("systemctl", SYSTEMCTL)
+        self.write_program("sleep", "")
 
     def copy(self):
         """The orders to the service manager."""
-        said = self.top / "said"
-        said.unlink(missing_ok=True)
-        subprocess.run([SCRIPT], check=True, timeout=30, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "SAID": str(said), "ACTIVE": str(self.top / "active"),
-                            "COPY_RUN": str(self.top / "run"), "COPY_MOUNTS": str(self.top / "mounts")})
-        self.assertFalse((self.top / PRESSED).exists(), "the unit would start again and again")
-        lines = said.read_text(encoding="ascii").splitlines() if said.exists() else []
+        lines = self.run_script(ACTIVE=self.top / "active", COPY_RUN=self.top / "run", COPY_MOUNTS=self.top / "mounts")
         return [line for line in lines if not line.startswith("is-active")]
 
     def confirmed(self):
@@ -64,33 +49,23 @@ class Copy(unittest.TestCase):
         self.assertEqual(self.confirmed(), [f"{STICK}.confirm"])
         self.assertEqual((self.top / REPORT).read_text(encoding="ascii"), "", "the writer and the importer tell")
 
-    def test_a_button_without_a_stick_that_waits(self):
-        (self.top / ASKED).unlink()
-        self.assert_nothing_done()
-
-    def test_a_button_long_after_the_stick(self):
-        old = time.time() - 16 * 60
-        os.utime(self.top / ASKED, (old, old))
-        self.assert_nothing_done()
-
     def test_a_mark_that_names_no_stick(self):
         for text in ("", "../stick7", "stick7 stick8", "stick7\nstick8", "-.mount", "STICK7", "stick7@"):
             with self.subTest(text):
-                (self.top / ASKED).write_text(text, encoding="ascii")
-                (self.top / PRESSED).touch()
+                self.write({self.asked: text, self.pressed: ""})
                 self.assert_nothing_done()
 
     def test_the_first_look_at_the_stick_ends_before(self):
-        (self.top / "mounts").write_text(f"/dev/sda1 {self.top}/run/frustumscreen-stick/{STICK} vfat ro 0 0\n", encoding="ascii")
-        (self.top / "bin/sleep").write_text(f"#!/bin/sh\n: >{self.top}/mounts\necho sleep >>\"$SAID\"\n", encoding="ascii")
+        self.write({"mounts": f"/dev/sda1 {self.top}/run/frustumscreen-stick/{STICK} vfat ro 0 0\n"})
+        self.write_program("sleep", f": >{self.top}/mounts\necho sleep >>\"$SAID\"")
         self.assertEqual(self.copy(), ["sleep", f"start --no-block frustumscreen-stick@{STICK}.service"])
 
     def test_one_that_does_not_end_is_not_waited_for_for_ever(self):
-        (self.top / "active").write_text(f"{DEVICE}\n{IMPORT}\n", encoding="ascii")
+        self.write({"active": f"{DEVICE}\n{IMPORT}\n"})
         self.assertEqual(self.copy(), [f"start --no-block frustumscreen-stick@{STICK}.service"])
 
     def test_a_stick_that_was_pulled_out_is_told(self):
-        (self.top / "active").write_text("", encoding="ascii")
+        self.write({"active": ""})
         self.assertEqual(self.copy(), [])
         self.assertEqual(self.confirmed(), [])
         report = json.loads((self.top / REPORT).read_text(encoding="ascii"))

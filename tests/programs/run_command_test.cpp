@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <regex>
+#include <string>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -165,16 +167,23 @@ TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
         text("err.txt"), {"frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: ", "[file.not_opened]\n"}));
 }
 
-TEST_F(RunCommand, SaysThatAPackWasBakedForAnotherProp) {
-    write_settings("replay", "[prop]\nkind = \"cube\"\n");
+TEST_F(RunCommand, SaysThatAPackWasBakedForAnotherPropAndItsError) {
+    write_settings("replay", "[prop]\nkind = \"cube\"\nzone = \"table\"\n");
     run("--seconds 1");
     const Bytes errors = *read_file(folder / "err.txt");
-    EXPECT_EQ(
-        as_text(errors).rfind("frustumscreen: rings.fspack: it was baked for a frustum, and the prop of "
-                              "the settings is a cube; bake it with --prop cube\n",
-                              0),
-        0U)
+    EXPECT_TRUE(std::regex_search(
+        std::string(as_text(errors)),
+        std::regex(
+            "^frustumscreen: rings\\.fspack: it was baked for a frustum, and the prop of the settings is a "
+            "cube; it is shown with a mean error of \\d+\\.\\d\\d mm; bake it with --prop cube\n")))
         << as_text(errors);
+}
+
+TEST_F(RunCommand, RefusesAPackWithoutTheSidesThatACubeInTheHandShows) {
+    write_settings("replay", "[prop]\nkind = \"cube\"\n");
+    EXPECT_EQ(exit_status("--seconds 1"), 1);
+    EXPECT_TRUE(test::tells(text("err.txt"), {"frustumscreen: ", "left out: rings.fspack: ", "face +X",
+                                              "--prop cube", "[show.no_pack_shown]\n"}));
 }
 
 TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {

@@ -1,4 +1,6 @@
+#include "app/geometry/collineation.h"
 #include "app/scene/frame_plan.h"
+#include "tests/solid/example_props.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace frustumscreen::scene {
 namespace {
@@ -73,6 +76,34 @@ TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{3, 4}));
     kiosk.view.table_from_prop.translation = {0.0, -0.28, 0.0};
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{4}));
+}
+
+/// The lens is low over a triangle's plane, and its distance from the mean of the corners decides.
+TEST(FramePlan, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
+    Kiosk kiosk;
+    kiosk.prop = solid::example_prop("tetrahedron");
+    const geometry::PropFace& face = kiosk.prop.faces[0];
+    ASSERT_EQ(face.corners.size(), 3U);
+    const glm::dvec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
+    kiosk.eye = middle + 0.6 * face.plane.normal;
+    int lit = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        for (const double towards : {-1.0, 1.0}) {
+            const glm::dvec3 outward = towards * glm::normalize(face.corners[corner] - middle);
+            const glm::dvec3 across = glm::cross(face.plane.normal, outward);
+            for (const double share : {0.99, 1.01}) {
+                // It looks along the face, at its middle.
+                kiosk.view.table_from_projector = {
+                    glm::quat_cast(glm::dmat3(across, -face.plane.normal, -outward)),
+                    middle + 0.7 * (outward + share * geometry::min_sine * face.plane.normal)};
+                const std::vector<int> faces = kiosk.faces();
+                const bool is_lit = std::find(faces.begin(), faces.end(), 0) != faces.end();
+                EXPECT_EQ(is_lit, share > 1.0) << corner << ' ' << towards;
+                lit += is_lit ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_EQ(lit, 6);
 }
 
 TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
@@ -208,6 +239,34 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
         }
     }
     EXPECT_GT(compared, 2000);
+}
+
+/// A triangle just behind the front, of which a tenth of a millimetre is dark below the upper edge: the top shows nothing.
+TEST(FramePlan, AnEdgeIsSoftenedTowardsAFaceThatShowsNothing) {
+    Kiosk kiosk;
+    kiosk.view.light = LightCompensation{.reference = 0.25, .min_share = 1.0, .hull = {}};
+    const glm::dvec3 upper(0.0, kiosk.prop.faces[4].corners[0].y, kiosk.prop.faces[4].corners[0].z);
+    const glm::dvec3 lower(0.0, kiosk.prop.faces[3].corners[0].y, 0.0);
+    const auto behind_front = [&](double x, double share) {
+        const glm::dvec3 at = glm::mix(upper, lower, share) + glm::dvec3(x, 0.0, 0.0);
+        return glm::vec3((at + 1e-3 * glm::normalize(at - kiosk.eye)) / kiosk.artifact.metres_per_box);
+    };
+    auto triangles = std::make_shared<LevelTriangles>();
+    triangles->positions = {behind_front(-0.02, 1e-3), behind_front(0.02, 1e-3), behind_front(0.0, 0.3)};
+    triangles->indices = {0, 1, 2, 0, 2, 1};
+    triangles->clusters = kiosk.artifact.triangles->clusters;
+    triangles->clusters.front().index_count = 6;
+    triangles->clusters.front().radius = 2.0F;
+    find_planes(*triangles);
+    find_extents(*triangles);
+    kiosk.artifact.triangles = triangles;
+    ASSERT_EQ(kiosk.faces(), std::vector<int>{3});
+    const FramePlan plan = kiosk.plan();
+    ASSERT_EQ(plan.feathers.size(), 1U);
+    // The front gets less light than the top, so its gain is larger.
+    EXPECT_GT(plan.feathers[0].share.x, 0.0F);
+    EXPECT_LT(plan.feathers[0].share.x, 0.9F);
+    EXPECT_LT(plan.feathers[0].share.y, 0.9F);
 }
 
 TEST(FramePlan, AFadeIsTwoPartsThatShareThePixels) {

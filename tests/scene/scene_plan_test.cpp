@@ -72,10 +72,12 @@ bool has_captions(const ScenePlan& plan) {
 TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
     settings::Settings settings = settings::steep_table();
     settings.prop = settings::cube_settings();
-    const ScenePlan held = plan_scene(settings, outline(), request(settings)).value();
+    pack::PackOutline pack = outline();
+    pack.description.prop_kind = "cube";
+    const ScenePlan held = plan_scene(settings, pack, request(settings)).value();
     EXPECT_EQ(held.faces, 0b111111U);
     settings.prop.zone = settings::PropZone::Table;
-    const ScenePlan standing = plan_scene(settings, outline(), request(settings)).value();
+    const ScenePlan standing = plan_scene(settings, pack, request(settings)).value();
     EXPECT_EQ(standing.faces, 0b011111U);
     EXPECT_TRUE(leaves_out(standing, UnseenFaces, "face -Z"));
 }

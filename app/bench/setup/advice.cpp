@@ -1,6 +1,7 @@
 #include "app/bench/setup/advice.h"
 
 #include "app/geometry/collineation.h"
+#include "app/geometry/corner_fan.h"
 #include "app/settings/looking_at.h"
 #include "app/settings/whole_zone.h"
 
@@ -38,36 +39,54 @@ bool meets_ellipsoid(const geometry::Box& box, const glm::dvec3& from, const glm
     return along * along - glm::dot(d, d) * (glm::dot(o, o) - 1.0) > 0.0;
 }
 
-/// Projector pixels on the artifact. At height h of the lens above a plane, a surface at depth Z takes fx fy h / Z^3
-/// pixels a square metre.
+/// An eye and a lens, prop frame, and what the eye looks at.
+struct Sight {
+    glm::dvec3 eye{0.0};
+    geometry::Box artifact;
+    const geometry::Pinhole& pinhole;
+    geometry::RigidTransform projector_from_prop;
+};
+
+/// Projector pixels on the artifact, seen through a quadrilateral. At height h of the lens above a plane, a surface at
+/// depth Z takes fx fy h / Z^3 pixels a square metre.
+double pixels_through(const std::array<glm::dvec3, 4>& corners, double h, const Sight& sight) {
+    double pixels = 0.0;
+    for (int k = 0; k < face_samples * face_samples; ++k) {
+        const double s = (k % face_samples + 0.5) / face_samples;
+        const double t = (std::floor(k / face_samples) + 0.5) / face_samples;
+        const glm::dvec3 point =
+            glm::mix(glm::mix(corners[0], corners[1], s), glm::mix(corners[3], corners[2], s), t);
+        if (!meets_ellipsoid(sight.artifact, sight.eye, point)) {
+            continue;
+        }
+        const glm::dvec3 across = glm::mix(corners[1] - corners[0], corners[2] - corners[3], t);
+        const glm::dvec3 up = glm::mix(corners[3] - corners[0], corners[2] - corners[1], s);
+        const double area = glm::length(glm::cross(across, up)) / (face_samples * face_samples);
+        const double depth = sight.projector_from_prop.point(point).z;
+        pixels += sight.pinhole.fx * sight.pinhole.fy * h / (depth * depth * depth) * area;
+    }
+    return pixels;
+}
+
 double pixels_on(const geometry::PropShape& prop, const settings::ProjectorSettings& projector,
                  const glm::dvec3& eye_m, double yaw, const geometry::Box& artifact) {
     const geometry::RigidTransform table_from_prop{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)};
-    const glm::dvec3 eye = table_from_prop.inverse().point(eye_m);
-    const geometry::RigidTransform projector_from_prop =
-        projector.table_from_projector.inverse() * table_from_prop;
-    const glm::dvec3 lens = projector_from_prop.inverse().translation;
+    const Sight sight{.eye = table_from_prop.inverse().point(eye_m),
+                      .artifact = artifact,
+                      .pinhole = projector.pinhole,
+                      .projector_from_prop = projector.table_from_projector.inverse() * table_from_prop};
+    const glm::dvec3 lens = sight.projector_from_prop.inverse().translation;
     double pixels = 0.0;
     for (const geometry::PropFace& face : prop.faces) {
         const double h = face.plane.distance(lens);
-        if (h <= 0.0 || face.plane.distance(eye) <= 0.0) {
+        if (h <= 0.0 || face.plane.distance(sight.eye) <= 0.0) {
             continue;
         }
-        for (int k = 0; k < face_samples * face_samples; ++k) {
-            const double s = (k % face_samples + 0.5) / face_samples;
-            const double t = (std::floor(k / face_samples) + 0.5) / face_samples;
-            const glm::dvec3 point = glm::mix(glm::mix(face.corners[0], face.corners[1], s),
-                                              glm::mix(face.corners[3], face.corners[2], s), t);
-            if (!meets_ellipsoid(artifact, eye, point)) {
-                continue;
-            }
-            const glm::dvec3 across =
-                glm::mix(face.corners[1] - face.corners[0], face.corners[2] - face.corners[3], t);
-            const glm::dvec3 up =
-                glm::mix(face.corners[3] - face.corners[0], face.corners[2] - face.corners[1], s);
-            const double area = glm::length(glm::cross(across, up)) / (face_samples * face_samples);
-            const double depth = projector_from_prop.point(point).z;
-            pixels += projector.pinhole.fx * projector.pinhole.fy * h / (depth * depth * depth) * area;
+        const std::size_t count = face.corners.size();
+        for (std::size_t quad = 0; quad < geometry::fan_quads(count); ++quad) {
+            const auto [a, b, c, d] = geometry::fan_quad(count, quad);
+            pixels += pixels_through({face.corners[a], face.corners[b], face.corners[c], face.corners[d]}, h,
+                                     sight);
         }
     }
     return pixels;

@@ -2,14 +2,16 @@
 
 #include "app/bench/techniques/peer_gl.h"
 #include "app/image/image.h"
+#include "app/scene/face_view.h"
 #include "firmware_host/gl/gl_program.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -21,11 +23,12 @@ constexpr int texels = 1024;
 constexpr int last_level = 10;
 
 constexpr std::string_view vertex = R"(
-uniform vec4 corners[4];
+uniform vec4 corners[MAX_CORNERS];
+uniform vec2 places[MAX_CORNERS];
 out vec2 at;
 void main() {
     gl_Position = corners[gl_VertexID];
-    at = vec2(gl_VertexID == 1 || gl_VertexID == 2 ? 1.0 : 0.0, gl_VertexID >= 2 ? 1.0 : 0.0);
+    at = places[gl_VertexID];
 }
 )";
 constexpr std::string_view fragment = R"(
@@ -76,12 +79,25 @@ std::vector<gl::GlTexture> make_textures(FloorFilter filter) {
     return textures;
 }
 
-/// Area of a convex quadrangle given in clip coordinates, in pixels.
-double area_px(const std::array<glm::dvec4, 4>& corners, int width, int height) {
+/// Where the texture's picture lies on a face: on all of a quadrilateral; other faces cut it out of the picture's circle.
+geometry::PerCorner<glm::vec2> places_of(std::size_t corners) {
+    if (corners == 4) {
+        return {glm::vec2(0.0F, 0.0F), {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}};
+    }
+    geometry::PerCorner<glm::vec2> places;
+    for (std::size_t k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
+        places.push_back(glm::vec2(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle)));
+    }
+    return places;
+}
+
+/// Area of a convex polygon given in clip coordinates, in pixels.
+double area_px(const geometry::PerCorner<glm::dvec4>& corners, int width, int height) {
     double twice = 0.0;
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const glm::dvec4& a = corners[k];
-        const glm::dvec4& b = corners[(k + 1) % corners.size()];
+        const glm::dvec4& b = corners[corners.next(k)];
         twice += (a.x * b.y - b.x * a.y) / (a.w * b.w);
     }
     return 0.5 * std::abs(twice) * 0.25 * width * height;
@@ -111,18 +127,20 @@ public:
         glActiveTexture(GL_TEXTURE0);
         glBindVertexArray(no_attributes_.get());
         for (const geometry::PropFace* face : view.faces) {
-            std::array<glm::dvec4, 4> exact{};
-            std::array<glm::vec4, 4> corners{};
-            for (std::size_t k = 0; k < corners.size(); ++k) {
-                exact[k] = view.clip_from_prop * glm::dvec4(face->corners[k], 1.0);
-                corners[k] = glm::vec4(glm::dvec4(exact[k].x, exact[k].y, 0.0, exact[k].w));
+            geometry::PerCorner<glm::dvec4> exact;
+            geometry::PerCorner<glm::vec4> corners;
+            for (const glm::dvec3& corner : face->corners) {
+                exact.push_back(view.clip_from_prop * glm::dvec4(corner, 1.0));
+                corners.push_back(scene::corner_in_clip(corner, view.clip_from_prop));
             }
+            const auto count = static_cast<GLsizei>(corners.size());
             const std::size_t level = filter_ == FloorFilter::Trilinear
                                           ? 0
                                           : level_of(area_px(exact, kiosk_.width(), kiosk_.height()));
             glBindTexture(GL_TEXTURE_2D, textures_[level].get());
-            glUniform4fv(corners_, 4, glm::value_ptr(corners[0]));
-            glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+            glUniform4fv(corners_, count, glm::value_ptr(corners[0]));
+            glUniform2fv(places_, count, glm::value_ptr(places_of(corners.size())[0]));
+            glDrawArrays(GL_TRIANGLE_FAN, 0, count);
         }
         glBindVertexArray(0);
         end_codes();
@@ -137,6 +155,7 @@ private:
     gl::GlProgram program_;
     FloorFilter filter_;
     GLint corners_ = glGetUniformLocation(program_.get(), "corners");
+    GLint places_ = glGetUniformLocation(program_.get(), "places");
     std::vector<gl::GlTexture> textures_ = make_textures(filter_);
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
@@ -144,7 +163,9 @@ private:
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_floor(const Kiosk& kiosk, FloorFilter filter) {
-    TRY(gl::GlProgram program, gl::make_program("", vertex, fragment));
+    TRY(gl::GlProgram program,
+        gl::make_program(fmt::format("#define MAX_CORNERS {}\n", geometry::max_face_corners), vertex,
+                         fragment));
     return std::make_unique<Floor>(kiosk, std::move(program), filter);
 }
 

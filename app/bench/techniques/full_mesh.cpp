@@ -53,7 +53,7 @@ private:
     }
 
     void mark_faces(const render::Raster& raster) {
-        quads_.set(visible_.faces());
+        fans_.set(visible_.faces());
         glDisable(GL_DEPTH_TEST);
         glDepthMask(GL_FALSE);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -64,7 +64,7 @@ private:
         for (std::size_t k = 0; k < visible_.faces().size(); ++k) {
             glStencilFunc(GL_ALWAYS, static_cast<GLint>(k + 1), 0xFF);
             render::set_scissor(visible_.faces()[k].bounds, raster);
-            quads_.draw(k);
+            fans_.draw(k);
         }
         glDepthMask(GL_TRUE);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -74,7 +74,7 @@ private:
     std::shared_ptr<const PeerMesh> mesh_;
     gl::GlProgram mark_;
     GLint clip_from_prop_ = glGetUniformLocation(mark_.get(), "clip_from_prop");
-    FaceQuads quads_;
+    FaceFans fans_;
     PeerView view_;
     VisibleParts visible_;
 };

@@ -1,5 +1,6 @@
 #include "app/bench/techniques/pack_level.h"
 
+#include "app/pack/pack_hull.h"
 #include "app/render/hit_points.h"
 #include "app/scene/error_estimate.h"
 #include "app/scene/exposure.h"
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace frustumscreen::bench {
 
@@ -31,14 +34,19 @@ struct Lights {
 };
 
 /// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
-/// quality level of its scene plan.)
-Lights lights_of(const Kiosk& kiosk, const PictureOptions& options, const pack::Pack& pack) {
+/// quality level of its scene plan.) As in the exhibit, the picture dims by what is seen of the artifact.
+Result<Lights> lights_of(const Kiosk& kiosk, const PictureOptions& options, const pack::Pack& pack) {
     const pack::PackLevel& level = pack.levels[pack.default_level];
-    const Light shown{scene::light_compensation(kiosk.settings),
+    scene::LightCompensation compensation = scene::light_compensation(kiosk.settings);
+    TRY(std::vector<glm::dvec3> hull, pack::hull_in(pack, kiosk.prop, scene::max_corners_in_frame));
+    compensation.hull = std::make_shared<const std::vector<glm::dvec3>>(std::move(hull));
+    const Light shown{std::move(compensation),
                       scene::exposure_of(level, pack.box_size, pack.textures[level.texture],
                                          kiosk.settings.render.highlight_code),
                       options.feathered};
-    return {options.lit ? shown : Light{}, options.lit || options.timed_lit ? shown : Light{}, shown};
+    return Lights{.measured = options.lit ? shown : Light{},
+                  .timed = options.lit || options.timed_lit ? shown : Light{},
+                  .shown = shown};
 }
 
 int samples_of(const PictureOptions& options, const pack::Pack& pack) {
@@ -163,6 +171,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
                                                    std::uint32_t level, const PictureOptions& options,
                                                    std::string name) {
     TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(pack::outline_of(pack)));
+    TRY(const Lights lights, lights_of(kiosk, options, pack));
     const scene::SceneLevel whole = scene::whole_level(pack, level);
     scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
@@ -182,8 +191,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, both, seen.levels[level],
-                                                lights_of(kiosk, options, pack), std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, both, seen.levels[level], lights, std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
@@ -192,6 +200,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
                                                     std::optional<scene::SeenLevel> seen,
                                                     const PictureOptions& options, std::string name,
                                                     bool on_gpu) {
+    TRY(const Lights lights, lights_of(kiosk, options, pack));
     scene::RenderNeeds needs;
     if (on_gpu) {
         scene::ShaderKey shader;
@@ -215,8 +224,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(kiosk, both, std::move(seen), lights_of(kiosk, options, pack),
-                                                std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, both, std::move(seen), lights, std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -157,7 +156,7 @@ double pixel_density(std::span<const PeerFace> faces, const geometry::Box& box, 
     return density.share(glm::distance(middle, view.projector_m), view.projector);
 }
 
-FaceQuads::FaceQuads() : array_(gl::GlVertexArray::generate()), buffer_(gl::GlBuffer::generate()) {
+FaceFans::FaceFans() : array_(gl::GlVertexArray::generate()), buffer_(gl::GlBuffer::generate()) {
     glBindVertexArray(array_.get());
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
     glEnableVertexAttribArray(0);
@@ -165,20 +164,21 @@ FaceQuads::FaceQuads() : array_(gl::GlVertexArray::generate()), buffer_(gl::GlBu
     glBindVertexArray(0);
 }
 
-void FaceQuads::set(const std::vector<PeerFace>& faces) {
+void FaceFans::set(const std::vector<PeerFace>& faces) {
     std::vector<glm::vec3> corners;
+    first_ = {0};
     for (const PeerFace& each : faces) {
-        assert(each.face->corners.size() == 4); // the peers draw frustums and cubes
         corners.insert(corners.end(), each.face->corners.begin(), each.face->corners.end());
+        first_.push_back(static_cast<GLint>(corners.size()));
     }
     glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec3)), corners.data(),
                  GL_STREAM_DRAW);
 }
 
-void FaceQuads::draw(std::size_t face) const {
+void FaceFans::draw(std::size_t face) const {
     glBindVertexArray(array_.get());
-    glDrawArrays(GL_TRIANGLE_FAN, static_cast<GLint>(4 * face), 4);
+    glDrawArrays(GL_TRIANGLE_FAN, first_[face], first_[face + 1] - first_[face]);
 }
 
 } // namespace frustumscreen::bench

@@ -86,10 +86,10 @@ struct PeerFace {
 [[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const geometry::Box& box,
                                    const PeerView& view);
 
-/// Four corners of each face in one buffer, drawn as fans.
-class FaceQuads {
+/// The corners of each face in one buffer, drawn as fans.
+class FaceFans {
 public:
-    FaceQuads();
+    FaceFans();
     /// Positions are attribute 0, prop frame.
     void set(const std::vector<PeerFace>& faces);
     void draw(std::size_t face) const;
@@ -97,6 +97,7 @@ public:
 private:
     gl::GlVertexArray array_;
     gl::GlBuffer buffer_;
+    std::vector<GLint> first_; ///< corner of each face, and the end
 };
 
 } // namespace frustumscreen::bench

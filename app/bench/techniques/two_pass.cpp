@@ -76,7 +76,7 @@ glm::dmat4 eye_clip(const PeerView& view, const geometry::Box& box) {
     glm::dvec3 middle(0.0);
     for (const geometry::PropFace* face : view.faces) {
         for (const glm::dvec3& corner : face->corners) {
-            middle += corner / (4.0 * static_cast<double>(view.faces.size()));
+            middle += corner / static_cast<double>(face->corners.size() * view.faces.size());
         }
     }
     const glm::dvec3 forward = glm::normalize(middle - view.eye_m);
@@ -193,10 +193,10 @@ private:
         glBindTexture(GL_TEXTURE_2D, eye_[0].colour.get());
         render::set_viewport({kiosk_.width(), kiosk_.height()}, raster);
         glEnable(GL_SCISSOR_TEST);
-        quads_.set(faces_);
+        fans_.set(faces_);
         for (std::size_t face = 0; face < faces_.size(); ++face) {
             render::set_scissor(faces_[face].bounds, raster);
-            quads_.draw(face);
+            fans_.draw(face);
         }
         glDisable(GL_SCISSOR_TEST);
     }
@@ -214,7 +214,7 @@ private:
     glm::dmat4 eye_clip_{1.0};
     std::vector<PeerFace> faces_;
     scene::LitTiles lit_;
-    FaceQuads quads_;
+    FaceFans fans_;
 };
 
 } // namespace

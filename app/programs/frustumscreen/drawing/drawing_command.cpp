@@ -28,8 +28,9 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("-o,--output", request.output, "SVG file to write").required();
     app.add_option("--sheet", request.sheet,
                    "table: A3 with table, projector and eyes (the default); prop: A3 with the prop's views "
-                   "and unfolded faces; net: the unfolded faces in true size, to cut out")
-        .one_of({"table", "prop", "net"});
+                   "and unfolded faces; net: the unfolded faces in true size, to cut out; holder: A3 with a "
+                   "plate that the prop rests in")
+        .one_of({"table", "prop", "net", "holder"});
     return app.end_of_arguments(argc, argv);
 }
 
@@ -39,9 +40,10 @@ Result<void> draw(const Request& request) {
     TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     TRY_VOID(check_output_place(request.output));
     const std::string name = request.config.filename().string();
-    const std::string drawing = request.sheet == "table"  ? drawing::table_sheet(*settings, name)
-                                : request.sheet == "prop" ? drawing::prop_sheet(*settings, name)
-                                                          : drawing::net_sheet(*settings, name);
+    const std::string drawing = request.sheet == "table"    ? drawing::table_sheet(*settings, name)
+                                : request.sheet == "prop"   ? drawing::prop_sheet(*settings, name)
+                                : request.sheet == "holder" ? drawing::holder_sheet(*settings, name)
+                                                            : drawing::net_sheet(*settings, name);
     return write_file(request.output, as_bytes(drawing));
 }
 

@@ -1,11 +1,11 @@
 #include "app/programs/frustumscreen/render/render_command.h"
 
-#include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 #include "app/simulation/visitor_view.h"
@@ -145,9 +145,8 @@ Result<void> render(const Request& request) {
     }
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
-    if (const auto note =
-            pack::note_other_prop(request.pack.string(), *scene.pack, settings::name_of(settings->prop.kind),
-                                  settings::baked_kind(settings->prop))) {
+    if (const auto note = scene::note_other_prop(request.pack.string(), settings->prop,
+                                                 pack::outline_of(*scene.pack), scene.plan)) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;

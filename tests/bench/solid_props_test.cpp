@@ -1,0 +1,88 @@
+// The bench's techniques on props in the hand with faces of three, four and six corners.
+#include "app/bench/setup/advice.h"
+#include "app/bench/techniques/floor.h"
+#include "app/bench/techniques/peers.h"
+#include "tests/bench/drawn_near.h"
+#include "tests/bench/ring.h"
+#include "tests/solid/example_props.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace frustumscreen::bench {
+namespace {
+
+class SolidProps : public DrawnNear, public ::testing::WithParamInterface<const char*> {
+protected:
+    SolidProps() {
+        kiosk_.prop = solid::example_prop(GetParam());
+        kiosk_.settings.prop = {.kind = settings::PropKind::Solid, .zone = settings::PropZone::Hand};
+        kiosk_.settings.prop.shape = std::make_shared<const geometry::PropShape>(kiosk_.prop);
+        kiosk_.settings.table = {0.15, 0.08};
+    }
+    [[nodiscard]] std::vector<BenchPose> poses() const {
+        return draw_poses(kiosk_.settings, kiosk_.prop, 5, 9).value();
+    }
+    std::shared_ptr<bake::SourceMesh> mesh_ = ring();
+    Truth truth_ = Truth::build(mesh_, glm::dmat4(1.0)).value();
+};
+INSTANTIATE_TEST_SUITE_P(Examples, SolidProps, ::testing::Values("hexagon", "tetrahedron", "gem"));
+
+TEST_P(SolidProps, TheFloorCoversTheFacesThatAreSeenAndLit) {
+    const std::unique_ptr<Technique> floor = make_floor(kiosk_, FloorFilter::OneLevel).value();
+    for (const BenchPose& pose : poses()) {
+        floor->draw(pose);
+        const image::Image8 drawn = render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
+        const TruthPicture truth = ray_cast(truth_, pose);
+        int covered = 0;
+        int beside = 0;
+        int missing = 0;
+        for (std::size_t k = 0; k < drawn.texels.size(); ++k) {
+            const bool on_prop = truth.prop.texels[k] != 0;
+            const bool lit = drawn.texels[k].r != 0;
+            covered += on_prop ? 1 : 0;
+            beside += lit && !on_prop ? 1 : 0;
+            missing += !lit && on_prop ? 1 : 0;
+        }
+        EXPECT_GT(covered, 1000);
+        EXPECT_LE(beside, 4) << "pixel centres on an edge";
+        EXPECT_LE(missing, covered / 100) << "the pattern has black texels";
+    }
+}
+
+TEST_P(SolidProps, TheFullMeshIsTheRayCastAndTwoPassesComeNearIt) {
+    const std::shared_ptr<const PeerMesh> peer = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
+    const std::unique_ptr<Technique> full = make_full_mesh(kiosk_, peer).value();
+    const std::unique_ptr<Technique> two_pass = make_two_pass(kiosk_, peer, 1024).value();
+    int pixels = 0;
+    for (const BenchPose& pose : poses()) {
+        const TruthPicture truth = ray_cast(truth_, pose);
+        const PictureError error = error_of(*full, pose, truth);
+        pixels += static_cast<int>(error.truth_pixels);
+        EXPECT_LT(error.outline_shift_px, 0.05);
+        EXPECT_LT(error.geometric_mean_mm, 0.1);
+        const PictureError twice = error_of(*two_pass, pose, truth);
+        EXPECT_LT(twice.silhouette_percent, 5.0);
+        EXPECT_LT(twice.geometric_mean_mm, 0.5);
+    }
+    EXPECT_GT(pixels, 3000);
+}
+
+/// Fans of quadrilaterals cover each face once: a prism's pixels do not depend on which corner of a face comes first.
+TEST_P(SolidProps, TheAdviceCountsTheSamePixelsFromAnyFirstCorner) {
+    settings::Settings turned = kiosk_.settings;
+    geometry::PropShape shape = kiosk_.prop;
+    for (geometry::PropFace& face : shape.faces) {
+        std::rotate(face.corners.begin(), face.corners.begin() + 1, face.corners.end());
+    }
+    turned.prop.shape = std::make_shared<const geometry::PropShape>(shape);
+    const double pixels = examine(kiosk_.settings).pixels;
+    EXPECT_GT(pixels, 1000.0);
+    EXPECT_NEAR(examine(turned).pixels, pixels, 0.01 * pixels);
+}
+
+} // namespace
+} // namespace frustumscreen::bench

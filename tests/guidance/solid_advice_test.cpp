@@ -1,0 +1,62 @@
+// How often advice, carried out well, makes the picture whole within the moves that it names: solids in the hand against
+// a cube of the settings.
+#include "app/guidance/advise.h"
+#include "guided_props.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace frustumscreen::guidance {
+namespace {
+
+struct Mended {
+    int cases = 0;  ///< situations in which a seen face is not lit
+    int within = 0; ///< of them, those that the advice mends within its steps
+    int waits = 0;
+    [[nodiscard]] double share() const { return within / static_cast<double>(cases); }
+};
+
+bool every_seen_face_is_lit(const FaceReader& reader, const GuidedState& tracked_state) {
+    return reader.read(tracked_state).unlit() == 0;
+}
+
+/// The visitor carries out each move well and asks again after it.
+Mended follow(const std::string& name, const GuidanceSetup& setup, int situations) {
+    const FaceReader reader(setup);
+    bench::Seeded seeded(41);
+    Mended mended;
+    for (int k = 0; k < situations; ++k) {
+        GuidedState tracked_state = bench::seeded_situation(setup, seeded);
+        Advisor advisor(setup);
+        std::optional<Advice> advice = advisor.advise(tracked_state);
+        EXPECT_EQ(advice.has_value(), !every_seen_face_is_lit(reader, tracked_state)) << name << ' ' << k;
+        if (!advice) {
+            continue;
+        }
+        ++mended.cases;
+        mended.waits += advice->move.action == Action::Wait ? 1 : 0;
+        for (int left = advice->steps; left > 0 && advice; --left) {
+            tracked_state = after(advice->move, setup, tracked_state);
+            advice = advisor.advise(tracked_state);
+        }
+        mended.within += every_seen_face_is_lit(reader, tracked_state) ? 1 : 0;
+    }
+    std::printf("%s: mended within the steps named %d of %d (%.1f %%), %d to wait\n", name.c_str(),
+                mended.within, mended.cases, 100.0 * mended.share(), mended.waits);
+    return mended;
+}
+
+TEST(SolidAdvice, MendsAsManySituationsWithinItsStepsAsForACube) {
+    constexpr int situations = 150;
+    const Mended cube = follow("cube of the settings", cube_setup(), situations);
+    EXPECT_GT(cube.share(), 0.9);
+    for (const char* const name : {"cube", "hexagon", "tetrahedron", "gem"}) {
+        const Mended solid = follow(name, solid_setup(name), situations);
+        EXPECT_GT(solid.cases, situations / 3) << name;
+        EXPECT_GE(solid.share(), cube.share()) << name;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::guidance
