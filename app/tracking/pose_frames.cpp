@@ -22,6 +22,8 @@ std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> sampl
         if (sample.ok && sample.station == tracker::head_station && frame != frames.end() &&
             !frame->second.head_known) {
             frame->second.eye_m = sample.position_m;
+            frame->second.table_from_head = glm::normalize(sample.rotation);
+            frame->second.eyes_apart = 1.0;
             frame->second.head_known = true;
         }
     }
