@@ -140,7 +140,7 @@ protected:
         put("kiosk.toml",
             fmt::format("[projector]\nwidth = {}\nheight = {}\nfx = {}\nposition_m = [0.0, 0.0, {}]\n"
                         "aim_m = [0.0, 0.0, 0.0]\n[prop]\n{}[eye]\nstereo = \"anaglyph\"\n"
-                        "interocular_mm = {}\n[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
+                        "interocular_mm = {:.1f}\n[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
                         size_px.x, size_px.y, focal_px, above_m.z, prop, interocular_mm));
     }
     void expect_what_rays_see(int count) {
