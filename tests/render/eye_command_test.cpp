@@ -80,7 +80,7 @@ protected:
     void expect_same_files(const std::string& a, const std::string& b, const std::string& ending) const {
         for (int k = 0; k < poses; ++k) {
             const std::string name = fmt::format("frame_{:05}.{}", k, ending);
-            EXPECT_EQ(text(a + "/" + name) == text(b + "/" + name), true) << a << ' ' << name;
+            EXPECT_TRUE(text(a + "/" + name) == text(b + "/" + name)) << a << ' ' << name;
             EXPECT_FALSE(text(a + "/" + name).empty());
         }
     }
