@@ -26,11 +26,9 @@ public:
     void behind(const geometry::PropFace& face) {
         const double a = share();
         const double b = share();
-        const geometry::PropFace& f = face;
-        const glm::dvec3 s = f.corners.size() == 4
-                                 ? glm::mix(glm::mix(f.corners[0], f.corners[1], a),
-                                            glm::mix(f.corners[3], f.corners[2], a), b)
-                                 : glm::mix(f.corners[0], glm::mix(f.corners[1], f.corners[2], a), b);
+        const auto& corners = face.corners;
+        const glm::dvec3& last = corners[corners.size() == 4 ? 3 : 0]; // else a triangle of the face
+        const glm::dvec3 s = glm::mix(glm::mix(corners[0], corners[1], a), glm::mix(last, corners[2], a), b);
         const double depth = std::pow(10.0, -3.0 * share()); // share of the box
         // Smaller than the eye's own height above the face.
         const double size = 0.1 * face.plane.distance(eye_) / extent_.x;

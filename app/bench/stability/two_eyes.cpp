@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace frustumscreen::bench {
 
