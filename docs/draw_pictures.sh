@@ -1,9 +1,19 @@
 #!/usr/bin/env bash
-# Draws the README's pictures, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked.
-# The loop takes some minutes.
+# Draws the README's pictures, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked; and
+# docs/picture_steps.webp, of the same, which needs what ./test builds. The loop takes some minutes.
+#   docs/draw_pictures.sh [steps]    steps: picture_steps.webp alone, of the built-in artifact where ./run has baked none
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 pack=out/packs/nautilus-cup.fspack
+draw_steps() {
+    cmake/build.sh release draw_picture_steps >/dev/null
+    build/release/tests/draw_picture_steps "$1" docs/picture_steps.webp
+}
+if [[ ${1-} == steps ]]; then
+    [[ -f $pack ]] || pack=build/release/kiosk/built_in.fspack
+    draw_steps "$pack"
+    exit
+fi
 if [[ ! -f $pack ]]; then
     echo "draw_pictures.sh: $pack: there is no such file; run ./run first" >&2
     exit 1
@@ -26,3 +36,4 @@ awk 'BEGIN {
 "$bin/frustumscreen" render --config "$config" --pack "$pack" --poses "$folder/poses.csv" --out "$folder/frames"
 "$bin/frustumscreen-sheet" --config "$config" --frames "$folder/frames" --poses "$folder/poses.csv" --room docs/room.png \
     --animation docs/visitor.webp --animation-frames 300 --closed --lossless --width 360 --height 225
+draw_steps "$pack"

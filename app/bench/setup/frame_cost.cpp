@@ -2,6 +2,7 @@
 
 #include "app/bench/measures/counts.h"
 #include "app/bench/techniques/pack_level.h"
+#include "app/scene/stereo.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/display/egl_context.h"
 #include "firmware_host/display/picture_framebuffer.h"
@@ -32,24 +33,27 @@ struct Candidate {
     std::unique_ptr<Technique> level;
 };
 
-Result<std::unique_ptr<Candidate>> make_candidate(const settings::Settings& settings,
-                                                  const pack::Pack& pack) {
-    const geometry::Pinhole& pinhole = settings.projector.pinhole;
-    TRY(display::PictureFramebuffer picture,
-        display::PictureFramebuffer::create(pinhole.width, pinhole.height));
+Result<std::unique_ptr<Candidate>> make_candidate(const settings::Settings& settings, const pack::Pack& pack,
+                                                  const std::shared_ptr<const relief::BlockRelief>& relief) {
+    const PixelSize size = scene::stereo_layout(settings).display;
+    TRY(display::PictureFramebuffer picture, display::PictureFramebuffer::create(size.width, size.height));
     const unsigned framebuffer = picture.name();
     auto made = std::make_unique<Candidate>(
         Candidate{std::move(picture), {settings, settings::make_prop(settings.prop), framebuffer}, nullptr});
     PictureOptions options;
     options.lit = true;
-    TRY(made->level, make_pack_level(made->kiosk, pack, pack.default_level, options, "default level"));
+    options.both_eyes = true;
+    TRY(made->level, relief
+                         ? make_pack_relief(made->kiosk, pack, relief, std::nullopt, options, "relief")
+                         : make_pack_level(made->kiosk, pack, pack.default_level, options, "default level"));
     return made;
 }
 
 } // namespace
 
 Result<std::vector<SetUpCost>> frame_costs(std::span<const settings::Settings* const> set_ups,
-                                           const pack::Pack& pack, const Progress& progress) {
+                                           const pack::Pack& pack, const Progress& progress,
+                                           const std::shared_ptr<const relief::BlockRelief>& relief) {
     if (set_ups.empty()) {
         return std::vector<SetUpCost>{};
     }
@@ -57,7 +61,7 @@ Result<std::vector<SetUpCost>> frame_costs(std::span<const settings::Settings* c
     std::vector<std::unique_ptr<Candidate>> candidates;
     std::vector<Technique*> techniques;
     for (const settings::Settings* settings : set_ups) {
-        TRY(std::unique_ptr<Candidate> candidate, make_candidate(*settings, pack));
+        TRY(std::unique_ptr<Candidate> candidate, make_candidate(*settings, pack, relief));
         techniques.push_back(candidate->level.get());
         candidates.push_back(std::move(candidate));
     }

@@ -1,4 +1,5 @@
-/// The cost of a frame in several set-ups: a pack's default level as the exhibit shows it, in even light.
+/// The cost of a frame in several set-ups: a pack's default level or a relief as the exhibit shows it, in even light, with
+/// both eyes where the settings have a layout for them.
 ///
 /// Poses    the prop at the table's middle, turned in twelve steps once around, seen by the default eye. Every set-up
 ///          has this place, whatever its zone.
@@ -10,8 +11,10 @@
 
 #include "app/bench/measures/timing.h"
 #include "app/pack/pack.h"
+#include "app/relief/block_relief.h"
 #include "app/settings/settings.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,11 +23,14 @@ namespace frustumscreen::bench {
 struct SetUpCost {
     double times_first = 1.0;     ///< median frame time divided by that of the first set-up
     double cpu_times_first = 1.0; ///< the same for the processor time of all threads
-    double samples = 0.0; ///< samples cleared and averaged for a frame, in whole tiles; mean over the poses
+    /// Samples of the default level that are cleared and averaged for one eye's frame, in whole tiles; mean over the poses.
+    double samples = 0.0;
 };
 
-/// Returns one for each set-up; the first has the ratio 1. All use the first one's eyes.
-[[nodiscard]] Result<std::vector<SetUpCost>> frame_costs(std::span<const settings::Settings* const> set_ups,
-                                                         const pack::Pack& pack, const Progress& progress);
+/// Returns one for each set-up; the first has the ratio 1. All use the first one's eyes. `relief`: null for the default
+/// level.
+[[nodiscard]] Result<std::vector<SetUpCost>>
+frame_costs(std::span<const settings::Settings* const> set_ups, const pack::Pack& pack,
+            const Progress& progress, const std::shared_ptr<const relief::BlockRelief>& relief = nullptr);
 
 } // namespace frustumscreen::bench

@@ -26,8 +26,9 @@ public:
     void behind(const geometry::PropFace& face) {
         const double a = share();
         const double b = share();
-        const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
-                                      glm::mix(face.corners[3], face.corners[2], a), b);
+        const auto& corners = face.corners;
+        const glm::dvec3& last = corners[corners.size() == 4 ? 3 : 0]; // else a triangle of the face
+        const glm::dvec3 s = glm::mix(glm::mix(corners[0], corners[1], a), glm::mix(last, corners[2], a), b);
         const double depth = std::pow(10.0, -3.0 * share()); // share of the box
         // Smaller than the eye's own height above the face.
         const double size = 0.1 * face.plane.distance(eye_) / extent_.x;
@@ -154,7 +155,8 @@ public:
         const exact::Vector lens = set_up_.lens_in_prop();
         const exact::Vector centre{0, 0,
                                    0.5L * artifact_.placed.box_size.z * artifact_.placed.metres_per_box};
-        const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
+        const exact::Vector middle =
+            0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[face_.corners.size() / 2]));
         const exact::Real eye_sine = set_up_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = set_up_.height(face_, lens) / exact::length(lens - middle);
         constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both correct

@@ -7,10 +7,12 @@
 #include "app/scene/frame_plan.h"
 #include "app/scene/light.h"
 #include "app/scene/scene_level.h"
+#include "app/scene/stereo.h"
 
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,15 +55,30 @@ int samples_of(const PictureOptions& options, const pack::Pack& pack) {
     return options.samples > 0 ? options.samples : pack.samples;
 }
 
+scene::StereoLayout layout_of(const Kiosk& kiosk, const PictureOptions& options) {
+    return scene::stereo_layout(kiosk.settings.projector.pinhole, options.both_eyes
+                                                                      ? settings::stereo_of(kiosk.settings)
+                                                                      : settings::Stereo::Off);
+}
+
+/// The left and the right eye of a head that looks at the prop.
+std::array<glm::dvec3, 2> eyes_of(const BenchPose& pose, double interocular_m) {
+    const glm::dvec3 right =
+        glm::cross(pose.table_from_prop.translation - pose.eye_m, glm::dvec3(0.0, 0.0, 1.0));
+    const double length = glm::length(right);
+    const glm::dvec3 half = 0.5 * interocular_m * (length > 0.0 ? right / length : glm::dvec3(1.0, 0.0, 0.0));
+    return {pose.eye_m - half, pose.eye_m + half};
+}
+
 /// Needs with light and without: shown pictures are lit regardless of the options.
-scene::RenderNeeds needs_of(const Kiosk& kiosk, int samples, scene::ShaderKey shader) {
+scene::RenderNeeds needs_of(const geometry::Pinhole& pinhole, int samples, scene::ShaderKey shader) {
     scene::RenderNeeds needs{std::max(samples, render::default_samples),
                              {{scene::ShaderKey::Pass::EdgeFeather}}};
     for (const bool lit : {false, true}) {
         shader.even_light = lit;
         needs.draws.insert(shader);
     }
-    needs.bent_by = scene::if_it_bends(kiosk.settings.projector.pinhole);
+    needs.bent_by = scene::if_it_bends(pinhole);
     return needs;
 }
 
@@ -85,17 +102,23 @@ struct Placed {
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Kiosk& kiosk, const Placed& placed, std::optional<scene::SeenLevel> seen,
-                       const Lights& lights, std::string name, Parts parts)
-        : kiosk_(kiosk), placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
-          parts_(std::move(parts)), plan_(scene::make_plan(kiosk.prop, placed.coloured)) {}
+    PackLevelTechnique(const Kiosk& kiosk, const scene::StereoLayout& layout, const Placed& placed,
+                       std::optional<scene::SeenLevel> seen, const Lights& lights, std::string name,
+                       Parts parts)
+        : kiosk_(kiosk), layout_(layout), placed_(placed), seen_(std::move(seen)), lights_(lights),
+          name_(std::move(name)), parts_(std::move(parts)) {
+        plans_.reserve(layout.count);
+        for (std::size_t eye = 0; eye < layout.count; ++eye) {
+            plans_.push_back(scene::make_plan(kiosk.prop, placed.coloured));
+        }
+    }
 
     [[nodiscard]] std::string name() const override { return name_; }
     void draw(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.measured); }
     void draw_timed(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.timed); }
     [[nodiscard]] Result<image::ImageFloat> hit_points(const BenchPose& pose) override {
         plan(placed_.coloured, pose, lights_.measured);
-        return parts_.hit_points.draw(plan_, parts_.renderer.store());
+        return parts_.hit_points.draw(plans_.front(), parts_.renderer.store());
     }
 
     [[nodiscard]] std::optional<scene::ErrorEstimate> estimate(const BenchPose& pose) override {
@@ -104,14 +127,15 @@ public:
         }
         plan(placed_.coloured, pose, lights_.measured);
         return scene::estimate_error(*seen_, kiosk_.prop, placed_.coloured, view_of(pose, lights_.measured),
-                                     plan_);
+                                     plans_.front());
     }
 
     [[nodiscard]] ShownPicture* as_shown() override { return this; }
     void draw_shown(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.shown); }
     [[nodiscard]] int draw_white(const BenchPose& pose) override {
         draw(placed_.white, pose, {});
-        return plan_.relief_draw_count > 0 ? plan_.relief_draws.front().samples : plan_.samples;
+        const scene::FramePlan& plan = plans_.front();
+        return plan.relief_draw_count > 0 ? plan.relief_draws.front().samples : plan.samples;
     }
     [[nodiscard]] LightAim light(const BenchPose& pose) const override {
         const TruthView view = frustumscreen::bench::view_of(kiosk_.settings, pose);
@@ -146,23 +170,30 @@ private:
                 .brightness = light.exposure};
     }
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
-        scene::plan_frame(kiosk_.prop, placed, view_of(pose, light), plan_);
-        if (!light.feathered) {
-            plan_.feathers.clear();
+        const std::array<glm::dvec3, 2> both = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
+        const std::span<const glm::dvec3> eyes_m =
+            layout_.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
+        const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view_of(pose, light), eyes_m);
+        for (std::size_t eye = 0; eye < layout_.count; ++eye) {
+            scene::plan_frame(kiosk_.prop, placed, views[eye], plans_[eye]);
+            if (!light.feathered) {
+                plans_[eye].feathers.clear();
+            }
         }
     }
     void draw(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         plan(placed, pose, light);
-        parts_.renderer.draw(plan_, {kiosk_.framebuffer, 0}, render::Redraw::Everything);
+        parts_.renderer.draw(plans_, {kiosk_.framebuffer, 0}, render::Redraw::Everything);
     }
 
     const Kiosk& kiosk_;
+    scene::StereoLayout layout_;
     Placed placed_;
     std::optional<scene::SeenLevel> seen_;
     Lights lights_;
     std::string name_;
     Parts parts_;
-    scene::FramePlan plan_;
+    std::vector<scene::FramePlan> plans_; ///< one for each eye
 };
 
 } // namespace
@@ -175,9 +206,10 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     const scene::SceneLevel whole = scene::whole_level(pack, level);
     scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
+    const scene::StereoLayout layout = layout_of(kiosk, options);
     TRY(render::Renderer renderer,
-        render::Renderer::create(kiosk.width(), kiosk.height(),
-                                 needs_of(kiosk, samples_of(options, pack), shader)));
+        render::Renderer::create(layout.display.width, layout.display.height,
+                                 needs_of(layout.pinhole, samples_of(options, pack), shader)));
     const image::Image8& texture = pack.textures[whole.mesh.texture];
     std::array<Result<scene::Drawable>, 2> drawables{
         renderer.store().upload(whole, texture),
@@ -191,7 +223,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, both, seen.levels[level], lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, seen.levels[level], lights, std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
@@ -201,16 +233,18 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
                                                     const PictureOptions& options, std::string name,
                                                     bool on_gpu) {
     TRY(const Lights lights, lights_of(kiosk, options, pack));
+    const scene::StereoLayout layout = layout_of(kiosk, options);
     scene::RenderNeeds needs;
     if (on_gpu) {
         scene::ShaderKey shader;
         shader.blocks = true;
-        needs = needs_of(kiosk, samples_of(options, pack), shader);
+        needs = needs_of(layout.pinhole, samples_of(options, pack), shader);
     } else {
         needs.draws = {scene::raster_shader(false)};
         needs.relief_draws = 1;
     }
-    TRY(render::Renderer renderer, render::Renderer::create(kiosk.width(), kiosk.height(), needs));
+    TRY(render::Renderer renderer,
+        render::Renderer::create(layout.display.width, layout.display.height, needs));
     TRY(render::HitPointRenderer hit_points, render::HitPointRenderer::create(renderer));
     auto white = std::make_shared<relief::BlockRelief>(*relief);
     std::fill(white->colours.begin(), white->colours.end(), glm::u8vec4(255));
@@ -224,7 +258,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(kiosk, both, std::move(seen), lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, std::move(seen), lights, std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 

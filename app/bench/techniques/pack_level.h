@@ -19,6 +19,8 @@ struct PictureOptions {
     bool lit = false;
     bool timed_lit = false; ///< lit only while it is timed
     bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, for comparison
+    /// Both eyes in the settings' layout, of a head that looks at the prop; the framebuffer has the layout's size.
+    bool both_eyes = false;
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,

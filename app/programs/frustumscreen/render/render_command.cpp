@@ -4,6 +4,7 @@
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
+#include "app/programs/frustumscreen/render/eye_choice.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
 #include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
@@ -31,7 +32,8 @@ struct Request {
     std::filesystem::path poses;
     std::filesystem::path out;
     std::string view = "projector";
-    int width = 0; ///< width of the written pictures; 0: the view's
+    std::string eye; ///< empty: as the settings show it
+    int width = 0;   ///< width of the written pictures; 0: the view's
     int height = 0;
     bool no_light = false;
     show::OfflineOptions options;
@@ -62,6 +64,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
                    "unless --width and --height are given")
         .one_of({"projector", "visitor"})
         .capture_default_str();
+    app.add_option("--eye", request.eye,
+                   "draw the picture of one eye alone, in full size, or of both in the settings' layout "
+                   "(default: both where eye.stereo is on, otherwise the point between the eyes)")
+        .one_of({"left", "right", "both"});
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -94,14 +100,20 @@ struct Studio {
     const Request& request;
     const settings::Settings& settings;
     show::OfflineRenderer& renderer;
+    EyeChoice eye;
+
+    [[nodiscard]] std::vector<glm::dvec3> eyes_m(const tracking::TrackedState& state) const {
+        return chosen_eyes(eye, state, 1e-3 * settings.eye.interocular_mm);
+    }
 };
 
-simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::TrackedState& tracked_state) {
+simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::TrackedState& tracked_state,
+                                       const glm::dvec3& eye_m) {
     return {.projector = studio.renderer.projector(),
             .table_from_projector = studio.settings.projector.table_from_projector,
             .prop = studio.renderer.prop(),
             .table_from_prop = tracked_state.table_from_prop,
-            .eye_m = tracked_state.eye_m,
+            .eye_m = eye_m,
             .table_size_m = {studio.settings.table.width_m, studio.settings.table.depth_m}};
 }
 
@@ -109,10 +121,11 @@ simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::Tra
 Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                                const tracking::TrackedState& tracked_state,
                                std::vector<simulation::VisitorFrame>& visitor_frames) {
-    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, tracked_state.eye_m);
+    const std::vector<glm::dvec3> eyes_m = studio.eyes_m(tracked_state);
+    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, eyes_m);
     const std::int64_t t_us = to_microseconds(tracked_state.time);
     if (studio.request.view == "visitor") {
-        const simulation::VisitorScene scene = visitor_scene(studio, tracked_state);
+        const simulation::VisitorScene scene = visitor_scene(studio, tracked_state, eyes_m.front());
         const Request& request = studio.request;
         const simulation::VisitorCamera camera = simulation::visitor_camera(
             scene.prop, scene.table_from_prop, scene.eye_m,
@@ -122,7 +135,7 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                                                   studio.request.no_light ? simulation::exact_check()
                                                                           : simulation::VisitorViewOptions{});
         visitor_frames.push_back(
-            {.frame = static_cast<int>(frame), .t_us = t_us, .eye_m = tracked_state.eye_m, .camera = camera});
+            {.frame = static_cast<int>(frame), .t_us = t_us, .eye_m = eyes_m.front(), .camera = camera});
     }
     const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
     TRY_VOID(write_file(stem.string() + ".png", image::encode_png(picture.colour)));
@@ -134,15 +147,27 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                        picture.error ? fmt::format("{:.4f}", picture.error->p95_mm) : std::string());
 }
 
+/// The options of the offline renderer, with every view that will be drawn.
+show::OfflineOptions options_for(const Request& request, EyeChoice eye, const settings::EyeSettings& settings,
+                                 const std::vector<tracking::TrackedState>& frames) {
+    show::OfflineOptions options = request.options;
+    options.both_eyes = eye == EyeChoice::Both;
+    for (const tracking::TrackedState& frame : frames) {
+        for (const glm::dvec3& eye_m : chosen_eyes(eye, frame, 1e-3 * settings.interocular_mm)) {
+            options.views.push_back({frame.table_from_prop, eye_m});
+        }
+    }
+    return options;
+}
+
 Result<void> render(const Request& request) {
     TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    TRY(const EyeChoice eye, choose_eye(request.eye, settings::stereo_of(*settings),
+                                        request.options.hit_points || request.view == "visitor"));
     TRY(const std::vector<tracking::TrackedState> frames,
         load_pose_frames(request.poses, settings->eye.default_m));
     say_off_the_table(frames, settings->table);
-    show::OfflineSetup setup{settings, request.options};
-    for (const tracking::TrackedState& frame : frames) {
-        setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
-    }
+    const show::OfflineSetup setup{settings, options_for(request, eye, settings->eye, frames)};
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
     if (const auto note = scene::note_other_prop(request.pack.string(), settings->prop,
@@ -156,7 +181,7 @@ Result<void> render(const Request& request) {
                          failed.message());
     }
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
-    const Studio studio{request, *settings, *renderer};
+    const Studio studio{.request = request, .settings = *settings, .renderer = *renderer, .eye = eye};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
     std::vector<simulation::VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");

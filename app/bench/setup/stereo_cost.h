@@ -1,0 +1,30 @@
+/// The cost of a frame with two eyes' pictures over that of a frame with one, in every layout: the default level and each
+/// relief of a pack, as the exhibit shows them.
+///
+/// Poses, cost, threads, errors   as frame_cost.h.
+#pragma once
+
+#include "app/bench/setup/frame_cost.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::bench {
+
+struct StereoCost {
+    std::string drawn; ///< "mesh", "relief192", ...
+    settings::Stereo stereo = settings::Stereo::Off;
+    double times_one_eye = 1.0;     ///< median frame time
+    double cpu_times_one_eye = 1.0; ///< processor time of all threads
+};
+
+/// Both eyes see one scene, so they should cost less than twice one eye.
+inline constexpr double wanted_times_one_eye = 1.8;
+
+[[nodiscard]] Result<std::vector<StereoCost>> stereo_costs(const settings::Settings& settings,
+                                                           const pack::Pack& pack, const Progress& progress);
+[[nodiscard]] std::string stereo_table(std::span<const StereoCost> costs);
+[[nodiscard]] std::string stereo_csv(std::span<const StereoCost> costs);
+
+} // namespace frustumscreen::bench
