@@ -81,6 +81,18 @@ def eventually(condition, timeout_s, otherwise):
         time.sleep(0.05)
 
 
+def about(x, y, z, degrees):
+    """The quaternion of a turn about an axis of length 1."""
+    half = math.radians(degrees) / 2
+    return (math.cos(half), *(math.sin(half) * each for each in (x, y, z)))
+
+
+def both_turns(second, first):
+    """The quaternion of two turns, one after the other."""
+    (a, b, c, d), (e, f, g, h) = second, first
+    return (a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e)
+
+
 def near(placed, pose, eye_m):
     """Is the status file's `presented` drawn for this pose, (x, y, z, qw, qx, qy, qz), and eye?"""
     turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(placed["prop_wxyz"], pose[3:])))))

@@ -12,7 +12,7 @@ import wave
 from dataclasses import dataclass
 
 import screen
-from bench import UPRIGHT, USUAL, WIDTH, Patience, eventually
+from bench import UPRIGHT, USUAL, WIDTH, Patience, about, both_turns, eventually
 from hil_test import HilTest, long
 
 # Everything that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
@@ -23,8 +23,8 @@ LEFT_OF_THE_LIGHT = (-0.36, 0.0, 0.0)  # the table ends at -0.4: a part of the a
 PUSHED = (*LEFT_OF_THE_LIGHT, *UPRIGHT)
 CENTRE = (0.0, 0.0, 0.0, *UPRIGHT)
 CUBE = '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
-LIT_CUBE = (0.0, 0.05, 0.10, *UPRIGHT)
-DARK_CUBE = (0.0, -0.12, 0.10, *UPRIGHT)
+LIT_CUBE = (0.0, 0.05, 0.10, *about(1, 0, 0, -30))  # tipped so that the one face that is seen looks up
+DARK_CUBE = (*LIT_CUBE[:3], *both_turns(about(0, 0, 1, 30), LIT_CUBE[3:]))  # its left side is seen, and stands upright
 REPLAYED_S, REPLAYED_HZ = 9.0, 60.0
 PUSHED_S = 1.0  # when the prop leaves the light in the replay
 STILLS = 3  # in the middle of each third: before there is a sign, then with it, at last with the words that are said

@@ -2,12 +2,11 @@
 eye sees; glasses that lie still get one eye's picture in both halves; the alignment pattern says which eye sees which half.
 """
 
-import math
 import pathlib
 import tempfile
 
 import screen
-from bench import HEIGHT, RELEASED_S, UPRIGHT, USUAL, WIDTH, eventually
+from bench import HEIGHT, RELEASED_S, UPRIGHT, USUAL, WIDTH, about, eventually
 from hil_test import HilTest
 
 FIRST, NEXT, LAST = 0, 1, 2
@@ -16,12 +15,6 @@ HALF = WIDTH // 2
 CUBE = USUAL + '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
 STEREO = CUBE.replace("[eye]", '[eye]\nstereo = "side_by_side"\ninterocular_mm = 63.0')
 ONE_EYE = CUBE.replace("[projector]", '[projector]\nstereo = "off"')
-
-
-def about(x, y, z, degrees):
-    """The quaternion of a turn about an axis of length 1."""
-    half = math.radians(degrees) / 2
-    return (math.cos(half), *(math.sin(half) * each for each in (x, y, z)))
 
 
 # (the prop's pose, the head's): the cube lifted and turned in all directions, the head turned to it
@@ -122,7 +115,7 @@ class Stereo(HilTest):
             eventually(self.has_letters, 20.0, "no L for the left eye and R for the right are on the pattern")
         finally:
             self.bench.machine.let_run(RELEASED_S)
-            self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "view|attract"))
+            self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
 
     def has_letters(self):
         """The halves differ in two letters alone: one that only the left half has, and to the right of it one of the right half."""
