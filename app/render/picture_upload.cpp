@@ -1,5 +1,7 @@
 #include "app/render/picture_upload.h"
 
+#include <GLES2/gl2ext.h>
+
 namespace frustumscreen::render {
 
 PictureUpload::PictureUpload(int width, int height)
@@ -23,6 +25,15 @@ void PictureUpload::show_again(unsigned framebuffer, const glm::ivec2& place) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glBlitFramebuffer(0, 0, width_, height_, place.x, place.y, place.x + width_, place.y + height_,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void PictureUpload::show_in(unsigned framebuffer, const PixelRectangle& part) {
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT); // otherwise codes are averaged in place of light
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source_.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, width_, height_, part.x, part.y, part.x + part.width, part.y + part.height,
+                      GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 } // namespace frustumscreen::render

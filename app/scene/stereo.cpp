@@ -56,6 +56,10 @@ std::array<PlanView, 2> views_of(const StereoLayout& layout, const PlanView& vie
     return views;
 }
 
+bool keeps_pixels(settings::Stereo stereo) {
+    return stereo == settings::Stereo::Off || stereo == settings::Stereo::Anaglyph;
+}
+
 StereoLayout stereo_layout(const settings::Settings& settings) {
     return stereo_layout(settings.projector.pinhole, settings::stereo_of(settings));
 }

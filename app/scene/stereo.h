@@ -34,6 +34,9 @@ struct StereoLayout {
 /// each eye; it must outlive the views. The first `layout.count` are valid.
 [[nodiscard]] std::array<PlanView, 2> views_of(const StereoLayout& layout, const PlanView& view,
                                                std::span<const glm::dvec3> eyes_m);
+/// True if a picture for both eyes is shown in the projector's own pixels, where it can be measured: without stereo, and
+/// as an anaglyph.
+[[nodiscard]] bool keeps_pixels(settings::Stereo stereo);
 /// The layout of the configured projector.
 [[nodiscard]] StereoLayout stereo_layout(const settings::Settings& settings);
 

@@ -2,6 +2,7 @@
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/geometry/picture_planes.h"
+#include "app/scene/stereo.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 
@@ -26,7 +27,8 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     }
     // The exhibit can be calibrated with the buttons, and is not calibrated yet.
     place.staff_stays = settings.calibration.by_buttons && !settings.calibration.used &&
-                        settings.tracker.kind != settings::TrackerKind::None;
+                        settings.tracker.kind != settings::TrackerKind::None &&
+                        scene::keeps_pixels(settings::stereo_of(settings));
     place.table_pictures = settings::chooses_on_table(settings);
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;

@@ -4,9 +4,9 @@
 
 namespace frustumscreen::show {
 
-PatternShow::PatternShow(typography::PatternScene scene, typography::Typesetter typesetter,
-                         render::PictureUpload upload)
-    : scene_(std::move(scene)), typesetter_(std::move(typesetter)), upload_(std::move(upload)),
+PatternShow::PatternShow(typography::PatternScene scene, typography::Typesetter typesetter, EyeParts eyes)
+    : scene_(std::move(scene)), typesetter_(std::move(typesetter)), eyes_(eyes),
+      upload_(scene_.projector.width, scene_.projector.height),
       table_(typography::table_pattern(scene_, typesetter_)) {}
 
 Result<std::unique_ptr<PatternShow>> PatternShow::create(const settings::Settings& settings) {
@@ -16,8 +16,11 @@ Result<std::unique_ptr<PatternShow>> PatternShow::create(const settings::Setting
                                    .table_from_projector = settings.projector.table_from_projector,
                                    .table_size_m = {settings.table.width_m, settings.table.depth_m},
                                    .prop = settings::make_prop(settings.prop)};
-    std::unique_ptr<PatternShow> show(new PatternShow(std::move(scene), std::move(typesetter),
-                                                      render::PictureUpload(pinhole.width, pinhole.height)));
+    std::unique_ptr<PatternShow> show(
+        new PatternShow(std::move(scene), std::move(typesetter), EyeParts(settings)));
+    if (settings::stereo_of(settings) != settings::Stereo::Off) {
+        show->letters_ = std::make_unique<EyeLetters>(show->eyes_, show->table_, show->typesetter_);
+    }
     if (settings.camera.kind != settings::CameraKind::None) {
         show->panel_ = std::make_unique<ViewfinderPanel>(pinhole);
     }
@@ -54,11 +57,23 @@ void PatternShow::set_lines(std::vector<std::string> lines) {
     }
 }
 
+/// Draws the picture for this pose and stores it for the display.
+void PatternShow::draw_picture(const geometry::RigidTransform& table_from_prop) {
+    image::Image8 picture =
+        with_edges_ ? typography::with_prop(table_, scene_, table_from_prop, typesetter_) : table_;
+    if (!lines_.empty()) {
+        picture = typography::with_lines(picture, lines_, typesetter_);
+    }
+    upload_.put(picture);
+    if (letters_) {
+        letters_->put(picture);
+    }
+}
+
 render::DrawResult PatternShow::draw(MonotonicTime, const tracking::TrackedState& tracked_state,
                                      const render::RenderTarget& target, render::Redraw redraw) {
     const glm::dmat4 pose = with_edges_ ? tracked_state.table_from_prop.matrix() : glm::dmat4(1.0);
-    const PixelRectangle whole{
-        .x = 0, .y = 0, .width = scene_.projector.width, .height = scene_.projector.height};
+    const PixelRectangle whole = eyes_.whole();
     const bool other_camera = follow_camera(target.buffer_age);
     const bool unchanged = target.buffer_age > 0 && shown_ == pose && !other_camera;
     if (redraw == render::Redraw::Changes && unchanged) {
@@ -70,15 +85,15 @@ render::DrawResult PatternShow::draw(MonotonicTime, const tracking::TrackedState
         return {.drawn = true, .redrawn = {}, .lit = whole, .draw_calls = 0};
     }
     if (shown_ != pose) {
-        const image::Image8 picture =
-            with_edges_ ? typography::with_prop(table_, scene_, tracked_state.table_from_prop, typesetter_)
-                        : table_;
-        upload_.put(lines_.empty() ? picture : typography::with_lines(picture, lines_, typesetter_));
+        draw_picture(tracked_state.table_from_prop);
         shown_ = pose;
     }
-    upload_.show_again(target.framebuffer);
+    eyes_.show(upload_, target.framebuffer);
+    if (letters_ && with_edges_) {
+        letters_->show(target.framebuffer);
+    }
     if (with_camera) {
-        panel_->show(target.framebuffer);
+        panel_->show(target.framebuffer, eyes_);
     }
     return {.drawn = true, .redrawn = whole, .lit = whole, .draw_calls = 1};
 }

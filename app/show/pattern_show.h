@@ -1,5 +1,5 @@
 /// The alignment pattern on the display, drawn on the CPU whenever the prop has moved; or another picture for the
-/// staff.
+/// staff. With stereo each eye sees it whole, and the pattern says which eye sees what (eye_letters.h).
 ///
 /// Threads  the render thread, with the display's context current.
 /// Errors   the typeface is missing.
@@ -7,6 +7,8 @@
 
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
+#include "app/show/eye_letters.h"
+#include "app/show/eye_parts.h"
 #include "app/show/show.h"
 #include "app/show/viewfinder_panel.h"
 #include "app/typography/pattern.h"
@@ -43,16 +45,18 @@ public:
     }
 
 private:
-    PatternShow(typography::PatternScene scene, typography::Typesetter typesetter,
-                render::PictureUpload upload);
+    PatternShow(typography::PatternScene scene, typography::Typesetter typesetter, EyeParts eyes);
+    void draw_picture(const geometry::RigidTransform& table_from_prop);
     [[nodiscard]] bool follow_camera(int buffer_age);
 
     exhibit::State state_ = exhibit::State::Staff;
     typography::PatternScene scene_;
     typography::Typesetter typesetter_;
+    EyeParts eyes_;
     render::PictureUpload upload_;
     image::Image8 table_; ///< below the prop's edges
     bool with_edges_ = true;
+    std::unique_ptr<EyeLetters> letters_; ///< on the pattern; none: without stereo
     std::vector<std::string> lines_;
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
     std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera

@@ -1,5 +1,6 @@
 #include "app/show/staff_facts.h"
 
+#include "app/scene/stereo.h"
 #include "app/settings/command.h"
 #include "app/show/viewfinder_panel.h"
 #include "app/status/exhibit_verdict.h"
@@ -89,6 +90,8 @@ StaffFacts staff_facts(const RunStatus& status, const settings::Settings& settin
         fmt::format("OpenGL: {}; before this picture: {}", driver, exhibit::name_of(before)));
     facts.card = status::status_card(judged, status, lines, now);
     facts.calibration = named(calibration_name, calibration);
+    facts.stereo = settings::stereo_of(settings) != settings::Stereo::Off;
+    facts.measures_pixels = scene::keeps_pixels(settings::stereo_of(settings));
     facts.drift = named("calibration", status.drift.view());
     facts.tracker = named("tracker", status.tracker.view().empty() ? "there is none" : status.tracker.view());
     facts.camera =

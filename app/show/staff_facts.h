@@ -25,6 +25,9 @@ struct StaffFacts {
     std::string card;               ///< for the QR code
     std::string calibration;        ///< the one in use
     std::string drift;
+    bool stereo = false; ///< each eye has a picture of its own
+    bool measures_pixels =
+        true; ///< the projector shows the picture in its own pixels, so the table can be measured
     std::string tracker, camera, panel, sound;
     tracking::TrackerSignal prop, head;
     double settings_gain_db = 0.0; ///< the settings' volume for this hour

@@ -83,6 +83,7 @@ private:
             break;
         case exhibit::StaffPage::Place:
             add("The bright edge must lie on the table's edge, and the numbered edges on the prop's.");
+            add_stereo();
             add(facts_.calibration);
             add(facts_.drift);
             break;
@@ -111,6 +112,17 @@ private:
             add("Press each button: it lights up and is counted, and does nothing else here.");
             add(facts_.panel);
             break;
+        }
+    }
+
+    void add_stereo() {
+        if (facts_.stereo) {
+            add("Put the glasses on: the left eye must see the L and no R, the right eye the R and no L.");
+        }
+        if (!facts_.measures_pixels) {
+            add("The table cannot be measured in stereo. Set projector.stereo = \"off\", and switch 3D off "
+                "in "
+                "the projector's own menu.");
         }
     }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/render/picture_upload.h"
+#include "app/show/eye_parts.h"
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
 #include "app/typography/text_image.h"
@@ -31,7 +32,7 @@ public:
     [[nodiscard]] bool follow(Viewfinder& viewfinder);
     /// Clears the camera's picture.
     void forget();
-    void show(unsigned framebuffer) { upload_.show_again(framebuffer, place_); }
+    void show(unsigned framebuffer, const EyeParts& eyes) { eyes.show(upload_, framebuffer, place_); }
 
 private:
     glm::ivec2 area_px_;

@@ -259,6 +259,25 @@ class Table(unittest.TestCase):
         self.assertEqual(failed.returncode, 1)
         self.assertIn("needs a tracker and two buttons", failed.stderr)
 
+    def test_in_stereo_it_is_refused_before_it_begins(self):
+        """The projector stretches a half of the picture, or alternates two; an anaglyph is shown pixel for pixel."""
+        self.write([1.0])
+        usual = self.config.read_text()
+        for command in ("table", "eye"):
+            for stereo in ("side_by_side", "top_bottom", "frame_sequential"):
+                self.config.write_text(f'[eye]\nstereo = "{stereo}"\n' + usual)
+                failed = self.run_program(command, "--config", self.config, "--headless")
+                self.assertEqual(failed.returncode, 1)
+                self.assertIn(f'"{stereo}"', failed.stderr)
+                self.assertIn("[calibrate.stereo]", failed.stderr)
+                self.assertEqual(len(failed.stderr.splitlines()), 1, "nothing has begun")
+        self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.0))
+        for plain in ('[eye]\nstereo = "side_by_side"\n' + usual.replace("[projector]", '[projector]\nstereo = "off"'),
+                      '[eye]\nstereo = "anaglyph"\n' + usual):
+            self.config.write_text(plain.replace("script = [", "script = [{ at_s = 0.5, button = 0 }, "))
+            left = self.run_program("table", "--config", self.config, "--headless")
+            self.assertIn("Staff: measure the whole table", left.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -81,6 +81,18 @@ def eventually(condition, timeout_s, otherwise):
         time.sleep(0.05)
 
 
+def about(x, y, z, degrees):
+    """The quaternion of a turn about an axis of length 1."""
+    half = math.radians(degrees) / 2
+    return (math.cos(half), *(math.sin(half) * each for each in (x, y, z)))
+
+
+def both_turns(second, first):
+    """The quaternion of two turns, one after the other."""
+    (a, b, c, d), (e, f, g, h) = second, first
+    return (a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e)
+
+
 def near(placed, pose, eye_m):
     """Is the status file's `presented` drawn for this pose, (x, y, z, qw, qx, qy, qz), and eye?"""
     turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(placed["prop_wxyz"], pose[3:])))))
@@ -215,18 +227,19 @@ class Bench:
             self._rendered[pose, artifact, eye_m] = picture
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
-    def render(self, poses, artifact, eye_m, config=CONFIG):
-        """The same with other settings, drawn each time."""
+    def render(self, poses, artifact, eye_m, config=CONFIG, head=UPRIGHT, options=()):
+        """The same with other settings, another turn of the head, and options of `render`, drawn each time."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
             for number, pose in enumerate(poses):
-                for station, placed in ((1, pose), (2, (*eye_m, *UPRIGHT))):
+                for station, placed in ((1, pose), (2, (*eye_m, *head))):
                     lines.append(",".join(str(value) for value in (1000 * number, station, *placed, 1)))
             (folder / "poses.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
             subprocess.run(
                 [self.program, "render", "--config", config, "--pack", self.packs / f"{artifact}.fspack",
-                 "--poses", folder / "poses.csv", "--out", folder / "out"], check=True, stdout=subprocess.DEVNULL)
+                 "--poses", folder / "poses.csv", "--out", folder / "out", *(str(option) for option in options)],
+                check=True, stdout=subprocess.DEVNULL)
             return [screen.read_png(folder / "out" / f"frame_{number:05}.png") for number in range(len(poses))]
 
     # The devices.

@@ -1,5 +1,5 @@
-"""A prop pushed out of the light: the advice comes as a sign and in words on the screen, and as speech out of the sound card, in
-the language of the visitor.
+"""A prop pushed out of the light, or a cube in the hand turned so that a face gets none: the advice comes as a sign and in words on
+the screen, and as speech out of the sound card, in the language of the visitor.
 
 What should be seen and heard comes from the same program without a screen on this machine, which writes files; what is seen is
 the screen, what is heard is QEMU's sound card. Sounds are compared sample by sample.
@@ -12,7 +12,7 @@ import wave
 from dataclasses import dataclass
 
 import screen
-from bench import UPRIGHT, USUAL, WIDTH, Patience, eventually
+from bench import UPRIGHT, USUAL, WIDTH, Patience, about, both_turns, eventually
 from hil_test import HilTest, long
 
 # Everything that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
@@ -20,6 +20,11 @@ WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pic
          .replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
          .replace('lines = ["0", "1", "2"]', 'lines = ["0", "1", "2", "3", "4"]') + '\n[sound]\ndevice = "plughw:0,0"\n')
 LEFT_OF_THE_LIGHT = (-0.36, 0.0, 0.0)  # the table ends at -0.4: a part of the artifact is in the dark, for the eye in front too
+PUSHED = (*LEFT_OF_THE_LIGHT, *UPRIGHT)
+CENTRE = (0.0, 0.0, 0.0, *UPRIGHT)
+CUBE = '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
+LIT_CUBE = (0.0, 0.05, 0.10, *about(1, 0, 0, -30))  # tipped so that the one face that is seen looks up
+DARK_CUBE = (*LIT_CUBE[:3], *both_turns(about(0, 0, 1, 30), LIT_CUBE[3:]))  # its left side is seen, and stands upright
 REPLAYED_S, REPLAYED_HZ = 9.0, 60.0
 PUSHED_S = 1.0  # when the prop leaves the light in the replay
 STILLS = 3  # in the middle of each third: before there is a sign, then with it, at last with the words that are said
@@ -56,22 +61,22 @@ def spoken(samples):
     return samples[loud[0]:loud[-1] + 1] if loud else samples[:0]
 
 
-def replay():
-    """Poses of a prop at the table's centre that is pushed out of the light."""
+def replay(lit, dark):
+    """A prop at one pose, then at the other."""
     rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
     for k in range(round(REPLAYED_S * REPLAYED_HZ)):
-        x = LEFT_OF_THE_LIGHT[0] if k >= PUSHED_S * REPLAYED_HZ else 0.0
-        rows.append(f"{round(1e6 * k / REPLAYED_HZ)},1,{x},0,0,1,0,0,0,1")
+        pose = dark if k >= PUSHED_S * REPLAYED_HZ else lit
+        rows.append(f"{round(1e6 * k / REPLAYED_HZ)},1," + ",".join(str(value) for value in pose) + ",1")
     return "\n".join(rows) + "\n"
 
 
-def told_here(bench, language):
-    settings = (WHOLE.replace('kind = "usb"', 'kind = "replay"\nposes = "poses.csv"')
+def told_here(bench, language, settings, lit, dark):
+    settings = (settings.replace('kind = "usb"', 'kind = "replay"\nposes = "poses.csv"')
                 .replace('kind = "gpio"', 'kind = "scripted"').replace("[exhibit]", f'[exhibit]\nlanguage = "{language}"')
                 .replace("/var/lib/frustumscreen/packs", str(bench.packs)).replace("/var/lib/frustumscreen", str(bench.packs)))
     settings = "\n".join(line for line in settings.splitlines() if not line.startswith(("chip", "lines")))
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("poses.csv", replay()), ("kiosk.toml", settings)):
+        for name, text in (("poses.csv", replay(lit, dark)), ("kiosk.toml", settings)):
             with open(f"{folder}/{name}", "w", encoding="utf-8") as file:
                 file.write(text)
         subprocess.run([bench.program, "run", "--config", f"{folder}/kiosk.toml", "--headless", "--fast", "--seconds",
@@ -81,13 +86,15 @@ def told_here(bench, language):
             return Told(before, after, spoken(array.array("h", file.readframes(file.getnframes()))))
 
 
-class Guidance(HilTest):
-    settings = WHOLE
+class Advised(HilTest):
+    """What is seen and heard of the advice, for a prop that goes from a place in the light to one in the dark."""
+
+    lit, dark = CENTRE, PUSHED
 
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.told = {language: told_here(cls.bench, language) for language in LANGUAGES}
+        cls.told = {language: told_here(cls.bench, language, cls.settings, cls.lit, cls.dark) for language in LANGUAGES}
         first, second = (cls.told[language].after for language in LANGUAGES)
         cls.words = {"en": without(first, second), "de": without(second, first)}  # pixels that one language alone has
         others = [artifact | a | b for artifact, a, b in zip(cls.told["en"].before, *cls.words.values())]
@@ -102,7 +109,11 @@ class Guidance(HilTest):
             self.assertGreater(screen.count(self.words[language]), 200, "no words are shown on this machine: this proves nothing")
         self.show("amphora")
         self.bench.status_says("sound", SOUNDS)
-        self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
+        self.put(self.lit)
+        self.bench.picture_of(self.lit)
+
+    def put(self, pose):
+        self.bench.place(pose[:3], pose[3:])
 
     # The screen.
 
@@ -164,6 +175,19 @@ class Guidance(HilTest):
             self.bench.status_says("language", language)
             self.bench.buttons.tell("release", LANGUAGE)
 
+    def goes_when_it_is_lit(self):
+        """The prop is put back into the light: sign and voice end."""
+        self.put(self.lit)
+        self.bench.picture_of(self.lit)
+        eventually(lambda: not self.sign_is_there(), TALKS_S, "the sign stays although everything is lit")
+        quiet = len(self.heard())
+        self.bench.machine.let_run(CALM_S)
+        self.assertFalse(self.is_loud(quiet + 24000), "it goes on talking")
+
+
+class Guidance(Advised):
+    settings = WHOLE
+
     def test_advice_in_the_language_of_the_button(self):
         """The same while the tracker drops, doubles and reorders its samples."""
         self.take_language("en")
@@ -177,12 +201,7 @@ class Guidance(HilTest):
         since = len(self.heard())
         self.sees_words("de")
         self.hears("de", since)
-        self.bench.place((0.0, 0.0, 0.0))
-        self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
-        eventually(lambda: not self.sign_is_there(), TALKS_S, "the sign stays although everything is lit")
-        quiet = len(self.heard())
-        self.bench.machine.let_run(CALM_S)
-        self.assertFalse(self.is_loud(quiet + 24000), "it goes on talking")
+        self.goes_when_it_is_lit()
 
     @long
     def test_card_unplugged(self):
@@ -230,3 +249,19 @@ class Guidance(HilTest):
         """True if the screen shows the artifact at the place to which the prop was pushed."""
         there = screen.lit(self.bench.rendered([(*LEFT_OF_THE_LIGHT, *UPRIGHT)], "amphora")[0])
         return lambda: screen.share_outside(there, screen.grown(screen.lit(self.bench.screendump()), 4, WIDTH)) < 0.05
+
+
+class CubeInTheHand(Advised):
+    """Figure 12 of Kim et al. 2008: the visitor turns the cube, a face that they see gets no light, and they turn it back."""
+
+    settings = WHOLE + CUBE
+    lit, dark = LIT_CUBE, DARK_CUBE
+
+    def test_a_face_turned_out_of_the_light(self):
+        self.take_language("en")
+        since = len(self.heard())
+        self.put(self.dark)
+        eventually(self.sign_is_there, TALKS_S, "no sign appears on the screen")
+        self.sees_words("en")
+        self.hears("en", since)
+        self.goes_when_it_is_lit()

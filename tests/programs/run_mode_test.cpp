@@ -55,6 +55,21 @@ TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
     EXPECT_EQ(said.at("set"), nullptr);
 }
 
+/// The safe picture's program reads no settings; the exhibit leaves it the layout. Settings that stand in for the kiosk's
+/// own say nothing of its projector.
+TEST_F(RunMode, TheStereoLayoutIsKeptForTheSafePicture) {
+    const std::string usual = text("kiosk.toml");
+    ASSERT_EQ(run(), 0) << text("err.txt");
+    EXPECT_EQ(text("cache/stereo.txt"), "off\n");
+    put("kiosk.toml", usual + "\n[eye]\nstereo = \"top_bottom\"\n");
+    ASSERT_EQ(run(), 0) << text("err.txt");
+    EXPECT_EQ(text("cache/stereo.txt"), "top_bottom\n");
+    put("kiosk.toml", usual);
+    put("mode", "built_in\n");
+    ASSERT_EQ(run(), 0) << text("err.txt");
+    EXPECT_EQ(text("cache/stereo.txt"), "top_bottom\n");
+}
+
 TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
     put("mode", "plain\n");
     const nlohmann::json said = status();

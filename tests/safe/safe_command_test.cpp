@@ -103,6 +103,42 @@ TEST_F(SafeCommand, ShowsTheReasonAndGoesOnWithoutOne) {
     EXPECT_EQ(with(folder / "fifo"), without) << "nobody writes into it";
 }
 
+/// Each half of a stereo picture has all words, shrunk: each pixel is between the two that fall on it.
+TEST_F(SafeCommand, ShowsAllWordsToEachEyeOfAStereoProjector) {
+    const auto with = [&](const std::string& layout) {
+        return picture({"--size", "640x400", "--stereo", write("stereo.txt", layout)});
+    };
+    const image::Image8 whole = picture({"--size", "640x400"});
+    for (const char* layout :
+         {"off\n", "anaglyph\n", "frame_sequential\n", "", "sideways", "side_by_sides\n"}) {
+        EXPECT_EQ(with(layout).texels, whole.texels) << layout;
+    }
+    EXPECT_EQ(picture({"--size", "640x400", "--stereo", folder / "missing"}).texels, whole.texels);
+    const image::Image8 beside = with("side_by_side\n"), below = with("top_bottom");
+    int lit = 0;
+    for (int y = 0; y < 400; ++y) {
+        for (int x = 0; x < 320; ++x) {
+            const auto [low, high] = std::minmax(whole.at(2 * x, y).r, whole.at(2 * x + 1, y).r);
+            const int seen = beside.at(x, y).r;
+            ASSERT_TRUE(seen >= low && seen <= high) << x << ' ' << y;
+            ASSERT_EQ(beside.at(x + 320, y), beside.at(x, y));
+            lit += seen > 100 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lit, 500);
+    lit = 0;
+    for (int y = 0; y < 200; ++y) {
+        for (int x = 0; x < 640; ++x) {
+            const auto [low, high] = std::minmax(whole.at(x, 2 * y).r, whole.at(x, 2 * y + 1).r);
+            const int seen = below.at(x, y).r;
+            ASSERT_TRUE(seen >= low && seen <= high) << x << ' ' << y;
+            ASSERT_EQ(below.at(x, y + 200), below.at(x, y));
+            lit += seen > 100 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lit, 500);
+}
+
 TEST_F(SafeCommand, SaysWhatIsWrongWithHowItIsCalled) {
     for (const std::string size : {"1280", "1280x", "1280x800x2", "0x0", "100000x100", "axb", "-5x800"}) {
         const ProgramEnd end = run({"--png", folder / "out.png", "--size", size});

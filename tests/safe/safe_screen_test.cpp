@@ -72,7 +72,7 @@ TEST_F(SafeScreenTest, ACardThatThisUserMayNotOpenIsSaid) {
 
 TEST_F(SafeScreenTest, MemoryThatTheCardDoesNotGiveIsSaidWithItsSize) {
     const int file = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    const programs::SafePicture picture{safe_languages(), {}, 0};
+    const programs::SafePicture picture{.languages = safe_languages(), .text = {}};
     const auto scanout = programs::SafeScanout::make(file, {1280, 800}, picture);
     ::close(file);
     ASSERT_FALSE(scanout);

@@ -101,6 +101,29 @@ TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
     EXPECT_EQ(near.prop.base_m, 0.16);
 }
 
+/// Each example is read as a kiosk reads it.
+TEST(Settings, EveryExampleIsRead) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config")) {
+        if (entry.path().extension() == ".toml") {
+            const auto loaded = load_settings(entry.path());
+            EXPECT_TRUE(loaded) << loaded.error().message;
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 6U);
+}
+
+TEST(Settings, TheStereoExampleShowsTwoHalvesOfACubeInTheHand) {
+    const CheckedSettings settings = load_settings(source_dir() + "/config/cube_stereo.toml").value();
+    EXPECT_EQ(stereo_of(*settings), Stereo::SideBySide);
+    EXPECT_EQ(settings->prop.zone, PropZone::Hand);
+    EXPECT_EQ(settings->tracker.kind, TrackerKind::Usb) << "its head's sensor says where each eye is";
+    // The picture exactly covers the table.
+    EXPECT_LT(glm::distance(pixel_of(*settings, {-0.4, 0.225, 0}), glm::dvec2(0, 0)), 1e-9);
+    EXPECT_LT(glm::distance(pixel_of(*settings, {0.4, -0.225, 0}), glm::dvec2(1920, 1080)), 1e-9);
+}
+
 TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
     EXPECT_EQ(parsed("[table]\nwidth_m = 1\n").table.width_m, 1.0);
 }

@@ -2,6 +2,7 @@
 
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/scene/stereo.h"
 #include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
@@ -78,6 +79,18 @@ Result<void> check_square_foot(const settings::PropSettings& prop) {
         ErrorKind::BadConfiguration, "calibrate.solid_prop",
         "prop.kind is \"solid\"; a table is measured with a prop that stands on a square: measure it with a "
         "frustum or a cube in the settings, or with frustumscreen-calibrate corners");
+}
+
+Result<void> check_own_pixels(const settings::Settings& settings, const std::filesystem::path& config) {
+    const settings::Stereo stereo = settings::stereo_of(settings);
+    if (scene::keeps_pixels(stereo)) {
+        return {};
+    }
+    return fail(
+        ErrorKind::BadConfiguration, "calibrate.stereo",
+        "{}: the picture is in stereo, \"{}\", and the table is measured in the projector's own pixels; set "
+        "projector.stereo = \"off\", and switch 3D off in the projector's own menu",
+        config.string(), settings::name_of(stereo));
 }
 
 Result<Described> describe(const CalibrateRequest& request) {

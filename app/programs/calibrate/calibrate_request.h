@@ -60,6 +60,9 @@ void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 /// Refuses a solid, whose foot is no square.
 [[nodiscard]] Result<void> check_square_foot(const settings::PropSettings& prop);
+/// Refuses stereo, in which the projector stretches each eye's picture, or shows the two in turn.
+[[nodiscard]] Result<void> check_own_pixels(const settings::Settings& settings,
+                                            const std::filesystem::path& config);
 [[nodiscard]] Described described_by(const settings::Settings& settings);
 /// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the
 /// prop's height, if known.

@@ -46,6 +46,7 @@ std::optional<TableVoice> voice_of(const settings::Settings& settings,
 
 Result<std::unique_ptr<TableDevices>>
 TableDevices::open(const CalibrateRequest& request, settings::Settings settings, std::string_view instead) {
+    TRY_VOID(check_own_pixels(settings, request.config));
     settings.tracker.registration = {}; // reports in the device's own frame
     settings.camera = {};
     const scene::DevicePlan plan = scene::plan_devices(settings, false, false);

@@ -1,6 +1,6 @@
 /// The devices of a table during a calibration: projector, tracker, two buttons and a voice.
 ///
-/// Errors   `open`: the settings have no tracker or no buttons, or a device or a typeface is missing.
+/// Errors   `open`: the settings have stereo, no tracker or no buttons, or a device or a typeface is missing.
 ///          `present`: the display stops. The state messages of tracker and buttons go to standard error, as
 ///          do the words on the table.
 /// Threads  the main one, with the display's context current.

@@ -10,6 +10,7 @@
 #include "app/programs/frustumscreen/staff_service.h"
 #include "app/programs/frustumscreen/wait_for_display.h"
 #include "app/scene/device_plan.h"
+#include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "app/show/run_loop.h"
 #include "app/show/run_report.h"
@@ -160,11 +161,13 @@ Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& se
     return exhibit;
 }
 
-/// True if calibration by buttons is possible: it needs a tracker that reports poses, and buttons.
+/// True if calibration by buttons is possible: it needs a tracker that reports poses, buttons, and a picture in the
+/// projector's own pixels.
 bool may_calibrate(const RunRequest& request, const settings::Settings& settings,
                    const scene::DevicePlan& devices) {
     return !request.calibrate_file.empty() && settings.calibration.by_buttons &&
-           devices.tracker != settings::TrackerKind::None && devices.panel;
+           devices.tracker != settings::TrackerKind::None && devices.panel &&
+           scene::keeps_pixels(settings::stereo_of(settings));
 }
 
 /// `what`: the table's calibration. `device`: for the journal.
@@ -294,6 +297,7 @@ Result<int> run(RunRequest& request) {
     const settings::Settings& settings = *mode.used.settings;
     static_cast<void>(use_time_zone(settings.hours.time_zone)); // before a second thread starts
     prepare_driver(request.places, mode.mode, journal);
+    keep_stereo(request.places, mode);
     TRY(OpenExhibit exhibit, open(request, settings, stop_signals, manager, journal));
     return loop_and_finish(request, mode, exhibit, stop_signals, manager, journal);
 }

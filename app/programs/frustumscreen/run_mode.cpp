@@ -94,6 +94,21 @@ void prepare_driver(const RunPlaces& places, watch::Mode mode, const service::Jo
     }
 }
 
+void keep_stereo(const RunPlaces& places, const RunMode& mode) {
+    if (places.cache.empty() || mode.mode == watch::Mode::BuiltIn) {
+        return;
+    }
+    const std::filesystem::path file = places.cache / "stereo.txt";
+    const std::string layout =
+        fmt::format("{}\n", settings::name_of(settings::stereo_of(*mode.used.settings)));
+    if (const Result<Bytes> kept = read_file(file, max_bytes); kept && as_text(*kept) == layout) {
+        return;
+    }
+    if (const Result<void> written = write_file(file, as_bytes(layout)); !written) {
+        say_line("frustumscreen", "the safe picture is not told of stereo: " + written.error().message);
+    }
+}
+
 std::function<void(const show::RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode) {
     if (places.cache.empty() || mode.mode == watch::Mode::BuiltIn) {
         return {};

@@ -20,7 +20,7 @@ struct RunPlaces {
     std::filesystem::path mode_file;                            ///< empty: the mode is normal
     std::filesystem::path shipped = "/usr/share/frustumscreen"; ///< built_in.fspack, kiosk.toml
     std::filesystem::path
-        cache; ///< settings_last_good.toml, volume.txt, compiled shaders; empty: none are kept
+        cache; ///< settings_last_good.toml, volume.txt, stereo.txt, compiled shaders; empty: none are kept
     /// File with the volume that the staff chose (kept_volume.h).
     [[nodiscard]] std::filesystem::path volume_file() const {
         return cache.empty() ? std::filesystem::path() : cache / "volume.txt";
@@ -38,6 +38,9 @@ struct RunMode {
 /// Tells the graphics driver how to draw and where to keep compiled shaders. Call before the first display. Modes plain
 /// and built_in keep none; a folder that cannot keep shaders is reported in one line.
 void prepare_driver(const RunPlaces& places, watch::Mode mode, const service::Journal& journal);
+/// Keeps the projector's stereo layout for the safe picture, whose program reads no settings. Not in mode built_in, whose
+/// settings may be those as shipped.
+void keep_stereo(const RunPlaces& places, const RunMode& mode);
 /// Keeps the staff's volume, and a copy of settings that showed an artifact well. Keeps neither in mode built_in, which
 /// says little about the settings.
 [[nodiscard]] std::function<void(const show::RunStatus&)> keeper_of(const RunPlaces& places,

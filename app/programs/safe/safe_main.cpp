@@ -4,7 +4,7 @@
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/safe/show_safe_picture.h"
-#include "app/safe/draw_safe_page.h"
+#include "app/safe/eye_halves.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/version.h"
 
@@ -43,7 +43,7 @@ Result<void> write_picture(const std::string& file, const Size& size, const Safe
     const safe::SafePage page = safe::lay_out_safe_page(size.width, size.height, text, arguments.languages);
     std::vector<std::uint8_t> greys(static_cast<std::size_t>(size.width) *
                                     static_cast<std::size_t>(size.height));
-    safe::draw_safe_rows(page, 0, greys);
+    safe::draw_rows_for_eyes(page, read_halves(arguments.stereo), 0, greys);
     image::Image8 picture(size.width, size.height);
     std::transform(greys.begin(), greys.end(), picture.texels.begin(),
                    [](std::uint8_t grey) { return glm::u8vec4(grey, grey, grey, 255); });
@@ -67,6 +67,9 @@ int run(int argc, char** argv) {
                    "file whose first line is shown to the staff; read once a second");
     app.add_option("--alive", arguments.alive,
                    "file to rewrite after each shown picture: their number, and CLOCK_MONOTONIC in ns");
+    app.add_option("--stereo", arguments.stereo,
+                   "file with the projector's stereo layout, as in the settings; read at the start. In "
+                   "\"side_by_side\" and \"top_bottom\" each half of the picture has all words");
     app.add_option("--language", languages,
                    "languages for visitors, the first also for the staff (default: all)")
         .one_of({arguments.languages.begin(), arguments.languages.end()});

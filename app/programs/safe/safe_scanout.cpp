@@ -1,6 +1,5 @@
 #include "app/programs/safe/safe_scanout.h"
 
-#include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/probe_code.h"
 
 #include <fmt/format.h>
@@ -69,7 +68,7 @@ bool SafeScanout::draw(display::DumbBuffer& buffer) const {
     for (int y = 0; y < size_.height; y += rows_at_once) {
         const auto rows = static_cast<std::size_t>(std::min(rows_at_once, size_.height - y));
         greys.resize(rows * width);
-        safe::draw_safe_rows(page, y, greys);
+        safe::draw_rows_for_eyes(page, picture_.halves, y, greys);
         if (!buffer.map()) {
             return false;
         }

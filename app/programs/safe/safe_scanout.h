@@ -4,6 +4,7 @@
 /// Errors   the card has no memory for the size.
 #pragma once
 
+#include "app/safe/eye_halves.h"
 #include "app/safe/safe_page.h"
 #include "firmware_host/display/dumb_buffer.h"
 #include "firmware_host/display/kms_device.h"
@@ -21,6 +22,7 @@ struct SafePicture {
     std::vector<std::string_view> languages;
     safe::SafeText text;
     std::uint8_t code = 0; ///< base/probe_code.h
+    safe::EyeHalves halves = safe::EyeHalves::None;
 };
 
 class SafeScanout final : public display::ScanoutPair {

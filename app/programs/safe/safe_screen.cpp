@@ -10,22 +10,25 @@ namespace {
 constexpr int pictures_between_asking = 10;
 } // namespace
 
-Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
-                                                     std::vector<std::string_view> languages) {
+Result<std::unique_ptr<SafeScreen>>
+SafeScreen::open(const std::string& name, std::vector<std::string_view> languages, safe::EyeHalves halves) {
     TRY(display::KmsCard card, display::KmsCard::open(name, {}));
     if (!display::take_screen(card.file())) {
         return fail(ErrorKind::DeviceLost, "safe.screen_held",
                     "another program holds the screen of {}; end it, or wait until it has ended",
                     card.path());
     }
-    return std::unique_ptr<SafeScreen>(new SafeScreen(std::move(card), name.empty(), std::move(languages)));
+    return std::unique_ptr<SafeScreen>(
+        new SafeScreen(std::move(card), name.empty(), std::move(languages), halves));
 }
 
-SafeScreen::SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages)
+SafeScreen::SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages,
+                       safe::EyeHalves halves)
     : card_(std::move(card)),
       other_cards_(any_card ? std::optional<display::OtherCards>(display::OtherCards(card_.path(), {}))
                             : std::nullopt),
-      picture_{std::move(languages), {}, 0}, kms_(display::make_kms_device(card_)),
+      picture_{.languages = std::move(languages), .text = {}, .code = 0, .halves = halves},
+      kms_(display::make_kms_device(card_)),
       presenter_(*kms_, [this](PixelSize size) { return SafeScanout::make(card_.file(), size, picture_); },
                  {}) {}
 

@@ -20,8 +20,9 @@ namespace frustumscreen::programs {
 class SafeScreen {
 public:
     /// `card`: as KmsCard::open. `languages`: as lay_out_safe_page.
-    [[nodiscard]] static Result<std::unique_ptr<SafeScreen>> open(const std::string& card,
-                                                                  std::vector<std::string_view> languages);
+    [[nodiscard]] static Result<std::unique_ptr<SafeScreen>>
+    open(const std::string& card, std::vector<std::string_view> languages,
+         safe::EyeHalves halves = safe::EyeHalves::None);
 
     /// Checks the connectors and shows the picture with the next code. Returns true if it is on the screen.
     [[nodiscard]] Result<bool> show(const safe::SafeText& text);
@@ -30,7 +31,8 @@ public:
     [[nodiscard]] std::string_view state() const { return presenter_.state(); }
 
 private:
-    SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages);
+    SafeScreen(display::KmsCard card, bool any_card, std::vector<std::string_view> languages,
+               safe::EyeHalves halves);
 
     display::KmsCard card_;
     std::optional<display::OtherCards> other_cards_; ///< none: the card was named

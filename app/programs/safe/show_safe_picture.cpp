@@ -60,6 +60,11 @@ std::string read_reason(const std::filesystem::path& file) {
     return {bytes.data(), count > 0 ? static_cast<std::size_t>(count) : 0};
 }
 
+safe::EyeHalves read_halves(const std::filesystem::path& stereo) {
+    const std::string text = stereo.empty() ? std::string() : read_reason(stereo);
+    return safe::halves_of(std::string_view(text).substr(0, text.find_first_of(" \r\n")));
+}
+
 Result<void> show_safe_picture(const SafeArguments& arguments) {
     Narrator narrator;
     std::unique_ptr<SafeScreen> screen;
@@ -68,7 +73,7 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
         std::this_thread::sleep_until(next);
         if (screen == nullptr) {
             Result<std::unique_ptr<SafeScreen>> opened =
-                SafeScreen::open(arguments.card, arguments.languages);
+                SafeScreen::open(arguments.card, arguments.languages, read_halves(arguments.stereo));
             if (!opened) {
                 narrator.tell(opened.error().message); // a card may appear, and another program may end
             } else {

@@ -8,6 +8,7 @@
 /// Errors   as SafeScreen once it is open; before that it waits for the card.
 #pragma once
 
+#include "app/safe/eye_halves.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -21,11 +22,15 @@ struct SafeArguments {
     std::string card;             ///< as KmsCard::open
     std::filesystem::path reason; ///< empty: no reason is read
     std::filesystem::path alive;  ///< empty: none is written
+    std::filesystem::path stereo; ///< file with the projector's stereo layout; empty: none
     std::vector<std::string_view> languages;
 };
 
 /// Returns only after an error.
 [[nodiscard]] Result<void> show_safe_picture(const SafeArguments& arguments);
+
+/// Read once. A file that is missing or says something else: none.
+[[nodiscard]] safe::EyeHalves read_halves(const std::filesystem::path& stereo);
 
 /// The beginning of the file; empty if it is unreadable.
 [[nodiscard]] std::string read_reason(const std::filesystem::path& file);
