@@ -148,7 +148,7 @@ protected:
         aside.table_from_prop.translation = {-0.6, 0.0, 0.0}; // its edges are far from the letters
     }
     void use(Stereo stereo, PixelSize size) {
-        settings.projector.stereo = stereo;
+        settings.eye.stereo = stereo;
         display.reset();
         display = display::SurfacelessDisplay::create(size.width, size.height).value();
     }
@@ -359,12 +359,12 @@ TEST_F(Eyes, TheStaffAreToldHowTheyAreCheckedAndThatStereoMeasuresNothing) {
     const auto facts = [&] { return staff_facts({}, settings, "a driver", exhibit::State::View, 0); };
     for (const Stereo on_eye : {Stereo::Off, Stereo::SideBySide}) {
         settings.eye.stereo = on_eye;
-        settings.projector.stereo = Stereo::Off;
+        settings.projector.stereo = settings::ProjectorStereo::Off;
         EXPECT_FALSE(facts().stereo);
         EXPECT_TRUE(facts().measures_pixels);
         EXPECT_TRUE(exhibit_place(settings).staff_stays);
     }
-    settings.projector.stereo.reset();
+    settings.projector.stereo = settings::ProjectorStereo::AsEye;
     for (const StereoCase& at : cases) {
         settings.eye.stereo = at.stereo;
         EXPECT_TRUE(facts().stereo);

@@ -17,7 +17,8 @@ std::vector<settings::Settings> with_each_layout(const settings::Settings& setti
          {settings::Stereo::Off, settings::Stereo::SideBySide, settings::Stereo::TopBottom,
           settings::Stereo::FrameSequential, settings::Stereo::Anaglyph}) {
         all.push_back(settings);
-        all.back().projector.stereo = stereo;
+        all.back().eye.stereo = stereo;
+        all.back().projector.stereo = settings::ProjectorStereo::AsEye;
     }
     return all;
 }
@@ -47,7 +48,7 @@ Result<std::vector<StereoCost>> stereo_costs(const settings::Settings& settings,
         TRY(const std::vector<SetUpCost> measured, frame_costs(pointers, pack, shown, relief));
         for (std::size_t k = 1; k < measured.size(); ++k) {
             costs.push_back({.drawn = drawn,
-                             .stereo = *set_ups[k].projector.stereo,
+                             .stereo = set_ups[k].eye.stereo,
                              .times_one_eye = measured[k].times_first,
                              .cpu_times_one_eye = measured[k].cpu_times_first});
         }
