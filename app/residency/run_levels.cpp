@@ -351,7 +351,9 @@ render::DrawResult RunLevels::draw(MonotonicTime now, const geometry::PropShape&
 }
 
 void RunLevels::record_time(MonotonicTime now, double ms) {
-    if (coming_ || plan_.faces.empty()) {
+    const bool shows = std::any_of(plans_.begin(), plans_.end(),
+                                   [](const scene::FramePlan& plan) { return !plan.faces.empty(); });
+    if (coming_ || !shows) {
         return; // two levels, or none, were drawn: the time does not tell about one level
     }
     governor_.observe(now, work(governor_.quality_level()), ms);
