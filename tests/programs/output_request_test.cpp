@@ -45,17 +45,5 @@ TEST(OutputRequestOfSettings, AProjectorsOwnLayoutGoesBeforeThatOfTheEyes) {
     EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::One);
 }
 
-TEST(OutputRequestOfSettings, AMeasurementHasOnePictureInTheExhibitsMode) {
-    const settings::Settings settings = settings_with(settings::Stereo::FrameSequential);
-    const display::OutputRequest exhibit = output_request(settings);
-    const display::OutputRequest plain = output_request(settings, Views::One);
-    EXPECT_EQ(plain.eyes, display::EyeLayout::One);
-    EXPECT_EQ(plain.fast, exhibit.fast);
-    EXPECT_EQ(plain.picture_hz, exhibit.picture_hz);
-    const auto headless = make_display(settings, true, Views::One);
-    ASSERT_TRUE(headless) << headless.error().message;
-    EXPECT_EQ((PixelSize{(*headless)->width(), (*headless)->height()}), (PixelSize{640, 400}));
-}
-
 } // namespace
 } // namespace frustumscreen::programs

@@ -56,7 +56,7 @@ TableDevices::open(const CalibrateRequest& request, settings::Settings settings,
                     "tracker.kind and panel.kind{}",
                     request.config.string(), instead);
     }
-    TRY(std::unique_ptr<display::Display> display, make_display(settings, request.headless, Views::One));
+    TRY(std::unique_ptr<display::Display> display, make_display(settings, request.headless));
     TRY(typography::Typesetter typesetter, typography::Typesetter::open());
     TRY(show::Inputs inputs, make_inputs(settings, plan, std::nullopt, monotonic_now()));
     return std::make_unique<TableDevices>(settings, request.headless, std::move(inputs), std::move(display),

@@ -208,7 +208,7 @@ void add_camera(show::Inputs& inputs, const settings::Settings& settings, const 
 
 } // namespace
 
-display::OutputRequest output_request(const settings::Settings& settings, Views views) {
+display::OutputRequest output_request(const settings::Settings& settings) {
     const settings::DisplaySettings& display = settings.display;
     const settings::Stereo stereo = settings::stereo_of(settings);
     const bool in_turn = stereo == settings::Stereo::FrameSequential;
@@ -221,19 +221,16 @@ display::OutputRequest output_request(const settings::Settings& settings, Views 
     request.picture_width = settings.projector.pinhole.width;
     request.picture_height = settings.projector.pinhole.height;
     request.picture_hz = (in_turn ? 2.0 : 1.0) * settings.projector.refresh_hz; // each eye's pictures
-    request.eyes = views == Views::One ? display::EyeLayout::One : eye_layout(stereo);
+    request.eyes = eye_layout(stereo);
     request.fast = in_turn;
     return request;
 }
 
-Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings, bool headless,
-                                                       Views views) {
+Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings, bool headless) {
     if (!headless && settings.display.kind == settings::DisplayKind::Kms) {
-        return display::KmsDisplay::create(or_any(settings.display.card), output_request(settings, views));
+        return display::KmsDisplay::create(or_any(settings.display.card), output_request(settings));
     }
-    const geometry::Pinhole& projector = settings.projector.pinhole;
-    const PixelSize picture = views == Views::One ? PixelSize{projector.width, projector.height}
-                                                  : scene::stereo_layout(settings).display;
+    const PixelSize picture = scene::stereo_layout(settings).display;
     return display::SurfacelessDisplay::create(picture.width, picture.height);
 }
 

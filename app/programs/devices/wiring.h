@@ -21,15 +21,10 @@
 
 namespace frustumscreen::programs {
 
-/// Pictures in the display's picture. One: a plain picture of the projector's size, in the exhibit's mode, whatever the
-/// layout of the eyes' pictures.
-enum class Views { OfLayout, One };
-
 /// The display's picture has the size that the layout of the eyes' pictures has (app/scene/stereo.h).
-[[nodiscard]] Result<std::unique_ptr<display::Display>>
-make_display(const settings::Settings& settings, bool headless, Views views = Views::OfLayout);
-[[nodiscard]] display::OutputRequest output_request(const settings::Settings& settings,
-                                                    Views views = Views::OfLayout);
+[[nodiscard]] Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings,
+                                                                     bool headless);
+[[nodiscard]] display::OutputRequest output_request(const settings::Settings& settings);
 
 /// Creates a new file for the tracker's packets.
 [[nodiscard]] Result<std::unique_ptr<tracker::PacketRecorder>>
