@@ -139,7 +139,8 @@ void check_projector(const Settings& settings, Fitness& fitness) {
 void check_stereo(const Settings& settings, Fitness& fitness) {
     const Stereo stereo = stereo_of(settings);
     const geometry::Pinhole& picture = settings.projector.pinhole;
-    const std::string_view key = settings.projector.stereo == ProjectorStereo::AsEye ? "eye.stereo" : "projector.stereo";
+    const std::string_view key =
+        settings.projector.stereo == ProjectorStereo::AsEye ? "eye.stereo" : "projector.stereo";
     fitness.require(
         "settings.stereo_odd_width", stereo != Stereo::SideBySide || picture.width % 2 == 0, key,
         fmt::format("is \"side_by_side\", and projector.width is {}; each eye gets half of the columns: "
