@@ -4,13 +4,16 @@
 #include "app/programs/devices/wiring.h"
 #include "app/render/gl_memory.h"
 #include "app/render/read_back.h"
+#include "app/scene/stereo.h"
 #include "app/tracking/tracked_state.h"
 #include "firmware_host/base/quantile.h"
 
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <span>
 
 namespace frustumscreen::programs {
 
@@ -82,7 +85,8 @@ class Measuring {
 public:
     Measuring(const settings::Settings& settings, const scene::DevicePlan& devices,
               show::ArtifactShowOptions options, display::Display& display)
-        : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
+        : settings_(settings), devices_(devices), options_(std::move(options)), display_(display),
+          layout_(scene::stereo_layout(settings)) {}
 
     /// Loads and frees the scene several times, with no other loaded; then loads it to keep it.
     [[nodiscard]] Result<Scene> load(unsigned cull_kinds) {
@@ -128,8 +132,12 @@ public:
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
                 const tracking::TrackedState& tracked_state = poses[frame % poses.size()];
+                const std::array<glm::dvec3, 2> eyes_m =
+                    tracking::eyes_of(tracked_state, 1e-3 * settings_.eye.interocular_mm);
                 const render::DrawResult result =
-                    scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state), tracked_state.eye_m,
+                    scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state),
+                                     layout_.count == 1 ? std::span<const glm::dvec3>(&tracked_state.eye_m, 1)
+                                                        : std::span<const glm::dvec3>(eyes_m),
                                      target(), render::Redraw::Everything);
                 render::wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
@@ -152,6 +160,7 @@ private:
     const scene::DevicePlan& devices_;
     show::ArtifactShowOptions options_;
     display::Display& display_;
+    scene::StereoLayout layout_;
 };
 
 } // namespace
