@@ -39,8 +39,8 @@ protected:
         tracked_state.eye_m = settings.eye.default_m;
         exhibit->note(show->artifacts());
         exhibit::Presentation presentation = exhibit->step(now, commands, tracked_state);
-        static_cast<void>(show->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
-                                     render::Redraw::Everything));
+        static_cast<void>(show->draw(now, presentation, std::span(&tracked_state.eye_m, 1),
+                                     {display->framebuffer(), 0}, render::Redraw::Everything));
         return presentation;
     }
     /// Steps until the artifact is ready; may loop forever.

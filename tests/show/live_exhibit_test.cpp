@@ -35,8 +35,9 @@ struct Record {
 class RecordingShow final : public PresentationShow {
 public:
     explicit RecordingShow(Record& record) : record_(record) {}
-    [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&, const glm::dvec3&,
-                                          const render::RenderTarget& target, render::Redraw) override {
+    [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&,
+                                          std::span<const glm::dvec3>, const render::RenderTarget& target,
+                                          render::Redraw) override {
         record_.ages.push_back(target.buffer_age);
         return {true, {}, {}, 1};
     }
@@ -283,7 +284,7 @@ TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
 class WhiteShow final : public PresentationShow {
 public:
     [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation& presentation,
-                                          const glm::dvec3&, const render::RenderTarget& target,
+                                          std::span<const glm::dvec3>, const render::RenderTarget& target,
                                           render::Redraw) override {
         const auto brightness = static_cast<float>(presentation.brightness);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);

@@ -107,8 +107,8 @@ protected:
         exhibit->note(show->artifacts());
         shown = exhibit->step(now, commands, tracked_state);
         sets->report(now, shown.state);
-        static_cast<void>(show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 0},
-                                     render::Redraw::Everything));
+        static_cast<void>(show->draw(now, shown, std::span(&tracked_state.eye_m, 1),
+                                     {display->framebuffer(), 0}, render::Redraw::Everything));
     }
     void visit() {
         step(next);
@@ -154,8 +154,8 @@ protected:
             tracked_state.prop_known = true;
             tracked_state.eye_m = settings.eye.default_m;
             const exhibit::Presentation presentation = its.step(now, {}, tracked_state);
-            static_cast<void>(alone->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
-                                          render::Redraw::Everything));
+            static_cast<void>(alone->draw(now, presentation, std::span(&tracked_state.eye_m, 1),
+                                          {display->framebuffer(), 0}, render::Redraw::Everything));
         }
         return picture();
     }

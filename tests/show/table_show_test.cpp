@@ -82,7 +82,7 @@ protected:
         }
     }
     image::Image8 picture(render::Redraw redraw = render::Redraw::Everything) {
-        static_cast<void>(show->draw(now, shown, tracked_state.eye_m,
+        static_cast<void>(show->draw(now, shown, std::span(&tracked_state.eye_m, 1),
                                      {display->framebuffer(), redraw == render::Redraw::Changes ? 1 : 0},
                                      redraw));
         return render::read_colour(display->framebuffer(), width, height);
@@ -309,18 +309,18 @@ TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
     for (int k = 0; k <= 60; ++k) {
         tracked_state.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
         wait(milliseconds(20));
-        static_cast<void>(show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1},
-                                     render::Redraw::Changes));
+        static_cast<void>(show->draw(now, shown, std::span(&tracked_state.eye_m, 1),
+                                     {display->framebuffer(), 1}, render::Redraw::Changes));
     }
     wait(milliseconds(600));
-    static_cast<void>(
-        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, render::Redraw::Changes));
+    static_cast<void>(show->draw(now, shown, std::span(&tracked_state.eye_m, 1), {display->framebuffer(), 1},
+                                 render::Redraw::Changes));
     if (synthetic::allocations_are_counted) {
         EXPECT_EQ(synthetic::allocations_so_far(), before);
     }
     wait(milliseconds(100)); // the ring alone
-    const render::DrawResult ring =
-        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, render::Redraw::Changes);
+    const render::DrawResult ring = show->draw(now, shown, std::span(&tracked_state.eye_m, 1),
+                                               {display->framebuffer(), 1}, render::Redraw::Changes);
     EXPECT_TRUE(ring.drawn);
     EXPECT_LT(ring.redrawn.width * ring.redrawn.height, width * height / 2);
     const image::Image8 partly = render::read_colour(display->framebuffer(), width, height);
