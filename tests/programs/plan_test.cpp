@@ -86,8 +86,8 @@ protected:
     image::Image8 picture(show::ArtifactShow& of, exhibit::Exhibit& exhibit, MonotonicTime now,
                           const tracking::TrackedState& tracked_state) {
         const exhibit::Presentation presentation = exhibit.step(now, {}, tracked_state);
-        EXPECT_TRUE(of.draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
-                            render::Redraw::Everything)
+        EXPECT_TRUE(of.draw(now, presentation, std::span(&tracked_state.eye_m, 1),
+                            {display->framebuffer(), 0}, render::Redraw::Everything)
                         .drawn);
         return render::read_colour(display->framebuffer(), 320, 200);
     }
