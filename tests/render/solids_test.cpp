@@ -49,6 +49,12 @@ struct SolidReliefRig : SolidRig {
         drawn.on_gpu = true;
         raster.samples = drawn.samples = 1;
     }
+    /// A picture of one of the two alone.
+    image::Image8 one(const TestTable& table, const scene::PlacedLevel& which) {
+        scene::plan_frame(prop, which, table.view(), plan);
+        draw(render::Redraw::Everything);
+        return picture();
+    }
 };
 
 /// The outcome of `is` at the pixel's centre, and whether it is the same all around it.
