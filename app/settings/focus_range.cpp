@@ -18,7 +18,7 @@ double sharpness_m(const ProjectorSettings& projector) {
 
 /// The least depth at which a ball fits between two opposite edges of the picture, given as slopes from the optical
 /// axis: there it touches both planes.
-double least_depth_m(double ball_m, double one, double other) {
+double min_depth_m(double ball_m, double one, double other) {
     return ball_m * (std::hypot(1.0, one) + std::hypot(1.0, other)) / (one + other);
 }
 
@@ -26,7 +26,7 @@ double least_depth_m(double ball_m, double one, double other) {
 double highest_middle_m(const geometry::Pinhole& pinhole, double ball_m) {
     const double left = pinhole.cx / pinhole.fx, right = (pinhole.width - pinhole.cx) / pinhole.fx;
     const double top = pinhole.cy / pinhole.fy, bottom = (pinhole.height - pinhole.cy) / pinhole.fy;
-    return std::fmax(least_depth_m(ball_m, left, right), least_depth_m(ball_m, top, bottom));
+    return std::fmax(min_depth_m(ball_m, left, right), min_depth_m(ball_m, top, bottom));
 }
 
 } // namespace

@@ -27,9 +27,9 @@ namespace frustumscreen::tracking {
 
 /// The visitor's two eyes, as stereo follows them.
 struct TwoEyes {
-    double half_apart_m = 0.0;    ///< half of the interocular distance; 0: one eye, and no turn is followed
-    bool fixed_viewer = false;    ///< no head is followed: both eyes are beside the default eye
-    bool glasses_may_lie = true;  ///< false: a simulated visitor never takes them off
+    double half_apart_m = 0.0;   ///< half of the interocular distance; 0: one eye, and no turn is followed
+    bool fixed_viewer = false;   ///< no head is followed: both eyes are beside the default eye
+    bool glasses_may_lie = true; ///< false: a simulated visitor never takes them off
 };
 
 class LiveTrackedState {

@@ -5,8 +5,7 @@
 namespace frustumscreen::tracking {
 
 bool WornGlasses::worn(MonotonicTime time, const geometry::RigidTransform& table_from_sensor) {
-    if (!rested_ ||
-        slip_m(step_between(rested_->table_from_sensor, table_from_sensor), lever_m) > still_m) {
+    if (!rested_ || slip_m(step_between(rested_->table_from_sensor, table_from_sensor), lever_m) > still_m) {
         rested_ = Rest{table_from_sensor, time};
     }
     return time - rested_->since < still_for;
