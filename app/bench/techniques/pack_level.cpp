@@ -223,7 +223,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, seen.levels[level], lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, seen.levels[level], lights,
+                                                std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
