@@ -21,10 +21,19 @@ protected:
         kiosk_.prop = solid::example_prop(GetParam());
         kiosk_.settings.prop = {.kind = settings::PropKind::Solid, .zone = settings::PropZone::Hand};
         kiosk_.settings.prop.shape = std::make_shared<const geometry::PropShape>(kiosk_.prop);
-        kiosk_.settings.table = {0.15, 0.08};
+        kiosk_.settings.table = {0.5, 0.35};
+        kiosk_.settings.projector.pinhole.fx = kiosk_.settings.projector.pinhole.fy = 1000.0;
     }
     [[nodiscard]] std::vector<BenchPose> poses() const {
         return draw_poses(kiosk_.settings, kiosk_.prop, 5, 9).value();
+    }
+    /// Whether the light through a pixel meets a face that the eye sees.
+    [[nodiscard]] bool lights_seen_face(const BenchPose& pose, const glm::dvec2& pixel) const {
+        const TruthView view = view_of(kiosk_.settings, pose);
+        geometry::PropHit hit;
+        return geometry::intersect(kiosk_.prop, view.prop_from_projector.translation,
+                                   view.prop_from_projector.direction(view.projector.ray(pixel)), hit) &&
+               kiosk_.prop.faces[static_cast<std::size_t>(hit.face)].plane.distance(view.eye_m) > 0.0;
     }
     std::shared_ptr<bake::SourceMesh> mesh_ = ring();
     Truth truth_ = Truth::build(mesh_, glm::dmat4(1.0)).value();
@@ -36,19 +45,20 @@ TEST_P(SolidProps, TheFloorCoversTheFacesThatAreSeenAndLit) {
     for (const BenchPose& pose : poses()) {
         floor->draw(pose);
         const image::Image8 drawn = render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
-        const TruthPicture truth = ray_cast(truth_, pose);
         int covered = 0;
         int beside = 0;
         int missing = 0;
-        for (std::size_t k = 0; k < drawn.texels.size(); ++k) {
-            const bool on_prop = truth.prop.texels[k] != 0;
-            const bool lit = drawn.texels[k].r != 0;
-            covered += on_prop ? 1 : 0;
-            beside += lit && !on_prop ? 1 : 0;
-            missing += !lit && on_prop ? 1 : 0;
+        for (int y = 0; y < drawn.height; ++y) {
+            for (int x = 0; x < drawn.width; ++x) {
+                const bool on_prop = lights_seen_face(pose, {x + 0.5, y + 0.5});
+                const bool lit = drawn.at(x, y).r != 0;
+                covered += on_prop ? 1 : 0;
+                beside += lit && !on_prop ? 1 : 0;
+                missing += !lit && on_prop ? 1 : 0;
+            }
         }
         EXPECT_GT(covered, 1000);
-        EXPECT_LE(beside, 4) << "pixel centres on an edge";
+        EXPECT_LE(beside, 8) << "pixel centres on an edge";
         EXPECT_LE(missing, covered / 100) << "the pattern has black texels";
     }
 }
@@ -68,7 +78,7 @@ TEST_P(SolidProps, TheFullMeshIsTheRayCastAndTwoPassesComeNearIt) {
         EXPECT_LT(twice.silhouette_percent, 5.0);
         EXPECT_LT(twice.geometric_mean_mm, 0.5);
     }
-    EXPECT_GT(pixels, 3000);
+    EXPECT_GT(pixels, 1500);
 }
 
 /// Fans of quadrilaterals cover each face once: a prism's pixels do not depend on which corner of a face comes first.

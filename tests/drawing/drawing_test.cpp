@@ -324,17 +324,17 @@ TEST_F(Drawing, TheHolderHoldsThePropWithHalfAMillimetreOfPlay) {
         const double rim_m = rim[2].y - rim[1].y;
         EXPECT_LE(rim_m, 0.1 * high_m + 1e-4);
         EXPECT_GT(rim_m, 0.0019);
-        double min_m = 1.0;
+        double depth_m = 1.0;
         std::vector<bool> met(pocket.size());
         for (const glm::dvec2& place : places_below(prop.at("faces"), rim_m)) {
-            min_m = std::min(min_m, depth_in(pocket, place));
+            depth_m = std::min(depth_m, depth_in(pocket, place));
             for (std::size_t k = 0; k < pocket.size(); ++k) {
                 const glm::dvec2& a = pocket[k];
                 const glm::dvec2& b = pocket[(k + 1) % pocket.size()];
                 met[k] = met[k] || side_of(a, b, place) / glm::distance(a, b) < 0.0008;
             }
         }
-        EXPECT_NEAR(min_m, 0.0005, 1e-4);
+        EXPECT_NEAR(depth_m, 0.0005, 1e-4);
         EXPECT_EQ(std::count(met.begin(), met.end(), false), 0) << "each side of the pocket is near the prop";
         for (const glm::dvec2& corner : pocket) {
             EXPECT_NEAR(depth_in(plate, corner), 0.008, 1e-4);

@@ -204,7 +204,8 @@ TEST(IdlePose, TheAreaThatItHidesIsThatOfAllTurns) {
                 EXPECT_GT(counted.outside, 0) << prop.name << ": otherwise this test sees nothing";
             } else {
                 EXPECT_EQ(counted.outside, 0) << prop.name;
-                EXPECT_LT(counted.free, counted.hidden / 20) << prop.name;
+                // Between two of the turns tried, a corner's way leaves places free.
+                EXPECT_LT(counted.free, counted.hidden / 10) << prop.name;
             }
         }
     }

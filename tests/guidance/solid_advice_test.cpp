@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <utility>
 
 namespace frustumscreen::guidance {
 namespace {
@@ -47,14 +48,19 @@ Mended follow(const std::string& name, const GuidanceSetup& setup, int situation
     return mended;
 }
 
-TEST(SolidAdvice, MendsAsManySituationsWithinItsStepsAsForACube) {
+/// An eye sees up to three sides of an upright hexagonal prism, which no lens above it lights at many places: there no
+/// listed move helps, and the visitor has to wait.
+TEST(SolidAdvice, MendsNearlyAllSituationsWithinItsStepsAndFewerOfAPrism) {
     constexpr int situations = 150;
     const Mended cube = follow("cube of the settings", cube_setup(), situations);
-    EXPECT_GT(cube.share(), 0.9);
-    for (const char* const name : {"cube", "hexagon", "tetrahedron", "gem"}) {
+    EXPECT_GT(cube.share(), 0.98);
+    for (const auto& [name, min_share] : {std::pair("cube", 0.98), std::pair("hexagon", 0.85),
+                                          std::pair("tetrahedron", 0.98), std::pair("gem", 0.98)}) {
         const Mended solid = follow(name, solid_setup(name), situations);
         EXPECT_GT(solid.cases, situations / 3) << name;
-        EXPECT_GE(solid.share(), cube.share()) << name;
+        EXPECT_GE(solid.share(), min_share) << name;
+        EXPECT_GE(solid.within, 0.98 * (solid.cases - solid.waits))
+            << name << ": of advice that names a move";
     }
 }
 

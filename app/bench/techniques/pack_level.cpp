@@ -102,13 +102,14 @@ struct Placed {
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Kiosk& kiosk, const scene::StereoLayout& layout, const Placed& placed,
+    PackLevelTechnique(const Kiosk& kiosk, const PictureOptions& options, const Placed& placed,
                        std::optional<scene::SeenLevel> seen, const Lights& lights, std::string name,
                        Parts parts)
-        : kiosk_(kiosk), layout_(layout), placed_(placed), seen_(std::move(seen)), lights_(lights),
+        : kiosk_(kiosk), options_(options), placed_(placed), seen_(std::move(seen)), lights_(lights),
           name_(std::move(name)), parts_(std::move(parts)) {
-        plans_.reserve(layout.count);
-        for (std::size_t eye = 0; eye < layout.count; ++eye) {
+        const std::size_t eyes = layout_of(kiosk, options).count;
+        plans_.reserve(eyes);
+        for (std::size_t eye = 0; eye < eyes; ++eye) {
             plans_.push_back(scene::make_plan(kiosk.prop, placed.coloured));
         }
     }
@@ -169,12 +170,14 @@ private:
                 .light = light.compensation,
                 .brightness = light.exposure};
     }
+    /// Measurements move the kiosk's pinhole by parts of a pixel, so the layout is that of the moment.
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
+        const scene::StereoLayout layout = layout_of(kiosk_, options_);
         const std::array<glm::dvec3, 2> both = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
         const std::span<const glm::dvec3> eyes_m =
-            layout_.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
-        const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view_of(pose, light), eyes_m);
-        for (std::size_t eye = 0; eye < layout_.count; ++eye) {
+            layout.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
+        const std::array<scene::PlanView, 2> views = scene::views_of(layout, view_of(pose, light), eyes_m);
+        for (std::size_t eye = 0; eye < layout.count; ++eye) {
             scene::plan_frame(kiosk_.prop, placed, views[eye], plans_[eye]);
             if (!light.feathered) {
                 plans_[eye].feathers.clear();
@@ -187,7 +190,7 @@ private:
     }
 
     const Kiosk& kiosk_;
-    scene::StereoLayout layout_;
+    PictureOptions options_;
     Placed placed_;
     std::optional<scene::SeenLevel> seen_;
     Lights lights_;
@@ -223,7 +226,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, seen.levels[level], lights,
+    return std::make_unique<PackLevelTechnique>(kiosk, options, both, seen.levels[level], lights,
                                                 std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
@@ -259,7 +262,8 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(kiosk, layout, both, std::move(seen), lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, options, both, std::move(seen), lights,
+                                                std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
