@@ -27,6 +27,7 @@ NODDED_M = 0.004  # a head that moves wears the glasses
 NOD_S = 0.4
 SETTLED_S = 1.0  # for the filter to come to rest, and the second eye to come
 WORN_S = 60.0
+BESIDE_THE_LETTERS = (-0.2, 0.0, 0.0)  # the prop's edges are drawn over them
 LYING_S = 30.0  # glasses lie after six seconds
 
 
@@ -108,6 +109,7 @@ class Stereo(HilTest):
         self.assert_same_place(half_of(picture, 0), self.render(ONE_EYE, pose, head))
 
     def test_the_alignment_pattern_tells_the_eyes_apart(self):
+        self.bench.place(BESIDE_THE_LETTERS)
         self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         try:
             self.bench.buttons.tell("press", NEXT, "300ms")
