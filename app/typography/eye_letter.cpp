@@ -14,9 +14,14 @@ constexpr double column_width = 0.19;
 constexpr double first_row = 0.2, end_row = 0.4;
 constexpr double max_side = 0.12, min_side = 0.05; ///< of a square, of the picture's height
 constexpr double next_side = 0.9;                  ///< of the side before
-constexpr int step_px = 2;                         ///< between two squares that are tried
+constexpr int step_px = 2;                         ///< between two squares that are tried; even
 constexpr int lit_code = 8;                        ///< codes above this are light
 constexpr double em_of_side = 1.0 / 0.9; ///< a capital of the bold typeface is 0.73 em high, R 0.77 em wide
+
+/// Down to an even number: a square of even numbers covers whole pixels of a picture that is shrunk to a half.
+int even(double number) {
+    return 2 * static_cast<int>(0.5 * number);
+}
 
 /// Counts lit pixels in squares of a part of the picture.
 class LitPixels {
@@ -66,15 +71,14 @@ Place darkest(const LitPixels& pixels, int side) {
 std::array<PixelRectangle, 2> squares_in(const image::Image8& pattern) {
     const auto pixels_in = [&pattern](double begin) {
         const double w = pattern.width, h = pattern.height;
-        return LitPixels(pattern, {.x = static_cast<int>(begin * w),
-                                   .y = static_cast<int>(first_row * h),
-                                   .width = static_cast<int>(column_width * w),
-                                   .height = static_cast<int>((end_row - first_row) * h)});
+        return LitPixels(pattern, {.x = even(begin * w),
+                                   .y = even(first_row * h),
+                                   .width = even(column_width * w),
+                                   .height = even((end_row - first_row) * h)});
     };
     const std::array<LitPixels, 2> pixels{pixels_in(columns[0]), pixels_in(columns[1])};
     const auto places = [&pixels](double side) {
-        const int side_px = static_cast<int>(side);
-        return std::array{darkest(pixels[0], side_px), darkest(pixels[1], side_px)};
+        return std::array{darkest(pixels[0], even(side)), darkest(pixels[1], even(side))};
     };
     const double largest = std::min(max_side * pattern.height, 0.95 * column_width * pattern.width);
     for (double side = largest; side >= min_side * pattern.height; side *= next_side) {

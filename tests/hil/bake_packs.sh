@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bakes the two artifacts that the guest shows and the words that it says, in two languages: few triangles, small images, in
+# Bakes the two artifacts that the guest shows, one of them for a cube in the hand too, and the words that it says, in two languages: few triangles, small images, in
 # seconds.
 #
 #   bake_packs.sh BIN FOLDER    BIN: where our programs are; a file newer than they and this script stays
@@ -21,12 +21,17 @@ if ! stays "$words" "$bin/frustumscreen-bake"; then
     "$bin/frustumscreen-bake" --words --languages en,de -o "$words" & # one core's work, beside the packs
     baking=$!
 fi
-for name in amphora nautilus-cup; do
-    pack=$folder/$name.fspack
+bake() { # ARTIFACT PACK OPTION...
+    local artifact=$1 pack=$folder/$2.fspack title=$2
+    shift 2
     if ! stays "$pack" "$bin/frustumscreen-bake" "$bin/frustumscreen-artifact"; then
-        "$bin/frustumscreen-artifact" "$name" --triangles 2000 -o "$folder/$name.glb"
-        "$bin/frustumscreen-bake" "$folder/$name.glb" -o "$pack" --size 256 --title "$name" --language en --language de
-        rm "$folder/$name.glb"
+        "$bin/frustumscreen-artifact" "$artifact" --triangles 2000 -o "$folder/$title.glb"
+        "$bin/frustumscreen-bake" "$folder/$title.glb" -o "$pack" --size 256 --title "$title" --language en --language de "$@"
+        rm "$folder/$title.glb"
     fi
-done
+}
+
+bake amphora amphora
+bake nautilus-cup nautilus-cup
+bake amphora amphora-cube --prop cube
 [[ -z $baking ]] || wait "$baking"

@@ -29,6 +29,10 @@ SETTINGS = "/etc/frustumscreen/kiosk.toml"  # in the guest
 STATUS_FILE = "/run/frustumscreen/status.json"
 UNIT = "frustumscreen.service"
 CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"  # takes the words off (unplugged) and detect (the real state)
+# Instead of the prop on the table, a cube in the hand.
+PACKS = '["/var/lib/frustumscreen/packs/amphora.fspack", "/var/lib/frustumscreen/packs/nautilus-cup.fspack"]'
+CUBE_ARTIFACT = "amphora-cube"
+CUBE = '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
 PLACE_TOLERANCE_M = 0.0005  # presented poses are filtered: they come to rest this near to those that were sent
@@ -85,6 +89,11 @@ def about(x, y, z, degrees):
     """The quaternion of a turn about an axis of length 1."""
     half = math.radians(degrees) / 2
     return (math.cos(half), *(math.sin(half) * each for each in (x, y, z)))
+
+
+def with_cube(settings):
+    """The settings for a cube in the hand, with its artifact."""
+    return settings.replace(PACKS, f'["/var/lib/frustumscreen/packs/{CUBE_ARTIFACT}.fspack"]') + CUBE
 
 
 def both_turns(second, first):

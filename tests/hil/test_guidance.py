@@ -12,7 +12,7 @@ import wave
 from dataclasses import dataclass
 
 import screen
-from bench import UPRIGHT, USUAL, WIDTH, Patience, about, both_turns, eventually
+from bench import CUBE_ARTIFACT, UPRIGHT, USUAL, WIDTH, Patience, about, both_turns, eventually, with_cube
 from hil_test import HilTest, long
 
 # Everything that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
@@ -22,7 +22,6 @@ WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pic
 LEFT_OF_THE_LIGHT = (-0.36, 0.0, 0.0)  # the table ends at -0.4: a part of the artifact is in the dark, for the eye in front too
 PUSHED = (*LEFT_OF_THE_LIGHT, *UPRIGHT)
 CENTRE = (0.0, 0.0, 0.0, *UPRIGHT)
-CUBE = '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
 LIT_CUBE = (0.0, 0.05, 0.10, *about(1, 0, 0, -30))  # tipped so that the one face that is seen looks up
 DARK_CUBE = (*LIT_CUBE[:3], *both_turns(about(0, 0, 1, 30), LIT_CUBE[3:]))  # its left side is seen, and stands upright
 REPLAYED_S, REPLAYED_HZ = 9.0, 60.0
@@ -89,7 +88,7 @@ def told_here(bench, language, settings, lit, dark):
 class Advised(HilTest):
     """What is seen and heard of the advice, for a prop that goes from a place in the light to one in the dark."""
 
-    lit, dark = CENTRE, PUSHED
+    artifact, lit, dark = "amphora", CENTRE, PUSHED
 
     @classmethod
     def setUpClass(cls):
@@ -107,7 +106,7 @@ class Advised(HilTest):
         for language in LANGUAGES:
             self.assertGreater(len(self.told[language].samples), 48000 // 2, "nothing is said on this machine: this proves nothing")
             self.assertGreater(screen.count(self.words[language]), 200, "no words are shown on this machine: this proves nothing")
-        self.show("amphora")
+        self.show(self.artifact)
         self.bench.status_says("sound", SOUNDS)
         self.put(self.lit)
         self.bench.picture_of(self.lit)
@@ -254,7 +253,7 @@ class Guidance(Advised):
 class CubeInTheHand(Advised):
     """Figure 12 of Kim et al. 2008: the visitor turns the cube, a face that they see gets no light, and they turn it back."""
 
-    settings = WHOLE + CUBE
+    settings, artifact = with_cube(WHOLE), CUBE_ARTIFACT
     lit, dark = LIT_CUBE, DARK_CUBE
 
     def test_a_face_turned_out_of_the_light(self):

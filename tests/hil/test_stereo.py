@@ -6,15 +6,14 @@ import pathlib
 import tempfile
 
 import screen
-from bench import HEIGHT, RELEASED_S, UPRIGHT, USUAL, WIDTH, about, eventually
+from bench import CUBE_ARTIFACT, HEIGHT, RELEASED_S, UPRIGHT, USUAL, WIDTH, about, eventually, with_cube
 from hil_test import HilTest
 
 FIRST, NEXT, LAST = 0, 1, 2
-ARTIFACT = "amphora"
 HALF = WIDTH // 2
-CUBE = USUAL + '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
-STEREO = CUBE.replace("[eye]", '[eye]\nstereo = "side_by_side"\ninterocular_mm = 63.0')
-ONE_EYE = CUBE.replace("[projector]", '[projector]\nstereo = "off"')
+IN_HAND = with_cube(USUAL)
+STEREO = IN_HAND.replace("[eye]", '[eye]\nstereo = "side_by_side"\ninterocular_mm = 63.0')
+ONE_EYE = IN_HAND.replace("[projector]", '[projector]\nstereo = "off"')
 
 
 # (the prop's pose, the head's): the cube lifted and turned in all directions, the head turned to it
@@ -28,6 +27,7 @@ NODDED_M = 0.004  # a head that moves wears the glasses
 NOD_S = 0.4
 SETTLED_S = 1.0  # for the filter to come to rest, and the second eye to come
 WORN_S = 60.0
+BESIDE_THE_LETTERS = (-0.2, 0.0, 0.0)  # the prop's edges are drawn over them
 LYING_S = 30.0  # glasses lie after six seconds
 
 
@@ -55,13 +55,13 @@ class Stereo(HilTest):
 
     def setUp(self):
         super().setUp()
-        self.show(ARTIFACT)
+        self.show(CUBE_ARTIFACT)
 
     def render(self, settings, pose, head, *options):
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
             config.write_text(settings, encoding="utf-8")
-            return self.bench.render([pose], ARTIFACT, head[:3], config, head[3:],
+            return self.bench.render([pose], CUBE_ARTIFACT, head[:3], config, head[3:],
                                      ("--width", HALF, "--height", HEIGHT, *options))[0]
 
     def place_head_at(self, head):
@@ -109,6 +109,7 @@ class Stereo(HilTest):
         self.assert_same_place(half_of(picture, 0), self.render(ONE_EYE, pose, head))
 
     def test_the_alignment_pattern_tells_the_eyes_apart(self):
+        self.bench.place(BESIDE_THE_LETTERS)
         self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         try:
             self.bench.buttons.tell("press", NEXT, "300ms")

@@ -23,8 +23,8 @@ using settings::Stereo;
 using std::chrono::seconds;
 
 constexpr int width = 640, height = 400; // of the projector
-constexpr double max_other = 0.8;        ///< correlation with the other letter
-constexpr double min_own = 0.93;         ///< with its own: the letter is a dozen pixels wide, and scaled
+constexpr double max_other = 0.7;        ///< correlation with the other letter
+constexpr double min_own = 0.85;         ///< with its own: in a half the letter is a dozen pixels wide
 
 struct StereoCase {
     Stereo stereo;
@@ -62,13 +62,15 @@ std::pair<glm::ivec3, glm::ivec3> codes_on(const image::Image8& whole, PixelSize
 }
 
 /// The pixels of the eye's part that are not the whole picture's, shrunk.
-image::Image<std::uint8_t> changed_in(const image::Image8& seen, const image::Image8& whole) {
+image::Image<std::uint8_t> changed_in(const image::Image8& seen, const image::Image8& whole,
+                                      int tolerance = 1) {
     image::Image<std::uint8_t> changed(seen.width, seen.height);
     for (int y = 0; y < seen.height; ++y) {
         for (int x = 0; x < seen.width; ++x) {
             const auto [low, high] = codes_on(whole, {seen.width, seen.height}, x, y);
             const glm::ivec3 code(seen.at(x, y));
-            if (glm::any(glm::lessThan(code, low - 1)) || glm::any(glm::greaterThan(code, high + 1))) {
+            if (glm::any(glm::lessThan(code, low - tolerance)) ||
+                glm::any(glm::greaterThan(code, high + tolerance))) {
                 const glm::ivec3 off = glm::abs(code - low);
                 changed.at(x, y) = static_cast<std::uint8_t>(std::max({off.x, off.y, off.z}));
             }
@@ -77,11 +79,11 @@ image::Image<std::uint8_t> changed_in(const image::Image8& seen, const image::Im
     return changed;
 }
 
-PixelRectangle bounds_of(const image::Image<std::uint8_t>& marked) {
+PixelRectangle bounds_of(const image::Image<std::uint8_t>& marked, int above = 0) {
     PixelRectangle bounds;
     for (int y = 0; y < marked.height; ++y) {
         for (int x = 0; x < marked.width; ++x) {
-            if (marked.at(x, y) > 0) {
+            if (marked.at(x, y) > above) {
                 bounds = united(bounds, {x, y, 1, 1});
             }
         }
@@ -92,7 +94,7 @@ PixelRectangle bounds_of(const image::Image<std::uint8_t>& marked) {
 /// The letter as the typeface has it, scaled to the size.
 image::Image<std::uint8_t> glyph(const char* letter, PixelSize size) {
     const image::Image<std::uint8_t> line = typography::Typesetter::open().value().line(letter, 400.0, true);
-    const PixelRectangle ink = bounds_of(line);
+    const PixelRectangle ink = bounds_of(line, 127);
     image::Image<std::uint8_t> scaled(size.width, size.height);
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
@@ -130,14 +132,18 @@ void expect_letter(const image::Image<std::uint8_t>& marked, const char* letter,
     ASSERT_GE(bounds.height, height / 50) << "too small to read";
     ASSERT_GE(bounds.width, 6);
     ASSERT_LE(std::max(bounds.width, bounds.height), height / 8) << "something else has changed, too";
-    image::Image<std::uint8_t> found(bounds.width, bounds.height);
-    for (int y = 0; y < bounds.height; ++y) {
-        for (int x = 0; x < bounds.width; ++x) {
-            found.at(x, y) = marked.at(bounds.x + x, bounds.y + y);
+    const std::uint8_t brightest = *std::max_element(marked.texels.begin(), marked.texels.end());
+    const std::array<float, 256>& light = image::linear_from_srgb8();
+    const PixelRectangle ink = bounds_of(marked, image::srgb8_from_linear(0.5 * light[brightest]));
+    image::Image<std::uint8_t> found(ink.width, ink.height);
+    for (int y = 0; y < ink.height; ++y) {
+        for (int x = 0; x < ink.width; ++x) {
+            found.at(x, y) = static_cast<std::uint8_t>(
+                std::lround(255.0F * light[marked.at(ink.x + x, ink.y + y)] / light[brightest]));
         }
     }
-    EXPECT_GT(correlation(found, glyph(letter, {bounds.width, bounds.height})), min_own) << letter;
-    EXPECT_LT(correlation(found, glyph(other, {bounds.width, bounds.height})), max_other) << other;
+    EXPECT_GT(correlation(found, glyph(letter, {ink.width, ink.height})), min_own) << letter;
+    EXPECT_LT(correlation(found, glyph(other, {ink.width, ink.height})), max_other) << other;
 }
 
 /// Settings, and pictures drawn with them.
@@ -194,7 +200,7 @@ TEST_F(Eyes, EachSeesTheWholePatternAndItsOwnLetterAlone) {
 TEST_F(Eyes, LinesOfOnePixelAreSeenInAHalf) {
     const image::Image8 beside = pattern(Stereo::SideBySide, {width, height}, aside);
     const image::Image8 below = pattern(Stereo::TopBottom, {width, height}, aside);
-    for (int k = 20; k < 180; ++k) {
+    for (int k = 20; k < 45; ++k) {                                    // between the ticks
         for (const int x : {0, width / 2 - 1, width / 2, width - 1}) { // the picture's outermost columns
             EXPECT_GT(beside.at(x, k).r, 100);
             EXPECT_LT(beside.at(x, k).r, 220);
@@ -239,7 +245,9 @@ TEST(EyeLetter, HidesNoMarkOfThePattern) {
         const image::Image8 pattern = typography::table_pattern(scene, typesetter);
         int inked = 0;
         for (const typography::EyeLetter& letter : typography::eye_letters(pattern, typesetter)) {
-            EXPECT_GE(letter.square.height, size.height / 20);
+            EXPECT_GE(letter.square.height, size.height / 20 - 1);
+            EXPECT_EQ((letter.square.x | letter.square.y | letter.square.width) % 2, 0)
+                << "it covers whole pixels of a half";
             for (int y = 0; y < letter.square.height; ++y) {
                 for (int x = 0; x < letter.square.width; ++x) {
                     const glm::u8vec4 mark = pattern.at(letter.square.x + x, letter.square.y + y);
@@ -298,8 +306,9 @@ TEST_F(Eyes, EachSeesEachPageOfTheStaffsPicture) {
                 EXPECT_NE(part_of(picture, at.eyes[0]).texels, part_of(picture, at.eyes[1]).texels);
                 continue;
             }
-            EXPECT_EQ(part_of(picture, at.eyes[0]).texels, part_of(picture, at.eyes[1]).texels);
-            EXPECT_TRUE(bounds_of(changed_in(part_of(picture, at.eyes[0]), whole)).empty());
+            for (const PixelRectangle& eye : at.eyes) {
+                EXPECT_TRUE(bounds_of(changed_in(part_of(picture, eye), whole)).empty());
+            }
             ++compared;
         }
         use(Stereo::Anaglyph, {width, height});
@@ -308,7 +317,9 @@ TEST_F(Eyes, EachSeesEachPageOfTheStaffsPicture) {
     EXPECT_EQ(compared, cases.size() * (exhibit::staff_page_names.size() - 1));
 }
 
+/// In so small a projector's picture the camera's lies at an odd pixel, so in a half it is shifted by half a pixel.
 TEST_F(Eyes, EachSeesTheCamerasPicture) {
+    constexpr int steepest = 4; // codes from pixel to pixel
     settings.camera.kind = settings::CameraKind::V4l2;
     const auto with_camera = [&](Stereo stereo, PixelSize size) {
         use(stereo, size);
@@ -316,14 +327,12 @@ TEST_F(Eyes, EachSeesTheCamerasPicture) {
         Viewfinder viewfinder(viewfinder_area_px(settings.projector.pinhole), 0);
         camera::CameraFrame frame{MonotonicTime{}, 1, 200, 120, std::vector<std::uint8_t>(200 * 120)};
         for (std::size_t k = 0; k < frame.luma.size(); ++k) {
-            frame.luma[k] = static_cast<std::uint8_t>(40 + 7 * (k % 23) + k / 400);
+            const int column = static_cast<int>(k % 200);
+            frame.luma[k] = static_cast<std::uint8_t>(2 + std::min(column, 199 - column));
         }
         viewfinder.want(true);
         viewfinder.use(frame);
         show->set_viewfinder(&viewfinder);
-        RunStatus status;
-        status.camera = Sentence("the camera is running");
-        show->tell(status);
         static_cast<void>(draw(*show, aside));
         return shown();
     };
@@ -332,8 +341,8 @@ TEST_F(Eyes, EachSeesTheCamerasPicture) {
     for (const StereoCase& at : cases) {
         SCOPED_TRACE(settings::name_of(at.stereo));
         const image::Image8 picture = with_camera(at.stereo, at.display);
-        expect_letter(changed_in(part_of(picture, at.eyes[0]), whole), "L", "R");
-        expect_letter(changed_in(part_of(picture, at.eyes[1]), whole), "R", "L");
+        expect_letter(changed_in(part_of(picture, at.eyes[0]), whole, steepest), "L", "R");
+        expect_letter(changed_in(part_of(picture, at.eyes[1]), whole, steepest), "R", "L");
     }
 }
 
