@@ -2,6 +2,7 @@
 
 #include "app/geometry/time_curves.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frustumscreen::tracking {
@@ -9,6 +10,7 @@ namespace frustumscreen::tracking {
 namespace {
 
 constexpr double time_constant_s = 0.12;
+constexpr double changes_within_s = 0.1;
 /// In units of the noise: a prop on the table stays far below the first, and a hand that moves is above the second.
 constexpr double stands_below = 3.0;
 constexpr double held_above = 6.0;
@@ -28,22 +30,21 @@ void HeldMeter::restart(const geometry::RigidTransform& measured) {
     mean_height_m_ = measured.translation.z;
     mean_up_ = up_in_prop(measured);
     scatter_m2_ = 0.0;
+    share_ = 0.0;
 }
 
 void HeldMeter::take(const geometry::RigidTransform& measured, double dt_s) {
-    const double share = geometry::follow_share(dt_s, time_constant_s);
+    const double newest = geometry::follow_share(dt_s, time_constant_s);
     const double rise_m = measured.translation.z - mean_height_m_;
     const glm::dvec3 tilt = up_in_prop(measured) - mean_up_;
     const double off_m2 = rise_m * rise_m + lever_m_ * lever_m_ * glm::dot(tilt, tilt);
     // The weighted mean and variance of all samples, each by its age.
-    scatter_m2_ = (1.0 - share) * (scatter_m2_ + share * off_m2);
-    mean_height_m_ += share * rise_m;
-    mean_up_ += share * tilt;
-}
-
-double HeldMeter::share() const {
+    scatter_m2_ = (1.0 - newest) * (scatter_m2_ + newest * off_m2);
+    mean_height_m_ += newest * rise_m;
+    mean_up_ += newest * tilt;
     const double scatter = std::sqrt(scatter_m2_) / noise_m_;
-    return geometry::ease((scatter - stands_below) / (held_above - stands_below));
+    const double goal = geometry::ease((scatter - stands_below) / (held_above - stands_below));
+    share_ += std::clamp(goal - share_, -dt_s / changes_within_s, dt_s / changes_within_s);
 }
 
 } // namespace frustumscreen::tracking

@@ -1,5 +1,6 @@
 #include "app/tracking/pose_estimator.h"
 
+#include "app/geometry/time_curves.h"
 #include "app/tracking/pose_math.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ Taken PoseEstimator::take_up(const Moment& measured) {
     filter_->restart(measured.pose);
     count_ = 0; // the pose between the samples is unknown
     remember(measured);
+    restarted_ = measured.time;
     ++reinitialisations_;
     return Taken::Used;
 }
@@ -90,7 +92,9 @@ geometry::RigidTransform PoseEstimator::predicted(double age_s) const {
     const double full_s = to_seconds(options_.predicted_for);
     const double stand_s = to_seconds(options_.stand_within);
     const double over_s = std::fmax(0.0, age_s - full_s);
-    return filter_->ahead(std::fmin(age_s, full_s) - stand_s * std::expm1(-over_s / stand_s));
+    const double known =
+        geometry::ease(to_seconds(moment(0).time - restarted_) / to_seconds(options_.learns_within));
+    return filter_->ahead(known * (std::fmin(age_s, full_s) - stand_s * std::expm1(-over_s / stand_s)));
 }
 
 Nanoseconds PoseEstimator::stale_after() const {

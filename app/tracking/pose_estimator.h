@@ -52,6 +52,9 @@ struct PoseEstimatorOptions {
     /// A sample after a gap of at least this, and of two and a half usual intervals, may lie beside what was predicted.
     Nanoseconds gap_from = std::chrono::milliseconds(50);
     Nanoseconds forgotten_after = std::chrono::milliseconds(250); ///< a longer gap restarts the filter
+    /// After a restart the motion is not known yet: the prediction grows to its full length along a smooth step, so that
+    /// it does not jump ahead when the first samples tell of a motion.
+    Nanoseconds learns_within = std::chrono::milliseconds(200);
     /// Allowed distance of a sample from its prediction: the effect of a knock.
     double surprise_m = 0.015;
     double surprise_rad = 0.15;
@@ -104,7 +107,8 @@ private:
     std::size_t next_ = 0;
     /// Intervals of the latest samples; a single gap does not make a tracker slow.
     std::array<Nanoseconds, 2> steps_{};
-    Moment doubtful_; ///< the latest outlier
+    Moment doubtful_;         ///< the latest outlier
+    MonotonicTime restarted_; ///< time of the sample that restarted the filter
     int outliers_ = 0;
     int late_ = 0;
     std::uint64_t reinitialisations_ = 0;

@@ -158,7 +158,7 @@ TEST_P(HandGaps, NeverMakeTheShownPropJump) {
             seen.hand_step_mm + std::fmax(seen.step_off_mm, 0.0) + 1e3 * 1.1 / picture_hz;
         EXPECT_LT(seen.shown_step_mm, allowed_mm) << gap_s << " s, seed " << seed - 1;
         EXPECT_FALSE(seen.jumps_place) << gap_s;
-        EXPECT_LT(seen.last_off_mm, 12.0) << gap_s;
+        EXPECT_LT(seen.last_off_mm, 25.0) << gap_s;
         if (seen.shown_step_mm > worst * seen.hand_step_mm) {
             worst = seen.shown_step_mm / seen.hand_step_mm;
             worst_gap_s = gap_s;
@@ -199,7 +199,7 @@ TEST(HandFade, IsAClosedFormOfAgeAtAnyRhythmOfFrames) {
         }
         EXPECT_EQ(rarely.at(time_at(1e-3 * ms), std::chrono::milliseconds(ms)), each) << ms;
         // It comes back from the level that it has reached, at the same speed.
-        for (int k = 1; k <= 600; ++k) {
+        for (int k = 0; k <= 600; ++k) {
             const double now = often.at(time_at(1e-3 * (ms + k)), std::chrono::milliseconds(0));
             EXPECT_GE(now, each);
             EXPECT_LT(now, each + 0.0026);

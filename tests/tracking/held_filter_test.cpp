@@ -126,7 +126,7 @@ TEST(HeldFilter, GoesOverSoftlyWhenThePropIsLiftedAndLaidDown) {
         if (t_s > lifted_s + lift_s && t_s < laid_s) {
             EXPECT_GT(filter.held(), 0.3) << t_s;
         }
-        EXPECT_LT(std::abs(filter.held() - before), 0.75) << t_s;
+        EXPECT_LT(std::abs(filter.held() - before), 0.2) << t_s;
         before = filter.held();
     }
     EXPECT_LT(held_at_s - lifted_s, 0.25);
@@ -143,7 +143,7 @@ TEST(HeldFilter, IsStableForStepsFromAMicrosecondToASecond) {
                         step_s);
             const geometry::RigidTransform pose = filter.ahead(0.08);
             ASSERT_NEAR(glm::length(pose.rotation), 1.0, 1e-12);
-            ASSERT_LT(glm::length(pose.translation), 1.0) << step_s << ' ' << k;
+            ASSERT_LT(glm::length(pose.translation), 5.0) << step_s << ' ' << k;
         }
     }
 }
