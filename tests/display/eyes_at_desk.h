@@ -164,7 +164,7 @@ private:
             wrongs.size() < 500 ? "refresh " + std::to_string(card_.refreshes) + ": " + what + "; " : "";
     }
     void look() {
-        const bool stayed = stamp_ && card_.has(scanned_.framebuffer);
+        const bool stayed = stamp_ && begun_ && card_.has(scanned_.framebuffer);
         if (stayed && stamp_of(scanned_.framebuffer, scanned_.first_row) != *stamp_) {
             wrong("a picture changed while it was scanned out");
         }

@@ -235,6 +235,8 @@ private:
     void turn_off(State& state, std::uint32_t crtc) const;
     void settle(State next);
     void forget_unheld_blobs();
+    /// The CRTC's state is scanned out from now on.
+    void scan(std::uint32_t crtc, std::uint32_t waited, bool modeset);
     void send_event(const Pending& pending, std::uint32_t crtc) const;
 
     std::uint32_t last_id_ = 30;

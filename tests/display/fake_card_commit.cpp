@@ -229,6 +229,7 @@ int FakeCard::set_crtc(std::uint32_t crtc, std::uint32_t framebuffer,
     if (refused == 0) {
         refresh(); // blocks until queued work is done
         settle(std::move(next));
+        scan(crtc, 0, true);
     }
     forget_unheld_blobs();
     return refused;
