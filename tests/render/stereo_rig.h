@@ -64,6 +64,8 @@ struct StereoRig : Rig {
         for (std::size_t eye = 0; eye < layout.count; ++eye) {
             views[eye].dimming_eyes_m = dimming;
             scene::plan_frame(prop, which, views[eye], plans[eye]);
+            // A slanting view takes more samples where they fit, and a larger display's picture has space for more.
+            plans[eye].samples = std::min(plans[eye].samples, which.samples);
         }
     }
     /// Plans both eyes' pictures.

@@ -28,7 +28,7 @@ scene::StereoLayout alone(const scene::StereoLayout& layout) {
 /// corner has larger window coordinates, of 32 bits: where triangles are drawn into it directly, a code may round to the
 /// next, and a corner to another step of the rasterizer's grid. Several samples are drawn in the eye's own coordinates.
 void expect_eyes(const scene::StereoLayout& layout, const image::Image8& picture, const Pair& eyes,
-                 const std::string& name, bool direct, std::size_t min_lit = 500) {
+                 const std::string& name, bool direct, std::size_t min_lit = 100) {
     for (std::size_t eye = 0; eye < 2; ++eye) {
         const glm::bvec3& channels = layout.pictures[eye].channels;
         const Difference found =
@@ -36,9 +36,9 @@ void expect_eyes(const scene::StereoLayout& layout, const image::Image8& picture
         EXPECT_GE(found.lit, min_lit) << name;
         const PixelRectangle& part = layout.pictures[eye].viewport;
         const bool rounds = direct && (part.x > 0 || part.y > 0);
-        EXPECT_LE(found.far, rounds ? found.lit / 500 : 0U)
+        EXPECT_LE(found.far, rounds ? 2 + found.lit / 100 : 0U)
             << name << ", eye " << eye << ": up to " << found.worst;
-        EXPECT_LE(found.pixels, rounds ? found.lit / 10 : 0U)
+        EXPECT_LE(found.pixels, rounds ? 8 + found.lit / 50 : 0U)
             << name << ", eye " << eye << ": " << found.worst;
     }
 }
@@ -308,17 +308,19 @@ TEST(Stereo, AFrameOfTwoEyesAllocatesNothing) {
     for (const Stereo stereo : {Stereo::SideBySide, Stereo::Anaglyph}) {
         StereoRig rig(layout_of(stereo), 4);
         for (const scene::PlacedLevel& part : rig.part) {
-            std::mt19937 random(75);
+            // The second time round the driver has compiled its shaders, and memory is as large as these pictures need.
             long counted = 0;
-            for (int k = 0; k < 60; ++k) {
-                rig.shuffle(random);
-                const long before = allocations_so_far();
-                rig.plan_both(part, even_light);
-                counted += allocations_so_far() - before;
-                // In its first frames llvmpipe compiles shaders, with LLVM's C++ allocations.
-                const long before_draw = allocations_so_far();
-                rig.draw_plans();
-                counted += k < 20 ? 0 : allocations_so_far() - before_draw;
+            for (const bool again : {false, true}) {
+                std::mt19937 random(75);
+                for (int k = 0; k < 40; ++k) {
+                    rig.shuffle(random);
+                    const long before = allocations_so_far();
+                    rig.plan_both(part, even_light);
+                    counted += allocations_so_far() - before;
+                    const long before_draw = allocations_so_far();
+                    rig.draw_plans();
+                    counted += again ? allocations_so_far() - before_draw : 0;
+                }
             }
             EXPECT_EQ(counted, 0) << settings::name_of(stereo);
         }
