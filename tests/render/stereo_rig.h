@@ -64,6 +64,8 @@ struct StereoRig : Rig {
         for (std::size_t eye = 0; eye < layout.count; ++eye) {
             views[eye].dimming_eyes_m = dimming;
             scene::plan_frame(prop, which, views[eye], plans[eye]);
+            // A slanting view takes more samples where they fit, and a larger display's picture has space for more.
+            plans[eye].samples = std::min(plans[eye].samples, which.samples);
         }
     }
     /// Plans both eyes' pictures.
@@ -108,16 +110,18 @@ struct StereoRig : Rig {
 
 struct Difference {
     std::size_t pixels = 0;
+    std::size_t far = 0; ///< pixels that are more than one code off
     std::size_t lit = 0; ///< pixels of the first
     int worst = 0;       ///< codes
 };
 [[nodiscard]] inline Difference difference(const image::Image8& a, const image::Image8& b) {
     EXPECT_EQ(a.width, b.width);
     EXPECT_EQ(a.texels.size(), b.texels.size());
-    Difference found{.pixels = 0, .lit = lit_pixels(a), .worst = 0};
+    Difference found{.pixels = 0, .far = 0, .lit = lit_pixels(a), .worst = 0};
     for (std::size_t k = 0; k < a.texels.size(); ++k) {
         const int farthest = farthest_channel(a.texels[k], b.texels[k]);
         found.pixels += farthest > 0 ? 1U : 0U;
+        found.far += farthest > 1 ? 1U : 0U;
         found.worst = std::max(found.worst, farthest);
     }
     return found;
