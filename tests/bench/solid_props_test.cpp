@@ -21,18 +21,18 @@ protected:
         kiosk_.prop = solid::example_prop(GetParam());
         kiosk_.settings.prop = {.kind = settings::PropKind::Solid, .zone = settings::PropZone::Hand};
         kiosk_.settings.prop.shape = std::make_shared<const geometry::PropShape>(kiosk_.prop);
-        kiosk_.settings.table = {0.5, 0.35};
-        kiosk_.settings.projector.pinhole.fx = kiosk_.settings.projector.pinhole.fy = 1000.0;
+        kiosk_.settings.table = {0.4, 0.25}; // about the picture on it
     }
     [[nodiscard]] std::vector<BenchPose> poses() const {
         return draw_poses(kiosk_.settings, kiosk_.prop, 5, 9).value();
     }
-    /// Whether the light through a pixel meets a face that the eye sees.
-    [[nodiscard]] bool lights_seen_face(const BenchPose& pose, const glm::dvec2& pixel) const {
-        const TruthView view = view_of(kiosk_.settings, pose);
+    /// True if the ray through the pixel's centre lights a face that the eye looks at. In the hand the projector lights
+    /// other faces too; they stay dark.
+    [[nodiscard]] bool lights_seen_face(int x, int y, const TruthView& view) const {
+        const glm::dvec3& lens = view.prop_from_projector.translation;
+        const glm::dvec3 ray = view.prop_from_projector.direction(view.projector.ray(glm::dvec2(x, y) + 0.5));
         geometry::PropHit hit;
-        return geometry::intersect(kiosk_.prop, view.prop_from_projector.translation,
-                                   view.prop_from_projector.direction(view.projector.ray(pixel)), hit) &&
+        return geometry::intersect(kiosk_.prop, lens, ray, hit) &&
                kiosk_.prop.faces[static_cast<std::size_t>(hit.face)].plane.distance(view.eye_m) > 0.0;
     }
     std::shared_ptr<bake::SourceMesh> mesh_ = ring();
@@ -45,20 +45,21 @@ TEST_P(SolidProps, TheFloorCoversTheFacesThatAreSeenAndLit) {
     for (const BenchPose& pose : poses()) {
         floor->draw(pose);
         const image::Image8 drawn = render::read_colour(kiosk_.framebuffer, kiosk_.width(), kiosk_.height());
+        const TruthView view = view_of(kiosk_.settings, pose);
         int covered = 0;
         int beside = 0;
         int missing = 0;
         for (int y = 0; y < drawn.height; ++y) {
             for (int x = 0; x < drawn.width; ++x) {
-                const bool on_prop = lights_seen_face(pose, {x + 0.5, y + 0.5});
+                const bool seen = lights_seen_face(x, y, view);
                 const bool lit = drawn.at(x, y).r != 0;
-                covered += on_prop ? 1 : 0;
-                beside += lit && !on_prop ? 1 : 0;
-                missing += !lit && on_prop ? 1 : 0;
+                covered += seen ? 1 : 0;
+                beside += lit && !seen ? 1 : 0;
+                missing += !lit && seen ? 1 : 0;
             }
         }
         EXPECT_GT(covered, 1000);
-        EXPECT_LE(beside, 8) << "pixel centres on an edge";
+        EXPECT_LE(beside, 4) << "pixel centres on an edge";
         EXPECT_LE(missing, covered / 100) << "the pattern has black texels";
     }
 }
@@ -78,7 +79,7 @@ TEST_P(SolidProps, TheFullMeshIsTheRayCastAndTwoPassesComeNearIt) {
         EXPECT_LT(twice.silhouette_percent, 5.0);
         EXPECT_LT(twice.geometric_mean_mm, 0.5);
     }
-    EXPECT_GT(pixels, 1500);
+    EXPECT_GT(pixels, 3000);
 }
 
 /// Fans of quadrilaterals cover each face once: a prism's pixels do not depend on which corner of a face comes first.

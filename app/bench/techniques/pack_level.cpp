@@ -55,10 +55,12 @@ int samples_of(const PictureOptions& options, const pack::Pack& pack) {
     return options.samples > 0 ? options.samples : pack.samples;
 }
 
-scene::StereoLayout layout_of(const Kiosk& kiosk, const PictureOptions& options) {
-    return scene::stereo_layout(kiosk.settings.projector.pinhole, options.both_eyes
-                                                                      ? settings::stereo_of(kiosk.settings)
-                                                                      : settings::Stereo::Off);
+settings::Stereo stereo_of(const Kiosk& kiosk, const PictureOptions& options) {
+    return options.both_eyes ? settings::stereo_of(kiosk.settings) : settings::Stereo::Off;
+}
+/// Measures move the principal point between pictures, so a layout holds for one picture alone.
+scene::StereoLayout layout_of(const Kiosk& kiosk, settings::Stereo stereo) {
+    return scene::stereo_layout(kiosk.settings.projector.pinhole, stereo);
 }
 
 /// The left and the right eye of a head that looks at the prop.
@@ -102,12 +104,12 @@ struct Placed {
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Kiosk& kiosk, const PictureOptions& options, const Placed& placed,
+    PackLevelTechnique(const Kiosk& kiosk, settings::Stereo stereo, const Placed& placed,
                        std::optional<scene::SeenLevel> seen, const Lights& lights, std::string name,
                        Parts parts)
-        : kiosk_(kiosk), options_(options), placed_(placed), seen_(std::move(seen)), lights_(lights),
+        : kiosk_(kiosk), stereo_(stereo), placed_(placed), seen_(std::move(seen)), lights_(lights),
           name_(std::move(name)), parts_(std::move(parts)) {
-        const std::size_t eyes = layout_of(kiosk, options).count;
+        const std::size_t eyes = layout_of(kiosk, stereo).count;
         plans_.reserve(eyes);
         for (std::size_t eye = 0; eye < eyes; ++eye) {
             plans_.push_back(scene::make_plan(kiosk.prop, placed.coloured));
@@ -170,9 +172,8 @@ private:
                 .light = light.compensation,
                 .brightness = light.exposure};
     }
-    /// Measurements move the kiosk's pinhole by parts of a pixel, so the layout is that of the moment.
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
-        const scene::StereoLayout layout = layout_of(kiosk_, options_);
+        const scene::StereoLayout layout = layout_of(kiosk_, stereo_);
         const std::array<glm::dvec3, 2> both = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
         const std::span<const glm::dvec3> eyes_m =
             layout.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
@@ -190,7 +191,7 @@ private:
     }
 
     const Kiosk& kiosk_;
-    PictureOptions options_;
+    settings::Stereo stereo_;
     Placed placed_;
     std::optional<scene::SeenLevel> seen_;
     Lights lights_;
@@ -209,7 +210,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     const scene::SceneLevel whole = scene::whole_level(pack, level);
     scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
-    const scene::StereoLayout layout = layout_of(kiosk, options);
+    const settings::Stereo stereo = stereo_of(kiosk, options);
+    const scene::StereoLayout layout = layout_of(kiosk, stereo);
     TRY(render::Renderer renderer,
         render::Renderer::create(layout.display.width, layout.display.height,
                                  needs_of(layout.pinhole, samples_of(options, pack), shader)));
@@ -226,7 +228,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, options, both, seen.levels[level], lights,
+    return std::make_unique<PackLevelTechnique>(kiosk, stereo, both, seen.levels[level], lights,
                                                 std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
@@ -237,7 +239,8 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
                                                     const PictureOptions& options, std::string name,
                                                     bool on_gpu) {
     TRY(const Lights lights, lights_of(kiosk, options, pack));
-    const scene::StereoLayout layout = layout_of(kiosk, options);
+    const settings::Stereo stereo = stereo_of(kiosk, options);
+    const scene::StereoLayout layout = layout_of(kiosk, stereo);
     scene::RenderNeeds needs;
     if (on_gpu) {
         scene::ShaderKey shader;
@@ -262,8 +265,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(kiosk, options, both, std::move(seen), lights,
-                                                std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, stereo, both, std::move(seen), lights, std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 
