@@ -26,7 +26,7 @@ double parallax_rad(const geometry::PropShape& prop, const glm::dvec3& eye, cons
 
 /// The largest parallax for one eye, over points all over the box around the prop.
 double largest_for_eye(const geometry::PropShape& prop, const glm::dvec3& eye, double interocular_m) {
-    constexpr int steps = 8;
+    constexpr int steps = 12;
     glm::dvec3 half(0.0);
     for (const glm::dvec3& corner : prop.corners) {
         half = glm::max(half, glm::abs(corner - prop.middle));
@@ -43,8 +43,8 @@ double largest_for_eye(const geometry::PropShape& prop, const glm::dvec3& eye, d
 } // namespace
 
 double largest_parallax_rad(const Settings& settings, double distance_m) {
-    constexpr int azimuths = 16;
-    constexpr int elevations = 6;
+    constexpr int azimuths = 24;
+    constexpr int elevations = 12;
     constexpr double quarter = 0.5 * std::numbers::pi;
     const geometry::PropShape prop = make_prop(settings.prop);
     const double lowest =

@@ -6,7 +6,7 @@
 /// Method   a point straight ahead at distance r makes two eyes b apart converge by 2 atan(b / 2r). Rays through the whole prop,
 ///          from eyes all around: each enters at the place that shows it, and leaves at the farthest point that an
 ///          artifact can have. Sampled; it finds the largest parallax within 3 %.
-/// Threads  pure; any. A parallax takes some milliseconds.
+/// Threads  pure; any. A parallax takes some tens of milliseconds.
 #pragma once
 
 #include "app/settings/settings.h"

@@ -208,7 +208,7 @@ TEST(TwoEyesLive, FollowGlassesThatArePutDownAndTakenUp) {
     glm::dvec3 before(0.0);
     double largest_m = 0.0;
     watch(60.0, 60.0, {}, way, [&](double t_s, const TrackedState& state) {
-        const bool lies = t_s > 21.0 + 8.0 && t_s < 40.0; // `still_for`, the way to one eye, and the filter
+        const bool lies = t_s > 21.0 + 10.5 && t_s < 40.0; // `still_for`, the way to one eye, and the filter
         const bool worn =
             (t_s > 1.0 && t_s < 26.0) || t_s > 41.0; // taken up, it moves within a quarter of a second
         EXPECT_TRUE(!lies || state.eyes_apart == 0.0) << t_s;

@@ -53,7 +53,11 @@ TEST(WornGlasses, MoveByMoreThanASensorsNoiseOrStayWhereTheyAre) {
         for (int ms = 0; ms <= 7000; ms += 10) {
             static_cast<void>(glasses.worn(at(ms), placed(0.0)));
         }
-        EXPECT_EQ(glasses.worn(at(7010), placed(x, yaw)), moves) << x << " m, " << yaw << " rad";
+        bool worn = false;
+        for (int ms = 7010; ms <= 12'000; ms += 10) { // ten time constants
+            worn = glasses.worn(at(ms), placed(x, yaw));
+        }
+        EXPECT_EQ(worn, moves) << x << " m, " << yaw << " rad";
     }
 }
 
