@@ -138,7 +138,7 @@ TEST(HeldFilter, IsStableForStepsFromAMicrosecondToASecond) {
     for (const double step_s : {1e-6, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.1, 0.25, 1.0}) {
         HeldFilter filter(PoseNoise{}, lever_m);
         Noise noise(7);
-        filter.restart(noise.on(is_held(0.0)));
+        filter.restart(noise.on({}));
         for (int k = 1; k < 3000; ++k) {
             const double height_m =
                 0.01 * std::sin(2.0 * std::numbers::pi * 2.0 * k * step_s); // a hand's, twice a second
