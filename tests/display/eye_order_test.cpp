@@ -114,8 +114,23 @@ TEST_F(EyeOrderTest, SleepsAndWakesInOrder) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
+/// The projector is unplugged and plugged again, and nothing fails any more.
+void expect_order_after_plugging(CardOnDesk& desk, Sitting& sitting) {
+    desk.card.unplug(desk.hdmi);
+    sitting.plugged();
+    sitting.frames(100);
+    desk.card.plug(desk.hdmi, fast_modes());
+    sitting.plugged();
+    sitting.frames(100);
+    ASSERT_EQ(sitting.end(), "");
+    EXPECT_TRUE(sitting.in_order()) << sitting.state();
+    EXPECT_EQ(sitting.eyes().wrongs, "");
+    EXPECT_TRUE(has_words(sitting.state(), "each eye gets 60 Hz")) << sitting.state();
+}
+
 TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
     int refreshes = 0;
+    int starts = 0;
     for (unsigned seed = 0; seed < 60; ++seed) {
         FakeKernel own;
         CardOnDesk other(own.add_card(card_path));
@@ -123,7 +138,8 @@ TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
         other.card.refreshes = seed;
         std::mt19937 random(seed);
         const auto one_of = [&random](unsigned count) { return static_cast<int>(random() % count); };
-        Sitting sitting(other, seed);
+        std::optional<Sitting> evening(std::in_place, other, seed);
+        Sitting& sitting = *evening;
         for (int step = 0; step < 25; ++step) {
             const int error =
                 std::array{EBUSY, EINVAL, EACCES, ENOMEM}.at(static_cast<std::size_t>(one_of(4)));
@@ -160,20 +176,20 @@ TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
             }
             sitting.frames(one_of(20));
         }
+        EXPECT_EQ(sitting.eyes().wrongs, "") << seed;
         other.card.late = other.card.lost = sitting.slow_wakes = 0;
         own.fail_always("drmModeAtomicCommit", 0);
-        other.card.unplug(other.hdmi);
-        sitting.plugged();
-        sitting.frames(100);
-        other.card.plug(other.hdmi, fast_modes());
-        sitting.plugged();
-        sitting.frames(100);
-        ASSERT_EQ(sitting.end(), "") << seed;
-        EXPECT_TRUE(sitting.in_order()) << seed << ": " << sitting.state();
-        EXPECT_EQ(sitting.eyes().wrongs, "") << seed;
-        EXPECT_TRUE(has_words(sitting.state(), "each eye gets 60 Hz")) << sitting.state();
-        refreshes += sitting.eyes().kept;
+        own.fail(0, 0);
+        if (!sitting.end().empty()) { // the program is started again
+            EXPECT_TRUE(has_words(sitting.end(), "display: ")) << sitting.end();
+            evening.reset();
+            evening.emplace(other, seed);
+            ++starts;
+        }
+        expect_order_after_plugging(other, *evening);
+        refreshes += evening->eyes().kept;
     }
+    EXPECT_LT(starts, 30) << "most histories need no new start";
     EXPECT_GT(refreshes, 20'000);
 }
 
@@ -196,6 +212,7 @@ TEST_F(EyeOrderTest, AnyCallMayFailOnceInTurn) {
             sitting.sleep(6);
             sitting.frames(3);
             outcome.calls = own.calls();
+            sitting.frame(); // the state tells of a failed call with the next picture
             const auto says = [&sitting](std::string_view words) {
                 return has_words(sitting.state(), words);
             };
@@ -283,15 +300,12 @@ TEST_F(EyeOrderTest, WithoutAtomicCommitsTheUpperHalfIsShown) {
 TEST_F(EyeOrderTest, ASlowModeIsTakenOnlyWithoutAFastOneAndItsNumberIsTold) {
     desk.card.plug(desk.hdmi, {kernel_mode(320, 200, 60.0, true)});
     Sitting sitting(desk, 9);
-    desk.card.refresh_us = 16'667;
     sitting.frames(30);
     EXPECT_EQ(sitting.state(),
               "the projector at HDMI-A-1 is lit, 320 x 200 at 60 Hz; each eye gets 30 Hz, which "
               "flickers: set display.mode to one of at least 100 Hz");
     EXPECT_EQ(sitting.condition().health, DeviceHealth::Impaired);
     EXPECT_EQ(sitting.condition().id, "display.eyes_flicker");
-    desk.card.plug(desk.hdmi, {kernel_mode(320, 200, 60.0, true), kernel_mode(256, 192, 120.0)});
-    desk.card.refresh_us = turn_us;
     desk.card.unplug(desk.hdmi);
     sitting.plugged();
     sitting.frames(5);

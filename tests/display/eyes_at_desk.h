@@ -67,10 +67,10 @@ private:
 /// Takes the place of the thread: a call of the card's file wakes it after `latency`.
 class EyesOnTestClock final : public KmsDevice {
 public:
-    EyesOnTestClock(KmsDevice& device, FakeCard& card, std::function<Nanoseconds()> latency)
-        : clock_(device), order_(clock_), card_(card), latency_(std::move(latency)),
-          refreshes_at_(from_microseconds(static_cast<std::int64_t>(card.time_us + card.refresh_us))) {
-        clock_.time = from_microseconds(static_cast<std::int64_t>(card.time_us));
+    EyesOnTestClock(KmsDevice& device, CardOnDesk& desk, std::function<Nanoseconds()> latency)
+        : clock_(device), order_(clock_), desk_(desk), card_(desk.card), latency_(std::move(latency)),
+          refreshes_at_(from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us))) {
+        clock_.time = from_microseconds(static_cast<std::int64_t>(card_.time_us));
     }
     KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                     std::uint64_t ticket) override {
@@ -90,6 +90,10 @@ public:
             pass_until(std::min(until, now() + std::chrono::microseconds(500)));
             shown = order_.next_shown();
         }
+        if (shown) {
+            confirmed_ = shown->answer == KmsAnswer::Done ? accepted : confirmed_;
+            accepted = confirmed_; // a failure that is told takes the picture back
+        }
         return shown;
     }
     [[nodiscard]] bool flips_keep_time() const override { return clock_.flips_keep_time(); }
@@ -108,6 +112,9 @@ public:
             clock_.time = std::max(clock_.time, next);
             if (refreshes_at_ <= wakes_at_) {
                 card_.refresh();
+                if (const auto shown = card_.shown(desk_.hdmi)) {
+                    card_.refresh_us = period_us(shown->mode);
+                }
                 refreshes_at_ =
                     from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us));
                 wakes_at_ = std::min(wakes_at_, now() + latency_());
@@ -122,10 +129,17 @@ public:
     std::uint32_t accepted = 0; ///< the newest picture that was taken to be shown
 
 private:
+    /// The card refreshes at the rate of the mode that it shows.
+    [[nodiscard]] static std::uint64_t period_us(const drmModeModeInfo& mode) {
+        return std::uint64_t{1'000} * mode.htotal * mode.vtotal / mode.clock;
+    }
+
     OnTestClock clock_;
     EyeOrder order_;
+    const CardOnDesk& desk_;
     FakeCard& card_;
     std::function<Nanoseconds()> latency_;
+    std::uint32_t confirmed_ = 0; ///< the newest picture that was said to be shown
     MonotonicTime refreshes_at_;
     MonotonicTime wakes_at_ = MonotonicTime::max();
 };
@@ -230,7 +244,7 @@ public:
             return;
         }
         kms_ = make_kms_device(*card_);
-        clock_.emplace(*kms_, desk.card, [this] { return latency(); });
+        clock_.emplace(*kms_, desk, [this] { return latency(); });
         seen_eyes_.emplace(desk.card, desk.hdmi, clock_->accepted);
         presenter_.emplace(
             *clock_, [this](PixelSize size) { return StampedPair::make(card_->file(), size, clock_->drawn); },
