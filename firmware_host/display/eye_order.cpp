@@ -61,15 +61,12 @@ void EyeOrder::turn() {
     if (answer == KmsAnswer::Done) {
         return;
     }
-    const bool taken = next_is_taken();
-    if (next_) {
-        news_ =
-            Flipped{.time = card_.now(), .ticket = next_->ticket, .answer = taken ? KmsAnswer::Done : answer};
+    if (next_ && !next_is_taken()) {
+        news_ = Flipped{.time = card_.now(), .ticket = next_->ticket, .answer = answer};
+        next_.reset();
+    } else {
+        failed_ = answer; // the next picture may be shown yet
     }
-    if (!next_ || taken) {
-        failed_ = answer;
-    }
-    next_.reset();
 }
 
 bool EyeOrder::next_is_taken() const {
