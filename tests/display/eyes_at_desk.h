@@ -85,16 +85,11 @@ public:
     bool become_master() override { return clock_.become_master(); }
     std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
         const MonotonicTime until = now() + at_most;
-        std::optional<Flipped> shown = order_.next_shown();
-        while (!shown && now() < until) {
+        hear();
+        while (!news_ && now() < until) {
             pass_until(std::min(until, now() + std::chrono::microseconds(500)));
-            shown = order_.next_shown();
         }
-        if (shown) {
-            confirmed_ = shown->answer == KmsAnswer::Done ? accepted : confirmed_;
-            accepted = confirmed_; // a failure that is told takes the picture back
-        }
-        return shown;
+        return std::exchange(news_, std::nullopt);
     }
     [[nodiscard]] bool flips_keep_time() const override { return clock_.flips_keep_time(); }
     [[nodiscard]] bool in_turn() const override { return order_.in_turn(); }
@@ -120,6 +115,7 @@ public:
                 wakes_at_ = std::min(wakes_at_, now() + latency_());
             } else {
                 order_.turn();
+                hear();
                 wakes_at_ = std::max(order_.due(), now() + std::chrono::microseconds(100)) + latency_();
             }
         }
@@ -129,6 +125,14 @@ public:
     std::uint32_t accepted = 0; ///< the newest picture that was taken to be shown
 
 private:
+    /// Takes what the order tells: after a failure, the picture before it is the newest.
+    void hear() {
+        if (const std::optional<Flipped> shown = order_.next_shown()) {
+            confirmed_ = shown->answer == KmsAnswer::Done ? accepted : confirmed_;
+            accepted = confirmed_;
+            news_ = shown;
+        }
+    }
     /// The card refreshes at the rate of the mode that it shows.
     [[nodiscard]] static std::uint64_t period_us(const drmModeModeInfo& mode) {
         return std::uint64_t{1'000} * mode.htotal * mode.vtotal / mode.clock;
@@ -139,6 +143,7 @@ private:
     const CardOnDesk& desk_;
     FakeCard& card_;
     std::function<Nanoseconds()> latency_;
+    std::optional<Flipped> news_;
     std::uint32_t confirmed_ = 0; ///< the newest picture that was said to be shown
     MonotonicTime refreshes_at_;
     MonotonicTime wakes_at_ = MonotonicTime::max();
