@@ -99,6 +99,22 @@ TEST_F(EyeOrderTest, AReportThatIsLostIsNotWaitedForLong) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
+TEST_F(EyeOrderTest, ALatePictureIsWaitedForAlsoIfTheNextFlipFails) {
+    Sitting sitting(desk, 11);
+    sitting.frames(5);
+    sitting.frame(std::chrono::milliseconds(15));
+    desk.card.late = 30;
+    sitting.rest(std::chrono::milliseconds(1)); // the card takes the picture
+    kernel.fail_always("drmModeAtomicCommit", EINVAL);
+    sitting.frames(3);
+    EXPECT_EQ(sitting.eyes().by_card, 1) << "the test has an effect";
+    EXPECT_EQ(sitting.condition().id, "display.picture_refused");
+    kernel.fail_always("drmModeAtomicCommit", 0);
+    sitting.frames(100);
+    EXPECT_TRUE(sitting.in_order());
+    EXPECT_EQ(sitting.eyes().wrongs, "");
+}
+
 TEST_F(EyeOrderTest, SleepsAndWakesInOrder) {
     Sitting sitting(desk, 7);
     sitting.frames(5);
