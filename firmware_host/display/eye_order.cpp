@@ -40,6 +40,7 @@ KmsAnswer EyeOrder::flip(FramebufferId shown, std::uint64_t ticket) {
         return std::exchange(failed_, KmsAnswer::Done);
     }
     next_ = Picture{shown, ticket};
+    next_since_ = card_.now();
     stopped_ = false;
     const KmsAnswer answer = flip_on();
     if (answer != KmsAnswer::Done) {
@@ -60,12 +61,16 @@ void EyeOrder::turn() {
     if (answer == KmsAnswer::Done) {
         return;
     }
-    if (next_) {
+    if (next_ && !next_is_taken()) {
         news_ = Flipped{.time = card_.now(), .ticket = next_->ticket, .answer = answer};
         next_.reset();
     } else {
-        failed_ = answer;
+        failed_ = answer; // the next picture may be shown yet
     }
+}
+
+bool EyeOrder::next_is_taken() const {
+    return next_ && queued_ && queued_->picture.ticket == next_->ticket;
 }
 
 MonotonicTime EyeOrder::due() const {
@@ -123,7 +128,9 @@ KmsAnswer EyeOrder::flip_on() {
         queued_ = Queued{.picture = picture, .first_row = *row, .at = now};
     } else if (answer == KmsAnswer::Busy) {
         not_before_ = now + busy_pause;
-    } else if (answer == KmsAnswer::Refused && *row > 0 && !right_shown_) {
+        const bool too_long = next_ && !next_is_taken() && now - next_since_ >= lost_after;
+        return too_long ? answer : KmsAnswer::Done;
+    } else if (answer == KmsAnswer::Refused && turns && !right_shown_) {
         ++refusals_; // the left eye's picture stays
         not_before_ = now + busy_pause;
     } else {

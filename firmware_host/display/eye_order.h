@@ -24,7 +24,8 @@ public:
     explicit EyeOrder(KmsDevice& card) : card_(card) {}
 
     /// As those of KmsDevice. The framebuffer holds the left eye's rows, `shown.size.height` of them, and as many of the
-    /// right eye's below. Busy where the flip for the next refresh is not done: no further one follows it, so try again.
+    /// right eye's below. A flip that is Done takes effect, or `next_shown` tells that it failed. Busy where the flip for the
+    /// next refresh is not done: no further one follows it, so try again.
     [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket);
     [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket);
@@ -57,6 +58,8 @@ private:
     void take(const Flipped& flipped);
     /// Flips for the next refresh, if nothing is queued. Done also where there is nothing to do yet.
     [[nodiscard]] KmsAnswer flip_on();
+    /// Whether the card has taken a flip to the next picture; its report may be lost.
+    [[nodiscard]] bool next_is_taken() const;
     /// The first row of the eye of the next refresh; nullopt: a flip may miss that refresh.
     [[nodiscard]] std::optional<int> next_row(MonotonicTime now);
 
@@ -66,6 +69,7 @@ private:
     Flipped last_;      ///< the card's last flip
     std::optional<Picture> shown_;
     std::optional<Picture> next_; ///< not shown yet
+    MonotonicTime next_since_;
     std::optional<Queued> queued_;
     std::uint64_t ticket_ = 0; ///< of the last call of the card
     std::optional<MonotonicTime> not_before_;
@@ -73,7 +77,7 @@ private:
     KmsAnswer failed_ = KmsAnswer::Done; ///< for the next `flip`: a flip without news failed
     bool stopped_ = false;               ///< no flip until the caller's next picture
     bool right_shown_ = false;           ///< since `light`
-    int refusals_ = 0;                   ///< of the right eye's first flip
+    int refusals_ = 0;                   ///< of flips before the right eye's first
 };
 
 } // namespace frustumscreen::display

@@ -372,7 +372,10 @@ void Presenter::lose_card() {
 
 void Presenter::lose(MessageId id, std::string_view why) {
     lit_.reset();
-    queued_.reset();
+    if (queued_) {
+        free_ = 1 - queued_->framebuffer; // the card took the flip: only its report is missing
+        queued_.reset();
+    }
     late_ = false;
     darken_ = false;
     clock_ = {};

@@ -67,10 +67,10 @@ private:
 /// Takes the place of the thread: a call of the card's file wakes it after `latency`.
 class EyesOnTestClock final : public KmsDevice {
 public:
-    EyesOnTestClock(KmsDevice& device, FakeCard& card, std::function<Nanoseconds()> latency)
-        : clock_(device), order_(clock_), card_(card), latency_(std::move(latency)),
-          refreshes_at_(from_microseconds(static_cast<std::int64_t>(card.time_us + card.refresh_us))) {
-        clock_.time = from_microseconds(static_cast<std::int64_t>(card.time_us));
+    EyesOnTestClock(KmsDevice& device, CardOnDesk& desk, std::function<Nanoseconds()> latency)
+        : clock_(device), order_(clock_), desk_(desk), card_(desk.card), latency_(std::move(latency)),
+          refreshes_at_(from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us))) {
+        clock_.time = from_microseconds(static_cast<std::int64_t>(card_.time_us));
     }
     KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                     std::uint64_t ticket) override {
@@ -85,12 +85,11 @@ public:
     bool become_master() override { return clock_.become_master(); }
     std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
         const MonotonicTime until = now() + at_most;
-        std::optional<Flipped> shown = order_.next_shown();
-        while (!shown && now() < until) {
+        hear();
+        while (!news_ && now() < until) {
             pass_until(std::min(until, now() + std::chrono::microseconds(500)));
-            shown = order_.next_shown();
         }
-        return shown;
+        return std::exchange(news_, std::nullopt);
     }
     [[nodiscard]] bool flips_keep_time() const override { return clock_.flips_keep_time(); }
     [[nodiscard]] bool in_turn() const override { return order_.in_turn(); }
@@ -108,11 +107,15 @@ public:
             clock_.time = std::max(clock_.time, next);
             if (refreshes_at_ <= wakes_at_) {
                 card_.refresh();
+                if (const auto shown = card_.shown(desk_.hdmi)) {
+                    card_.refresh_us = period_us(shown->mode);
+                }
                 refreshes_at_ =
                     from_microseconds(static_cast<std::int64_t>(card_.time_us + card_.refresh_us));
                 wakes_at_ = std::min(wakes_at_, now() + latency_());
             } else {
                 order_.turn();
+                hear();
                 wakes_at_ = std::max(order_.due(), now() + std::chrono::microseconds(100)) + latency_();
             }
         }
@@ -122,10 +125,26 @@ public:
     std::uint32_t accepted = 0; ///< the newest picture that was taken to be shown
 
 private:
+    /// Takes what the order tells: after a failure, the picture before it is the newest.
+    void hear() {
+        if (const std::optional<Flipped> shown = order_.next_shown()) {
+            confirmed_ = shown->answer == KmsAnswer::Done ? accepted : confirmed_;
+            accepted = confirmed_;
+            news_ = shown;
+        }
+    }
+    /// The card refreshes at the rate of the mode that it shows.
+    [[nodiscard]] static std::uint64_t period_us(const drmModeModeInfo& mode) {
+        return std::uint64_t{1'000} * mode.htotal * mode.vtotal / mode.clock;
+    }
+
     OnTestClock clock_;
     EyeOrder order_;
+    const CardOnDesk& desk_;
     FakeCard& card_;
     std::function<Nanoseconds()> latency_;
+    std::optional<Flipped> news_;
+    std::uint32_t confirmed_ = 0; ///< the newest picture that was said to be shown
     MonotonicTime refreshes_at_;
     MonotonicTime wakes_at_ = MonotonicTime::max();
 };
@@ -164,7 +183,7 @@ private:
             wrongs.size() < 500 ? "refresh " + std::to_string(card_.refreshes) + ": " + what + "; " : "";
     }
     void look() {
-        const bool stayed = stamp_ && begun_ && card_.has(scanned_.framebuffer);
+        const bool stayed = stamp_ && card_.has(scanned_.framebuffer);
         if (stayed && stamp_of(scanned_.framebuffer, scanned_.first_row) != *stamp_) {
             wrong("a picture changed while it was scanned out");
         }
@@ -230,7 +249,7 @@ public:
             return;
         }
         kms_ = make_kms_device(*card_);
-        clock_.emplace(*kms_, desk.card, [this] { return latency(); });
+        clock_.emplace(*kms_, desk, [this] { return latency(); });
         seen_eyes_.emplace(desk.card, desk.hdmi, clock_->accepted);
         presenter_.emplace(
             *clock_, [this](PixelSize size) { return StampedPair::make(card_->file(), size, clock_->drawn); },

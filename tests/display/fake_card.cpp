@@ -351,20 +351,17 @@ void FakeCard::refresh() {
                 send_event(pending, crtc);
             }
             lost -= lost > 0 ? 1 : 0;
-            scan(crtc, refreshes - pending.queued_at, pending.modeset);
+            if (const FakePlane* plane = primary(crtc); plane != nullptr) {
+                scanned_[crtc] =
+                    Scanned{.framebuffer = static_cast<std::uint32_t>(value(plane->id, "FB_ID")),
+                            .first_row = static_cast<std::uint32_t>(value(plane->id, "SRC_Y") >> 16U),
+                            .waited = refreshes - pending.queued_at,
+                            .modeset = pending.modeset};
+            }
         }
     }
     if (refreshed) {
         refreshed();
-    }
-}
-
-void FakeCard::scan(std::uint32_t crtc, std::uint32_t waited, bool modeset) {
-    if (const FakePlane* plane = primary(crtc); plane != nullptr) {
-        scanned_[crtc] = Scanned{.framebuffer = static_cast<std::uint32_t>(value(plane->id, "FB_ID")),
-                                 .first_row = static_cast<std::uint32_t>(value(plane->id, "SRC_Y") >> 16U),
-                                 .waited = waited,
-                                 .modeset = modeset};
     }
 }
 

@@ -15,7 +15,7 @@
 ///                               driver lacks ERANGE; a non-blocking commit on a CRTC whose previous commit
 ///                               is not done EBUSY
 ///          drm_crtc.c           drm_mode_setcrtc: no connector for a mode, or no mode for a connector,
-///                               EINVAL; a framebuffer that is too small ENOSPC
+///                               EINVAL; a framebuffer that is too small ENOSPC; it returns when the mode is shown
 ///          drm_plane.c          drm_mode_page_flip_ioctl: nothing is shown, or a flip is pending: EBUSY
 ///          drm_framebuffer.c    removing a framebuffer, or closing its file, turns off its planes; without
 ///                               atomic commits the CRTC
@@ -234,9 +234,9 @@ private:
     [[nodiscard]] bool needs_modeset(const State& next, std::uint32_t crtc) const;
     void turn_off(State& state, std::uint32_t crtc) const;
     void settle(State next);
+    /// Blocks until what is queued is on the screen.
+    void finish_pending(std::uint32_t crtc);
     void forget_unheld_blobs();
-    /// The CRTC's state is scanned out from now on.
-    void scan(std::uint32_t crtc, std::uint32_t waited, bool modeset);
     void send_event(const Pending& pending, std::uint32_t crtc) const;
 
     std::uint32_t last_id_ = 30;

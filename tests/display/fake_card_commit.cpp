@@ -169,7 +169,7 @@ int FakeCard::commit(FakeFile& file, std::span<const FakeChange> changes, std::u
             if ((flags & DRM_MODE_ATOMIC_NONBLOCK) != 0) {
                 return -EBUSY;
             }
-            refresh();
+            finish_pending(crtc);
         }
     }
     for (const std::uint32_t crtc : touched) {
@@ -227,12 +227,21 @@ int FakeCard::set_crtc(std::uint32_t crtc, std::uint32_t framebuffer,
     }
     const int refused = judge(next);
     if (refused == 0) {
-        refresh(); // blocks until queued work is done
+        finish_pending(crtc);
         settle(std::move(next));
-        scan(crtc, 0, true);
+        if (mode != nullptr) {
+            pending_[crtc] = Pending{.queued_at = refreshes, .modeset = true};
+            finish_pending(crtc);
+        }
     }
     forget_unheld_blobs();
     return refused;
+}
+
+void FakeCard::finish_pending(std::uint32_t crtc) {
+    while (pending_.contains(crtc)) {
+        refresh();
+    }
 }
 
 int FakeCard::page_flip(FakeFile& file, std::uint32_t crtc, std::uint32_t framebuffer, std::uint32_t flags,
