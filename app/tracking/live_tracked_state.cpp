@@ -79,6 +79,9 @@ bool LiveTrackedState::take(const tracker::PoseSample& sample) {
     PoseEstimator& estimator = sample.station == tracker::prop_station ? prop_ : head_;
     const geometry::RigidTransform table_from_station{sample.rotation, sample.position_m}; // perhaps not unit
     const Taken taken = estimator.take(sample.time, table_from_station);
+    if (taken == Taken::Used && sample.station == tracker::head_station && two_eyes_.half_apart_m > 0.0) {
+        glasses_worn_ = glasses_.worn(sample.time, {glm::normalize(sample.rotation), sample.position_m});
+    }
     return taken == Taken::Used || taken == Taken::Late;
 }
 
@@ -174,8 +177,7 @@ void LiveTrackedState::look_for_turn(const PoseEstimate& head, const PoseEstimat
     PoseEstimate turn = goal; // glides when the eye does
     turn.pose = {level_head(tracked_state.eye_m, tracked_state.table_from_prop.translation), glm::dvec3(0.0)};
     if (tracked_state.head_known) {
-        const bool worn = glasses_.worn(tracked_state.time, head.pose);
-        both = worn || !two_eyes_.glasses_may_lie;
+        both = glasses_worn_ || !two_eyes_.glasses_may_lie;
         turn.pose.rotation = head.pose.rotation;
     } else {
         glasses_.forget();

@@ -81,7 +81,9 @@ private:
     std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
     TwoEyes two_eyes_;
     ShownPose shown_turn_; ///< of the head; at the table's origin
-    WornGlasses glasses_;
+    WornGlasses
+        glasses_; ///< by the sensor's own poses: a prediction for a slow picture would add to their noise
+    bool glasses_worn_ = true;
     EyesApart eyes_apart_;
 };
 

@@ -18,14 +18,14 @@ namespace frustumscreen::tracking {
 class WornGlasses {
 public:
     static constexpr Nanoseconds still_for = std::chrono::seconds(6);
-    /// The exhibit's filter lets a noisy sample through now and then, as the begin of a movement; a follower of this time
-    /// constant calms that, and is moved by 1 mm soon after a hand takes the glasses.
+    /// A follower of this time constant calms the tracker's noise, and is moved by 1 mm soon after a hand takes the
+    /// glasses.
     static constexpr Nanoseconds calm_within = std::chrono::milliseconds(500);
     /// Movement of a point `lever_m` from the sensor: shift plus turn.
     static constexpr double still_m = 0.001;
     static constexpr double lever_m = 0.1;
 
-    /// `table_from_sensor`: smoothed (pose_estimator.h).
+    /// `table_from_sensor`: as the tracker reports it.
     [[nodiscard]] bool worn(MonotonicTime time, const geometry::RigidTransform& table_from_sensor);
     /// The sensor is lost; its next pose begins anew.
     void forget() { calm_.reset(); }
