@@ -78,7 +78,7 @@ TEST_P(SolidPicture, ShowsWhatRaysSee) {
         const glm::dvec3 lens = to_prop * (lens_m - poses[k].place_m);
         const Agreement seen =
             agreement(points, prop, star, eye, lens,
-                      [&](int x, int y) {
+                      [&](double x, double y) {
                           return to_prop * glm::dvec3((x + 0.5 - 0.5 * width) / focal_px,
                                                       (0.5 * height - y - 0.5) / focal_px, -1.0);
                       },

@@ -184,7 +184,7 @@ protected:
             const Agreement seen = agreement(
                 read_points(text(fmt::format("{}/frame_{:05}.pfm", eye, k)), size_px), prop, star,
                 to_prop(eye_m - pose.place_m), to_prop(above_m - pose.place_m),
-                [&](int x, int y) {
+                [&](double x, double y) {
                     return to_prop(glm::dvec3((x + 0.5 - 0.5 * size_px.x) / focal_px,
                                               (0.5 * size_px.y - y - 0.5) / focal_px, -1.0));
                 },
