@@ -14,7 +14,7 @@ constexpr double plate_m = 0.004;
 constexpr double max_rim_m = 0.006;
 constexpr double max_rim_share = 0.1; ///< of the prop's height
 
-/// What the prop covers from its foot up to a height, seen from above. The prop is convex: a line between any two of its
+/// The area that the prop covers from its foot up to a height, from above. The prop is convex: a line between any two of its
 /// corners lies in it, and those between neighbours bound it.
 settings::Polygon covered_up_to(const geometry::PropShape& prop, double height_m) {
     std::vector<glm::dvec2> places;

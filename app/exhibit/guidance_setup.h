@@ -1,4 +1,4 @@
-/// What guidance works on: its set-up from the settings, and each situation from the tracked state.
+/// The inputs of guidance: its set-up from the settings, and each situation from the tracked state.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -26,8 +26,6 @@ struct StereoLayout {
     std::size_t count = 1;     ///< eyes
     /// The left eye's, then the right eye's.
     std::array<EyePicture, 2> pictures{};
-
-    [[nodiscard]] std::span<const EyePicture> eyes() const { return std::span(pictures).first(count); }
 };
 [[nodiscard]] StereoLayout stereo_layout(const geometry::Pinhole& projector, settings::Stereo stereo);
 /// `view` as each eye of the layout sees it: its own eye, pinhole and part of the display's picture. `eyes_m`: one for

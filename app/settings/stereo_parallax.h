@@ -20,7 +20,7 @@ namespace frustumscreen::settings {
 /// Science and Technology 53(3).
 inline constexpr double comfortable_parallax_rad = 0.017453292519943295;
 
-/// Of an artifact that fills the prop, for eyes `distance_m` from the middle of its foot, at any elevation that the
+/// The parallax of an artifact that fills the prop, for eyes `distance_m` from the middle of its foot, at any elevation that the
 /// settings allow; in the hand, all around. 0 if no such eye is outside the prop.
 [[nodiscard]] double largest_parallax_rad(const Settings& settings, double distance_m);
 

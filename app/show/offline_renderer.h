@@ -75,8 +75,6 @@ public:
         return draw(table_from_prop, std::span(&eye_m, 1));
     }
 
-    [[nodiscard]] const scene::StereoLayout& layout() const { return layout_; }
-
     [[nodiscard]] const geometry::Pinhole& projector() const { return projector_; }
     [[nodiscard]] const geometry::PropShape& prop() const { return prop_; }
     /// "level0", "relief96", ...: the choice of "auto", "finest" or "relief".

@@ -89,7 +89,7 @@ private:
 
     [[nodiscard]] const Moment& moment(std::size_t back) const; ///< 0 = the latest
     void remember(const Moment& moment);
-    /// Of the latest two, the shorter.
+    /// The shorter of the latest two.
     [[nodiscard]] Nanoseconds usual_interval() const { return std::min(steps_[0], steps_[1]); }
     [[nodiscard]] Nanoseconds stale_after() const;
     Taken take_up(const Moment& measured);

@@ -1,4 +1,4 @@
-/// Whether somebody wears the glasses that carry the head's sensor, or they lie on the table.
+/// Tells whether somebody wears the glasses that carry the head's sensor, or the glasses lie on the table.
 ///
 /// Worn     a living head is never still: it sways, breathes and nods by millimetres. Glasses lie if the smoothed pose
 ///          of their sensor has stayed within `still_m` of one place for `still_for`; they are worn again from the
@@ -27,7 +27,7 @@ public:
 
     /// `table_from_sensor`: as the tracker reports it.
     [[nodiscard]] bool worn(MonotonicTime time, const geometry::RigidTransform& table_from_sensor);
-    /// The sensor is lost; its next pose begins anew.
+    /// Forgets all poses, because the sensor is lost.
     void forget() { calm_.reset(); }
 
 private:

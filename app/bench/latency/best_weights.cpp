@@ -47,7 +47,7 @@ Eigen::RowVector3d row_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// What the weights multiply: shifts, or turns.
+/// The steps that the weights multiply: shifts or turns.
 Steps past_steps(std::span<const RecordedPose> samples, const Asked& asked, std::size_t memory, bool turns) {
     Steps steps(static_cast<Eigen::Index>(2 * memory), 3);
     const geometry::RigidTransform& latest = samples[asked.latest].pose;
