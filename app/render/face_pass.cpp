@@ -43,7 +43,8 @@ void set_face(const Shader& shader, const scene::FaceLight& light) {
 void set_draw(const Shader& shader, const scene::Draw& draw) {
     glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
     glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
-    glUniform3fv(shader.location(Uniform::PropFromUnit), 2, glm::value_ptr(draw.prop_from_unit[0]));
+    glUniformMatrix4fv(shader.location(Uniform::PropFromUnit), 1, GL_FALSE,
+                       glm::value_ptr(draw.prop_from_unit));
     glUniformMatrix4fv(shader.location(Uniform::ClipFromUnit), 1, GL_FALSE,
                        glm::value_ptr(draw.clip_from_unit));
 }

@@ -60,7 +60,7 @@ constexpr std::string_view surface_vertex = R"(
 layout(location = 0) in vec3 position; // 0..1 over the artifact's box
 uniform mat4 clip_from_unit;
 #ifdef PLACES
-uniform vec3 prop_from_unit[2]; // scale, offset
+uniform mat4 prop_from_unit;
 out vec3 point;
 #endif
 #if !defined(PLACES) || defined(CUT_OUT)
@@ -70,7 +70,7 @@ out vec2 texel;
 void main() {
     gl_Position = bent(clip_from_unit * vec4(position, 1.0));
 #ifdef PLACES
-    point = prop_from_unit[0] * position + prop_from_unit[1];
+    point = vec3(prop_from_unit * vec4(position, 1.0));
 #endif
 #if !defined(PLACES) || defined(CUT_OUT)
     texel = uv;

@@ -93,14 +93,19 @@ glm::vec4 corner_in_clip(const glm::dvec3& corner, const glm::dmat4& clip) {
     return glm::vec4(glm::dvec4(at.x, at.y, 0.0, at.w));
 }
 
-FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
+FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop,
+                     const glm::dmat4& placed_from_prop, double metres_per_box,
                      const glm::dmat4& clip_from_box, const geometry::Pinhole& pinhole) {
     FaceVolume volume;
-    const glm::dvec3 eye = eye_in_prop / metres_per_box;
+    const auto in_box = [&](const glm::dvec3& in_prop) {
+        return glm::dvec3(placed_from_prop * glm::dvec4(in_prop, 1.0)) / metres_per_box;
+    };
+    const double side = glm::determinant(glm::dmat3(placed_from_prop)) < 0.0 ? -1.0 : 1.0;
+    const glm::dvec3 eye = in_box(eye_in_prop);
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-        const glm::dvec3 a = face.corners[k] / metres_per_box - eye;
-        const glm::dvec3 b = face.corners[face.corners.next(k)] / metres_per_box - eye;
-        const glm::dvec3 inward = glm::cross(b, a);
+        const glm::dvec3 a = in_box(face.corners[k]) - eye;
+        const glm::dvec3 b = in_box(face.corners[face.corners.next(k)]) - eye;
+        const glm::dvec3 inward = side * glm::cross(b, a);
         volume.add(glm::dvec4(inward, -glm::dot(inward, eye)));
     }
     const glm::dvec4 w = row(clip_from_box, 3);

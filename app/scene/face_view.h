@@ -43,10 +43,11 @@ struct FaceView {
 [[nodiscard]] glm::vec4 corner_in_clip(const glm::dvec3& corner, const glm::dmat4& clip);
 
 /// The pyramid from the eye through the face, and the picture's edges seen through the face's collineation;
-/// edges bent by a lens are replaced by straight ones around them. Box frame.
+/// edges bent by a lens are replaced by straight ones around them. Box frame: `placed_from_prop`, divided by
+/// `metres_per_box`; `placed_from_prop` may mirror.
 [[nodiscard]] FaceVolume volume_of(const geometry::PropFace& face, const glm::dvec3& eye_in_prop,
-                                   double metres_per_box, const glm::dmat4& clip_from_box,
-                                   const geometry::Pinhole& pinhole);
+                                   const glm::dmat4& placed_from_prop, double metres_per_box,
+                                   const glm::dmat4& clip_from_box, const geometry::Pinhole& pinhole);
 
 /// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
 /// a large box holds few triangles. Returns the pixels around all marked tiles.

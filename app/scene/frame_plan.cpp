@@ -8,6 +8,8 @@
 #include "app/scene/plan_hash.h"
 #include "app/scene/prop_outline.h"
 
+#include <glm/gtc/matrix_inverse.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -32,10 +34,22 @@ struct Shared {
     }
 };
 
-/// The level's box in the prop frame.
+/// Around the level in the prop frame.
 geometry::Box box_of(const PlacedLevel& level) {
-    const glm::dvec3 extent = level.box_size * level.metres_per_box;
-    return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
+    const geometry::Box placed = level.placed_box();
+    if (level.prop_from_placed == glm::dmat4(1.0)) {
+        return placed;
+    }
+    geometry::Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                      glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (unsigned k = 0; k < 8; ++k) {
+        const glm::dvec3 corner((k & 1U) != 0 ? placed.high.x : placed.low.x,
+                                (k & 2U) != 0 ? placed.high.y : placed.low.y,
+                                (k & 4U) != 0 ? placed.high.z : placed.low.z);
+        const glm::dvec3 at(level.prop_from_placed * glm::dvec4(corner, 1.0));
+        box = {glm::min(box.low, at), glm::max(box.high, at)};
+    }
+    return box;
 }
 
 Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view) {
@@ -90,25 +104,31 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
     return bounds;
 }
 
+/// Takes 0..1 over a box to where `frame` takes the box.
+glm::dmat4 from_unit(const glm::dmat4& frame, const geometry::Box& box) {
+    glm::dmat4 from_unit = frame;
+    for (int axis = 0; axis < 3; ++axis) {
+        from_unit[axis] *= (box.high - box.low)[axis];
+    }
+    from_unit[3] = frame * glm::dvec4(box.low, 1.0);
+    return from_unit;
+}
+
 /// The fields common to a mesh and a relief.
-Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& clip_from_box,
+Draw draw_level(const Part& part, const glm::dmat4& clip_from_placed, const glm::dmat4& clip_from_box,
                 const Shared& shared) {
     const PlacedLevel& level = part.level;
-    const geometry::Box box = box_of(level);
-    glm::dmat4 clip_from_unit = through.clip_from_prop;
-    for (int axis = 0; axis < 3; ++axis) {
-        clip_from_unit[axis] *= (box.high - box.low)[axis];
-    }
-    clip_from_unit[3] = through.clip_from_prop * glm::dvec4(box.low, 1.0);
+    const geometry::Box box = level.placed_box();
     Draw draw;
     draw.shader.dithered = part.dither.has_value();
     draw.shader.even_light = shared.view.light.has_value();
     draw.drawable = level.drawable;
-    draw.clip_from_unit = glm::mat4(clip_from_unit);
-    draw.prop_from_unit = {glm::vec3(box.high - box.low), glm::vec3(box.low)};
+    draw.clip_from_unit = glm::mat4(from_unit(clip_from_placed, box));
+    draw.prop_from_unit = glm::mat4(from_unit(level.prop_from_placed, box));
     draw.pixels_per_box =
         pixels_per_unit(clip_from_box, {0.0, 0.0, 0.5 * level.box_size.z}, shared.view.projector);
     draw.brightness = static_cast<float>(shared.view.brightness);
+    draw.light = level.light;
     draw.dither = part.dither.value_or(Dither{});
     return draw;
 }
@@ -118,11 +138,12 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
                               const Shared& shared, FramePlan& plan) {
     const PlacedLevel& level = part.level;
     const double scale = level.metres_per_box;
-    glm::dmat4 clip_from_box = through.clip_from_prop;
+    const glm::dmat4 clip_from_placed = through.clip_from_prop * level.prop_from_placed;
+    glm::dmat4 clip_from_box = clip_from_placed;
     for (int axis = 0; axis < 3; ++axis) {
         clip_from_box[axis] *= scale;
     }
-    Draw draw = draw_level(part, through, clip_from_box, shared);
+    Draw draw = draw_level(part, clip_from_placed, clip_from_box, shared);
     if (level.relief) {
         if (level.on_gpu) {
             draw.shader.blocks = true;
@@ -136,9 +157,12 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
         return draw;
     }
     draw.shader.cut_out = level.drawable.material.cut_out;
-    plan.front.update(*level.triangles, through.eye_in_prop / scale);
+    const glm::dmat4 placed_from_prop = glm::affineInverse(level.prop_from_placed);
+    plan.front.update(*level.triangles,
+                      glm::dvec3(placed_from_prop * glm::dvec4(through.eye_in_prop, 1.0)) / scale);
     draw.bounds = show_triangles(
-        *level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box, shared.view.projector),
+        *level.triangles,
+        volume_of(face, through.eye_in_prop, placed_from_prop, scale, clip_from_box, shared.view.projector),
         glm::mat4(clip_from_box), through.bounds, plan, draw.range);
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
@@ -152,12 +176,11 @@ bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan&
     relief_draw.relief = level.drawable.mesh;
     relief_draw.on_gpu = level.on_gpu;
     relief_draw.metres_per_box = level.metres_per_box;
+    relief_draw.light = level.light;
     relief_draw.samples = level.samples;
     relief_draw.even_light = shared.view.light.has_value();
     relief::RasterScene scene;
-    for (int axis = 0; axis < 3; ++axis) {
-        scene.prop_from_box[axis][axis] = level.metres_per_box;
-    }
+    scene.prop_from_box = level.prop_from_box();
     scene.box_size = level.box_size;
     scene.projector = shared.view.projector;
     scene.prop_from_projector =
@@ -330,6 +353,14 @@ void compensate(const Shared& shared, const LightCompensation& compensation, std
 }
 
 } // namespace
+
+glm::dmat4 PlacedLevel::prop_from_box() const {
+    glm::dmat4 prop_from_box = prop_from_placed;
+    for (int axis = 0; axis < 3; ++axis) {
+        prop_from_box[axis] *= metres_per_box;
+    }
+    return prop_from_box;
+}
 
 PlacedLevel placed(const pack::Pack& pack, std::shared_ptr<const relief::BlockRelief> relief,
                    double metres_per_box, const Drawable& drawable) {

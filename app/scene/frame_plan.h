@@ -11,6 +11,7 @@
 ///          picture.
 #pragma once
 
+#include "app/geometry/collineation.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
@@ -47,8 +48,17 @@ struct PlacedLevel {
         relief{};        ///< drawn instead of the triangles; `drawable` names it
     bool on_gpu = false; ///< the GPU draws the relief; otherwise it is rasterized on
                          ///< the processor
+    /// Moves the placed box inside the prop: a cell's pose (world/cell.h). An affine transform.
+    glm::dmat4 prop_from_placed{1.0};
+    glm::vec3 light{1.0F}; ///< factor of its colours, linear light, red, green and blue
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
+    /// Of its box as placed, before `prop_from_placed`.
+    [[nodiscard]] geometry::Box placed_box() const {
+        const glm::dvec3 extent = box_size * metres_per_box;
+        return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
+    }
+    [[nodiscard]] glm::dmat4 prop_from_box() const;
 };
 [[nodiscard]] PlacedLevel placed(const pack::Pack& pack, std::uint32_t level, double metres_per_box,
                                  const Drawable& drawable = {});
@@ -134,6 +144,7 @@ struct ReliefDraw {
     bool on_gpu = false;
     relief::RasterView view;
     double metres_per_box = 1.0;
+    glm::vec3 light{1.0F};   ///< PlacedLevel::light
     int samples = 1;         ///< a pixel
     bool even_light = false; ///< evens out the projector's light
 };
@@ -149,12 +160,13 @@ struct Draw {
     /// PackVertex::position / 65535 -> clip. A quadrilateral's columns are its corners, depth 0: top left,
     /// top right, bottom right, bottom left of its picture.
     glm::mat4 clip_from_unit{1.0F};
-    glm::dmat4 clip_from_box{1.0};             ///< for a relief drawn by the GPU, for its grids
-    std::array<glm::vec3, 2> prop_from_unit{}; ///< metres: prop point = [0] * (position / 65535) + [1]
+    glm::dmat4 clip_from_box{1.0};  ///< for a relief drawn by the GPU, for its grids
+    glm::mat4 prop_from_unit{1.0F}; ///< PackVertex::position / 65535 -> metres
     IndexRange range;
     PixelRectangle bounds;       ///< contains every pixel that it can light
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
+    glm::vec3 light{1.0F};       ///< PlacedLevel::light
     Dither dither;               ///< used if the shader dithers
     std::size_t relief_draw = 0; ///< for a relief: index into FramePlan::relief_draws
 };

@@ -26,6 +26,12 @@ void hash_corners(const geometry::PerCorner<glm::vec4>& corners, Hash& hash) {
     }
 }
 
+void hash_colour(const glm::vec3& colour, Hash& hash) {
+    for (int k = 0; k < 3; ++k) {
+        hash.add_float(colour[k]);
+    }
+}
+
 void hash_draw(const Draw& draw, Hash& hash) {
     hash.add(bits_of(draw.shader));
     hash.add(static_cast<std::uint64_t>(draw.drawable.mesh));
@@ -38,6 +44,7 @@ void hash_draw(const Draw& draw, Hash& hash) {
     }
     hash.add(draw.range.count);
     hash.add_float(draw.brightness);
+    hash_colour(draw.light, hash);
     hash.add_float(draw.dither.share);
     hash.add(static_cast<std::uint64_t>(draw.dither.complement));
 }

@@ -5,6 +5,8 @@
 #pragma once
 
 #include "app/image/image.h"
+#include "app/world/behaviour.h"
+#include "app/world/cell.h"
 
 #include <glm/glm.hpp>
 
@@ -62,6 +64,19 @@ struct SourceReduction {
     double mean = 0.0, p95 = 0.0, max = 0.0;
 };
 
+/// The file's nodes that have triangles, or that such a node or a moving one hangs from.
+struct SourceNode {
+    std::string name;                  ///< unique: the file's own, with a number where it is not, or "node 7"
+    std::optional<std::size_t> parent; ///< index into SourceMesh::nodes, before this one
+    glm::dmat4 parent_from_base{1.0};  ///< of a root: file_from_base; a matrix of the file, or nodes left out
+    world::LocalPose rest;             ///< base_from_node, as the file's translation, rotation and scale
+};
+/// An animation of the file that moves nodes; morph targets and joints of skins are not kept (gltf_losses.h).
+struct SourceAnimation {
+    std::string name;                     ///< unique, as of nodes
+    std::vector<world::Channel> channels; ///< `cell`: index into SourceMesh::nodes
+};
+
 /// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
@@ -72,6 +87,10 @@ struct SourceMesh {
     std::vector<std::uint32_t> triangle_materials;       ///< one per triangle
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
+    /// Empty: the file has no nodes, or only one with triangles and no animation. The triangles are at rest.
+    std::vector<SourceNode> nodes;
+    std::vector<std::uint32_t> triangle_nodes; ///< one per triangle, index into `nodes`; empty without nodes
+    std::vector<SourceAnimation> animations;
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
     SourceAbout about;

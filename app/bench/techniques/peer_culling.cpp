@@ -57,8 +57,8 @@ void VisibleParts::find(const PeerTriangles& mesh, const geometry::Box& box, con
         for (int axis = 0; axis < 3; ++axis) {
             clip_from_box[axis] *= mesh.metres_per_box;
         }
-        const scene::FaceVolume volume =
-            scene::volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box, view.projector);
+        const scene::FaceVolume volume = scene::volume_of(*face.face, view.eye_m, glm::dmat4(1.0),
+                                                          mesh.metres_per_box, clip_from_box, view.projector);
         const glm::mat4 clip(clip_from_box);
         std::vector<scene::IndexRange> ranges;
         PixelRectangle bounds;
