@@ -68,6 +68,8 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
             return std::vector<std::uint32_t>{};
         });
     TRY_VOID(pack);
+    TRY(opened.world, open_world(settings, file, opened.outline.description, opened.plan,
+                                 request_of(settings, options, opened.outline)));
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != settings::SoundKind::None));
@@ -165,6 +167,9 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
             all.first = std::move(*first);
         } else {
             opened->plan.needs = with_cut_outs(opened->plan.needs);
+        }
+        if (opened->world) {
+            opened->plan.needs = with_cut_outs(needs_of(*opened->world, opened->plan.needs));
         }
         all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));

@@ -64,14 +64,18 @@ Result<ScenePlan> plan_cell(const settings::Settings& settings, const pack::Pack
     return plan;
 }
 
-double pixels_around(const FramePlan& plan, MeshId mesh) {
-    double pixels = 0.0;
-    for (const Draw& draw : plan.draws) {
-        if (draw.face != Draw::on_table && draw.drawable.mesh == mesh) {
-            pixels += static_cast<double>(draw.bounds.width) * static_cast<double>(draw.bounds.height);
-        }
-    }
-    return pixels;
+double pixels_of(const PlacedLevel& level, const PlanView& view) {
+    const glm::dmat4 prop_from_box = level.prop_from_box();
+    const glm::dvec3 x = level.box_size.x * glm::dvec3(prop_from_box[0]);
+    const glm::dvec3 y = level.box_size.y * glm::dvec3(prop_from_box[1]);
+    const glm::dvec3 z = level.box_size.z * glm::dvec3(prop_from_box[2]);
+    const double silhouette_m2 =
+        0.5 * (glm::length(glm::cross(x, y)) + glm::length(glm::cross(y, z)) + glm::length(glm::cross(z, x)));
+    const glm::dvec3 middle(prop_from_box * glm::dvec4(0.0, 0.0, 0.5 * level.box_size.z, 1.0));
+    const double away_m =
+        glm::distance(view.table_from_prop.point(middle), view.table_from_projector.translation);
+    const double pixels_per_m = away_m > 0.0 ? view.projector.fx / away_m : 0.0;
+    return silhouette_m2 * pixels_per_m * pixels_per_m;
 }
 
 } // namespace frustumscreen::scene

@@ -31,7 +31,8 @@ void set_pose(PlacedLevel& level, const world::CellPose& pose, double artifact_m
                                           const ScenePlan& whole, const world::CellPose& at_rest,
                                           SceneRequest request);
 
-/// Pixels around what the plan shows of a drawable. To weight the errors of parts.
-[[nodiscard]] double pixels_around(const FramePlan& plan, MeshId mesh);
+/// Pixels that a part takes in the projector's picture, for the work and the weight of a cell among others: its box's
+/// silhouette, averaged over all directions (Cauchy: a quarter of the surface).
+[[nodiscard]] double pixels_of(const PlacedLevel& level, const PlanView& view);
 
 } // namespace frustumscreen::scene

@@ -153,7 +153,7 @@ void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
-/// Of several parts the mean, weighted by the pixels around each.
+/// Of several parts the mean, weighted by the pixels of each.
 std::optional<scene::ErrorEstimate> OfflineRenderer::error_in(const scene::PlanView& view,
                                                               const scene::FramePlan& plan) const {
     if (parts_.size() == 1) {
@@ -163,7 +163,7 @@ std::optional<scene::ErrorEstimate> OfflineRenderer::error_in(const scene::PlanV
     double pixels = 0.0;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         const scene::PlacedLevel& level = parts_[k].level;
-        const double own = scene::pixels_around(plan, level.drawable.mesh);
+        const double own = scene::pixels_of(level, view);
         if (const auto error = scene::estimate_error(shown_[k].seen, prop_, level, view, plan)) {
             sum.mean_mm += own * error->mean_mm;
             sum.p95_mm += own * error->p95_mm;
