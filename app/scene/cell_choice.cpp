@@ -116,9 +116,12 @@ std::span<const std::size_t> CellChoice::choose(MonotonicTime now, std::span<con
     }
     const CellOption present = sum(chosen_, options);
     solve(options, entered_share * budget_us);
-    const bool fits = present.cost_us <= budget_us;
-    const bool is_worth = sum(wanted_, options).error_mm < worth_changing * present.error_mm;
-    if (!fits || (is_worth && may_change(now))) {
+    const CellOption better = sum(wanted_, options);
+    if (present.cost_us > budget_us) {
+        if (better.cost_us <= budget_us || better.cost_us < worth_changing * present.cost_us) {
+            change(now);
+        }
+    } else if (better.error_mm < worth_changing * present.error_mm && may_change(now)) {
         change(now);
     }
     return chosen_;

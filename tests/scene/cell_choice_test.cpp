@@ -141,7 +141,13 @@ TEST(CellChoice, KeepsTheBudgetInEveryFrameAndChangesEachCellRarely) {
     MonotonicTime now;
     std::vector<MonotonicTime> changed(start.counts.size());
     std::uniform_real_distribution<double> noise(0.95, 1.05);
-    const double budget_us = 1800.0;
+    double min_us = std::numeric_limits<double>::infinity();
+    double max_us = 0.0;
+    for_each_choice(start, [&](const CellOption& sum) {
+        min_us = std::min(min_us, sum.cost_us);
+        max_us = std::max(max_us, sum.cost_us);
+    });
+    const double budget_us = 0.5 * (min_us + max_us);
     for (int frame = 0; frame < 2000; ++frame, now += milliseconds(16)) {
         Given noisy = start;
         for (CellOption& option : noisy.options) {
