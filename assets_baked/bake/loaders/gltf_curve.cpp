@@ -10,6 +10,8 @@ namespace frustumscreen::bake {
 
 namespace {
 
+constexpr double min_quaternion = 1e-3; ///< as a pack allows it
+
 /// A number of the file as a curve holds it; refuses what 32 bits cannot hold.
 float in_32_bits(double number, const std::string& place, std::size_t element) {
     const auto value = static_cast<float>(number);
@@ -65,7 +67,7 @@ glm::vec4 checked_rotation(const glm::vec4& value, const GltfSampler& sampler, s
         return value;
     }
     const double length = glm::length(glm::dvec4(value));
-    if (length < 1e-6) {
+    if (length < min_quaternion) {
         refuse_contradiction("{}.output: element {} is not a rotation: its length is zero", sampler.place,
                              element);
     }
