@@ -56,7 +56,7 @@ public:
           const BakeOptions& options)
         : mesh_(mesh), frame_(frame), options_(options), moves_(moves) {}
 
-    [[nodiscard]] Result<WorldCells> bake() {
+    [[nodiscard]] WorldCells bake() {
         make_tree();
         std::vector<std::optional<std::size_t>> cell_of_triangle;
         for (const std::uint32_t node : mesh_.triangle_nodes) {
@@ -71,7 +71,7 @@ public:
         for (std::size_t k = 0; k < made_.cells.size(); ++k) {
             made_.geometry.emplace_back();
             if (meshes.triangles_of(k) > 0) {
-                TRY_VOID(bake_cell(k, meshes.mesh_of(k), done / all, (done + weights_[k]) / all));
+                bake_cell(k, meshes.mesh_of(k), done / all, (done + weights_[k]) / all);
             }
             done += weights_[k];
         }
@@ -132,15 +132,19 @@ private:
         return options;
     }
 
-    Result<void> bake_cell(std::size_t k, const SourceMesh& mesh, double begin, double end) {
+    void bake_cell(std::size_t k, const SourceMesh& mesh, double begin, double end) {
         const Bounds bounds = bounds_of(mesh);
         pack::PackCell& cell = made_.cells[k];
         if (!(bounds.longest() >= min_extent_box)) {
             flat_.push_back(cell.cell.name);
-            return {};
+            return;
         }
-        TRY(pack::Pack pack, at(fmt::format("the part '{}'", printable(cell.cell.name, 40)),
-                                bake::bake(mesh, options_of(bounds.longest(), cell_moves_[k], begin, end))));
+        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds.longest(), cell_moves_[k], begin, end));
+        if (!baked) { // has triangles, and yet no surface
+            flat_.push_back(cell.cell.name);
+            return;
+        }
+        pack::Pack pack = *std::move(baked);
         pack.title = cell.cell.name;
         cell.cell.has_geometry = true;
         cell.cell.cell_from_geometry = glm::inverse(pack.box_from_file * box_from_cell_[k]);
@@ -148,7 +152,6 @@ private:
         cell.low = bounds.low;
         cell.high = bounds.high;
         made_.geometry[k] = std::move(pack);
-        return {};
     }
 
     void tell() {
@@ -156,7 +159,7 @@ private:
             made_.notes.push_back(
                 {SourceNote::Kind::Lost,
                  fmt::format(
-                     "movements of parts that have no size at rest ({}): give them a size in the model; "
+                     "movements of parts that have no surface at rest ({}): give them one in the model; "
                      "they do not move",
                      printable(fmt::format("{}", fmt::join(flat_, ", ")), 200))});
         }
@@ -176,8 +179,8 @@ private:
 
 } // namespace
 
-Result<WorldCells> bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const std::vector<bool>& moves,
-                              const BakeOptions& options) {
+WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const std::vector<bool>& moves,
+                      const BakeOptions& options) {
     return Cells(mesh, frame, moves, options).bake();
 }
 

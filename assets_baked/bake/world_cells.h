@@ -3,9 +3,8 @@
 /// Frames   cells hang in the whole artifact's box; at rest each lies where the whole has it.
 /// Size     a cell has texels as large as the whole's, so fewer of them; `measuring` shrinks with it.
 /// Sides    a cell that moves keeps the sides that no visitor sees while it rests.
-/// Told     a part without size at rest, or in a frame that is pressed flat, is no cell: its triangles stay with the part
-///          that it hangs from, and it does not move.
-/// Errors   one line, which begins with the cell's name.
+/// Told     a part in a frame that is pressed flat is no cell: its triangles stay with the part that it hangs from, and it
+///          does not move. A cell without a surface has no geometry.
 /// Threads  uses all cores; `progress` is called on the caller's thread.
 #pragma once
 
@@ -29,7 +28,7 @@ struct WorldCells {
 
 /// The mesh has nodes. `frame`: of the whole, as `options` make it. `moves`: one for each node, true if something moves
 /// it; what hangs from it moves too.
-[[nodiscard]] Result<WorldCells> bake_cells(const SourceMesh& mesh, const BoxFrame& frame,
-                                            const std::vector<bool>& moves, const BakeOptions& options);
+[[nodiscard]] WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame,
+                                    const std::vector<bool>& moves, const BakeOptions& options);
 
 } // namespace frustumscreen::bake

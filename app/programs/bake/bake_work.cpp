@@ -123,24 +123,6 @@ TimeLeft time_left(const ExpectedTime& expected) {
 /// Share of the work of a bake with cells that the whole artifact is.
 constexpr double whole_share = 0.5;
 
-/// What moves the parts. Without cells, notes what of it is lost.
-Result<std::vector<pack::PackBehaviour>> movements_of(const BakeRequest& request,
-                                                      const bake::SourceMesh& mesh, BakeResult& result) {
-    std::vector<std::string> lost;
-    TRY(std::vector<pack::PackBehaviour> behaviours, behaviours_of(request.behaviours, mesh, lost));
-    for (const std::string& each : lost) {
-        result.notes.push_back({bake::SourceNote::Kind::Lost, each});
-    }
-    if (!result.cells.nodes && !behaviours.empty()) {
-        result.notes.push_back(
-            {bake::SourceNote::Kind::Lost,
-             fmt::format("{} of its parts, since --cells none says so",
-                         behaviours.size() == 1 ? "the movement"
-                                                : fmt::format("{} movements", behaviours.size()))});
-    }
-    return behaviours;
-}
-
 Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
     const double read = expected_time(written.scan).reading_share();
@@ -157,7 +139,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     };
     begin_stages(read, std::lerp(read, 1.0, whole));
     result.notes = mesh.notes;
-    TRY(std::vector<pack::PackBehaviour> behaviours, movements_of(written, mesh, result));
+    TRY(std::vector<pack::PackBehaviour> behaviours, movements_of(written, mesh, result.cells, result.notes));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);

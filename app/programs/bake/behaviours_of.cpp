@@ -195,4 +195,20 @@ Result<std::vector<pack::PackBehaviour>> behaviours_of(std::span<const folder::A
     return made;
 }
 
+Result<std::vector<pack::PackBehaviour>> movements_of(const BakeRequest& request,
+                                                      const bake::SourceMesh& mesh, const CellsChoice& cells,
+                                                      std::vector<bake::SourceNote>& notes) {
+    std::vector<std::string> lost;
+    TRY(std::vector<pack::PackBehaviour> behaviours, behaviours_of(request.behaviours, mesh, lost));
+    if (!cells.nodes && !behaviours.empty()) {
+        const std::string movements =
+            behaviours.size() == 1 ? "the movement" : fmt::format("{} movements", behaviours.size());
+        lost = {fmt::format("{} of its parts, since {}", movements, cells.why)};
+    }
+    for (const std::string& each : lost) {
+        notes.push_back({bake::SourceNote::Kind::Lost, each});
+    }
+    return behaviours;
+}
+
 } // namespace frustumscreen::programs

@@ -57,8 +57,7 @@ Result<pack::PackWorld> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh
                                   const bake::BakeOptions& options, std::vector<bake::SourceNote>& notes) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {up, options.turn_deg, options.lift}));
-    TRY(bake::WorldCells cells,
-        bake::bake_cells(mesh, frame, moved_by(behaviours, mesh.nodes.size()), options));
+    bake::WorldCells cells = bake::bake_cells(mesh, frame, moved_by(behaviours, mesh.nodes.size()), options);
     notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
     for (std::size_t k = 0; k < cells.cells.size(); ++k) {
         pack::PackProvenance provenance = pack.provenance;
