@@ -191,12 +191,12 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        needs.draws.insert(scene::raster_shader(dithered));
         if (reliefs_on_gpu) {
             key.blocks = true;
             needs.draws.insert(key);
         }
     }
+    needs.draws.insert(scene::raster_shader());
     needs.relief_draws = 2; // in a fade
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});

@@ -197,9 +197,9 @@ void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades,
         if (even_light) {
             keys.push_back({.dithered = dithered, .even_light = true});
         }
-        if (is_raster) {
-            plan.needs.draws.insert(raster_shader(dithered));
-        }
+    }
+    if (is_raster) {
+        plan.needs.draws.insert(raster_shader());
     }
     for (ShaderKey key : keys) {
         if (!plan.levels.empty()) {

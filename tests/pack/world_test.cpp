@@ -1,5 +1,6 @@
 // The sections cells and behaviours: written and read. The refusals are in hostile_world_test.cpp.
 #include "app/pack/check_parts.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/curves_part.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/sign_pack.h"
