@@ -200,7 +200,7 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
     needs.relief_draws = 2; // in a fade
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
-    return with_cut_outs(needs);
+    return with_cut_outs(scene::with_cells(std::move(needs)));
 }
 
 TextStyle text_style(const settings::Settings& settings) {

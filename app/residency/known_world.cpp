@@ -116,12 +116,12 @@ scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& w
     }
     needs.relief_draws = relief_draws;
     for (scene::ShaderKey key : scene::RenderNeeds(needs).draws) {
-        if (key.pass == scene::ShaderKey::Pass::Surface || key.pass == scene::ShaderKey::Pass::Raster) {
+        if (key.pass == scene::ShaderKey::Pass::Surface) {
             key.dithered = true;
             needs.draws.insert(key);
         }
     }
-    return needs;
+    return scene::with_cells(std::move(needs));
 }
 
 Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const KnownWorld& known,

@@ -256,7 +256,9 @@ std::optional<scene::ErrorEstimate> RunCells::estimate(const geometry::PropShape
         double pixels = 0.0;
         for (const Cell& cell : cells_) {
             const Option& option = options_[cell.first + cell.coming.value_or(cell.shown)];
-            const auto own = scene::estimate_error(option.seen, prop, option.placed, views[eye], plans_[eye]);
+            scene::PlacedLevel placed = option.placed;
+            scene::set_pose(placed, poses_[cell.number], metres_per_box_);
+            const auto own = scene::estimate_error(option.seen, prop, placed, views[eye], plans_[eye]);
             if (own) {
                 sum.mean_mm += cell.pixels * own->mean_mm;
                 sum.p95_mm += cell.pixels * own->p95_mm;

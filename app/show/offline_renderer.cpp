@@ -44,7 +44,7 @@ std::vector<Source> sources_of(const OfflineScene& scene) {
     return sources;
 }
 
-scene::RenderNeeds needs_of(const std::vector<Source>& sources) {
+scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves) {
     scene::RenderNeeds needs;
     std::size_t relief_draws = 0;
     for (const Source& source : sources) {
@@ -54,7 +54,7 @@ scene::RenderNeeds needs_of(const std::vector<Source>& sources) {
         relief_draws += own.relief_draws;
     }
     needs.relief_draws = relief_draws;
-    return needs;
+    return moves ? scene::with_cells(std::move(needs)) : needs;
 }
 
 Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
@@ -113,8 +113,8 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 
 Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     const std::vector<Source> sources = sources_of(scene);
-    TRY(renderer_,
-        render::Renderer::create(layout_.display.width, layout_.display.height, needs_of(sources)));
+    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
+                                            needs_of(sources, scene.world.has_value())));
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
