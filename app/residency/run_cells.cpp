@@ -127,8 +127,8 @@ double RunCells::load() const {
 }
 
 bool RunCells::fades() const {
-    return std::any_of(cells_.begin(), cells_.end(),
-                       [](const Cell& cell) { return cell.coming.has_value(); });
+    return leaves_ || std::any_of(cells_.begin(), cells_.end(),
+                                  [](const Cell& cell) { return cell.coming.has_value(); });
 }
 
 bool RunCells::step(MonotonicTime now, double load) {
@@ -141,7 +141,7 @@ bool RunCells::step(MonotonicTime now, double load) {
         }
         shows_ = true;
         leaves_.reset();
-    } else if (shows_ && !leaves_ && !fades()) {
+    } else if (shows_ && !fades()) {
         leaves_ = now;
     } else if (leaves_ && to_seconds(now - *leaves_) >= level_fade_s) {
         shows_ = false;
@@ -274,7 +274,7 @@ std::optional<scene::ErrorEstimate> RunCells::estimate(const geometry::PropShape
 
 /// As FrameTimeModel: the load follows the logarithm of measured over expected.
 void RunCells::record_time(MonotonicTime now, double ms) {
-    if (leaves_ || fades() || !scene::FrameTimeModel::is_time(ms) || !(expected_ms_ > 0.0)) {
+    if (fades() || !scene::FrameTimeModel::is_time(ms) || !(expected_ms_ > 0.0)) {
         return;
     }
     const double dt_s = std::clamp(to_seconds(now - timed_), 0.0, scene::FrameTimeModel::max_dt_s);

@@ -57,6 +57,8 @@ public:
     [[nodiscard]] bool step(MonotonicTime now, double load);
     /// True if the latest step drew cells.
     [[nodiscard]] bool shows() const { return shows_; }
+    /// True if a cell fades from one level to another, or the cells fade back to the whole.
+    [[nodiscard]] bool fades() const;
 
     /// `whole`: what the artifact's RunLevels would draw; `views`: one for each eye of the scene plan.
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const scene::PlacedLevel& whole,
@@ -88,7 +90,6 @@ private:
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
-    [[nodiscard]] bool fades() const;
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
     void choose(MonotonicTime now, int samples, const scene::PlanView& view);

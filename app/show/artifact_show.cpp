@@ -407,8 +407,8 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     const residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
     const residency::RunLevels* const shown = artifact_cache.find(presentation.artifact);
     residency::LevelState levels = shown != nullptr ? shown->state() : residency::LevelState{};
-    if (const residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
-        cells != nullptr && cells->shows()) {
+    const residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
+    if (cells != nullptr && cells->shows()) {
         levels.level = residency::level_of_cells;
         levels.error = cells->error();
     }
@@ -418,7 +418,7 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     ShowState state{.artifact = kept(artifact_cache.known(presentation.artifact).outline.description.title),
                     .language = kept(presentation.language),
                     .levels = levels,
-                    .settled = presentation.settled};
+                    .settled = presentation.settled && (cells == nullptr || !cells->fades())};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
     state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;
