@@ -207,10 +207,15 @@ world::Behaviour opening() {
     return behaviour;
 }
 
+/// Without cells.
+pack::Pack whole_chest() {
+    return baked(Triangles(nodes_at_rest()).all, scale);
+}
+
 pack::Pack chest() {
     const std::array<BoxNode, 3> rest = nodes_at_rest();
     const std::vector<std::array<glm::dvec3, 3>> all = Triangles(rest).all;
-    pack::Pack whole = baked(all, scale);
+    pack::Pack whole = whole_chest();
     pack::PackWorld world;
     std::vector<pack::Pack> geometry;
     for (std::size_t k = 0; k < rest.size(); ++k) {
@@ -290,15 +295,19 @@ protected:
                         "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
                         width, height, focal_px, lens_m.z, prop_file()));
         put("poses.csv", pose_file(poses_));
-        const Result<Bytes> bytes = pack::write_pack(chest());
+        put_pack("chest.fspack", chest());
+    }
+    void put_pack(const std::string& name, const pack::Pack& pack) const {
+        const Result<Bytes> bytes = pack::write_pack(pack);
         ASSERT_TRUE(bytes) << bytes.error().message;
-        ASSERT_TRUE(write_file(folder / "chest.fspack", *bytes));
+        ASSERT_TRUE(write_file(folder / name, *bytes));
     }
     [[nodiscard]] static std::string prop_file() { return source_dir() + "/config/prop_cube.obj"; }
-    [[nodiscard]] int render(const std::string& more) const {
-        return run("frustumscreen render --config kiosk.toml --pack chest.fspack --poses poses.csv --out out "
-                   "--no-light " +
-                   more);
+    [[nodiscard]] int render(const std::string& more, const std::string& pack = "chest.fspack") const {
+        return run(
+            fmt::format("frustumscreen render --config kiosk.toml --pack {} --poses poses.csv --out out "
+                        "--no-light {}",
+                        pack, more));
     }
     /// Compares the written hit points with rays.
     void compare(double close_m, double outline_px) const {
@@ -332,12 +341,35 @@ TEST_F(BehaviourPicture, ShowsTheMovedCellsWhereRaysSeeThem) {
     compare(1e-4, 0.1);
 }
 
-TEST_F(BehaviourPicture, NamesTheBehavioursThatThereAre) {
-    EXPECT_EQ(render("--behaviour close"), 1);
-    const std::string told = text("err.txt");
-    EXPECT_NE(told.find("--behaviour close: the pack has no such behaviour; it has open"), std::string::npos)
-        << told;
-    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+/// A box's faces are exact in a relief but for its texels; the outline moves by up to half a texel.
+TEST_F(BehaviourPicture, ShowsReliefsAndPolygonsWhereRaysSeeThem) {
+    for (const char* technique : {"relief", "relief-gpu"}) {
+        ASSERT_EQ(render(fmt::format("--technique {} --aov --behaviour open", technique)), 0)
+            << text("err.txt");
+        compare(2e-3, 1.0);
+    }
+}
+
+TEST_F(BehaviourPicture, IsTheWholeArtifactsWithoutTheOption) {
+    put_pack("whole.fspack", whole_chest());
+    ASSERT_EQ(render("--technique finest --aov", "whole.fspack"), 0) << text("err.txt");
+    const std::string picture = text("out/frame_00003.png");
+    const std::string points = text("out/frame_00003.pfm");
+    ASSERT_EQ(render("--technique finest --aov"), 0) << text("err.txt");
+    EXPECT_EQ(text("out/frame_00003.png"), picture);
+    EXPECT_EQ(text("out/frame_00003.pfm"), points);
+}
+
+TEST_F(BehaviourPicture, RefusesABehaviourThatThereIsNotInOneLine) {
+    const auto refused = [&](const std::string& pack, const std::string& words) {
+        EXPECT_EQ(render("--behaviour close", pack), 1);
+        const std::string told = text("err.txt");
+        EXPECT_NE(told.find(words), std::string::npos) << told;
+        EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+    };
+    refused("chest.fspack", "--behaviour close: the pack has no such behaviour; it has open");
+    put_pack("whole.fspack", whole_chest());
+    refused("whole.fspack", "--behaviour close: the pack has no behaviours");
 }
 
 } // namespace
