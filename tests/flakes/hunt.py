@@ -119,8 +119,8 @@ class Hunt:
                 return record
             with open(file, encoding="utf-8", errors="replace") as lines:
                 trace = inputs.Trace(lines, self._places)
-        with self._lock:
-            record.files = self._digests.of_all({self._places.name(path): way for path, way in trace.used.items()})
+        trace.used.setdefault(self._places.path(test.command[0].replace("$root/", "")), inputs.READ)  # the script that started it
+        record.files = self._digests.of_all({self._places.name(path): way for path, way in trace.used.items()})
         record.only_computes = inputs.only_computes(trace, self._places)
         if not trace.asks_git:
             record.commit = None
