@@ -2,16 +2,16 @@
 """Looks for tests that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
 
 Each test of `ctest` passes 20 runs beside six busy loops, three tests at a time; then the emulated machines start five times
-(./test hil, ./test image), and all of continuous integration runs three times. What has passed is remembered in out/flakes, run by
-run, and a hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another change of
-the working tree; a test of ctest does when its inputs change, which one more run, under strace, tells (inputs.py). A test that
-asks git, or that cannot run under strace, begins anew with a commit, too. Tests that never passed all their runs come first, of these first
-those with threads.
+(./test hil, ./test image), and all of continuous integration runs three times. out/flakes remembers what has passed, run by run, and a
+hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another
+change of the working tree. A test of ctest begins anew when its inputs change, which one more run, under strace, tells (inputs.py).
+A test that asks git, or that cannot run under strace, begins anew with a commit, too. Tests that never passed all their runs come
+first, and among these the ones with threads.
 
-Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of tests
-whose threads only share out arithmetic. Of other programs of the build the run under strace shows it: one process and one thread from its
-start to its end, no wait, no socket, no lock, no timer, no file of /proc or /sys, and in the program's disassembly no call of a clock or of
-random numbers but those of GoogleTest, since strace does not see how a clock is read.
+Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of
+tests whose threads only share out arithmetic. The run under strace finds the others: a program of the build that is one process and
+one thread from its start to its end, without a wait, a socket, a lock, a timer or a file of /proc or /sys. Nor may its
+disassembly have a call of a clock or of random numbers, apart from GoogleTest's, since strace does not see how a clock is read.
 """
 
 import argparse
@@ -78,8 +78,9 @@ def hunt_tests(hunt, places, loops, parallel):
     tests = list(tests_of(places))
     labelled = [test for test in tests if "computes" in test.labels]
     waiting = hunt.waiting(test for test in tests if test not in labelled)
-    print(f"== {len(tests)} tests of ctest: {len(waiting)} to run, {len(tests) - len(waiting) - len(labelled) - len(hunt.only_compute)} passed "
-          f"with the same inputs, {len(labelled) + len(hunt.only_compute)} only compute", flush=True)
+    left_out = len(labelled) + len(hunt.only_compute)
+    print(f"== {len(tests)} tests of ctest: {len(waiting)} to run, {len(tests) - len(waiting) - left_out} passed with the same inputs, "
+          f"{left_out} only compute", flush=True)
     with Load(loops), concurrent.futures.ThreadPoolExecutor(parallel) as pool:
         try:
             for _ in pool.map(hunt.make, waiting):

@@ -193,8 +193,9 @@ class Programs(MadeUpRepository):
 
     def test_what_only_computes(self):
         self.assertTrue(self.only_computes("sum", "int main(int count, char**) { return count - 1; }\n"))
-        self.assertTrue(self.only_computes("googletest", "#include <chrono>\nnamespace testing { __attribute__((noinline)) long now() { return "
-                                           "std::chrono::steady_clock::now().time_since_epoch().count(); } }\nint main() { return testing::now() == 0; }\n"))
+        self.assertTrue(self.only_computes("googletest", "#include <chrono>\nnamespace testing { __attribute__((noinline)) long now() { "
+                                           "return std::chrono::steady_clock::now().time_since_epoch().count(); } }\n"
+                                           "int main() { return testing::now() == 0; }\n"))
 
     def test_what_does_more(self):
         for name, text in {"clock": "#include <chrono>\nint main() { return std::chrono::steady_clock::now().time_since_epoch().count() == 0; }\n",

@@ -130,7 +130,8 @@ class Hunt:
         """What a failed run printed, or nothing."""
         environment = dict(os.environ, **({"FRUSTUMSCREEN_UNDER": under} if under else {}))
         begun = time.monotonic()
-        ran = subprocess.run(["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error", "--output-on-failure"],
+        ran = subprocess.run(["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error",
+                              "--output-on-failure"],
                              env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         record.seconds = round(time.monotonic() - begun, 1)
         return (ran.stdout or b"it printed nothing\n") if ran.returncode else b""

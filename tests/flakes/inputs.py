@@ -1,8 +1,9 @@
-"""What decides a test's result: what it asked the kernel for in one run under strace, and what these files hold now.
+"""What decides a test's result: the files that it used in one run under strace, and what they hold now.
 
-Files are those of the repository, of its build folder and of ../shared. A file that was opened counts by its bytes, a folder by the names in
-it; a program that was only started counts without what debuggers read, so that a comment that moves lines changes nothing; a path that was only looked
-for counts by whether it is there. What the test wrote itself does not count, nor do the system's files: another Mesa starts no test anew.
+Files are those of the repository, of its build folder and of ../shared. A file that was opened counts by its bytes, a folder by the
+names in it. A program that was only started counts without what debuggers read, so that a comment that moves lines changes nothing. A path
+that was only looked for counts by whether it is there. What the test wrote itself does not count, nor do the system's files: another
+Mesa starts no test anew.
 """
 
 import hashlib
@@ -127,7 +128,7 @@ class Trace:
         if os.path.isabs(path):
             self._use(path, way)
         else:
-            # Of the calls that programs make, execve alone has no folder; the loader's first call after it tells the folder.
+            # Nearly execve alone is traced without its folder; the loader's first call after it names the folder.
             self._relative.setdefault(process, []).append((path, way))
 
     def _use(self, path, way):
@@ -148,7 +149,7 @@ def only_computes(trace, places):
 
 
 def reads_clock(program):
-    """Whether a function of its own, or of the rooms in it, calls a clock, which strace does not see. Clocks in shared libraries do not count."""
+    """Whether a function in it, GoogleTest's apart, calls a clock, which strace does not see. Clocks in shared libraries do not count."""
     with subprocess.Popen(["objdump", "--disassemble", "--no-show-raw-insn", program], stdout=subprocess.PIPE, text=True) as disassembly:
         function, found = "", False
         for line in disassembly.stdout:
