@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,8 @@ private:
         pack::Pack pack = *std::move(baked);
         pack.title = cell.cell.name;
         cell.cell.has_geometry = true;
-        cell.cell.cell_from_geometry = glm::inverse(pack.box_from_file * box_from_cell_[k]);
+        cell.cell.cell_from_geometry =
+            glm::affineInverse(pack.box_from_file * box_from_cell_[k]);
         cell.triangles = mesh.triangles.size();
         cell.low = bounds.low;
         cell.high = bounds.high;

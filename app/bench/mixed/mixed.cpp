@@ -85,6 +85,12 @@ Learned learn_times(CellSet& set, const std::vector<BenchPose>& poses, int passe
         progress("the time model", static_cast<double>(k + 1) / uniform_ways.size());
     }
     learned.cost = scene::cost_of(times);
+    for (auto* c : {&learned.cost.mesh, &learned.cost.raster})
+        fprintf(stderr, "DEBUG cost fixed %g tri %g sample %g\n", c->fixed_ms, c->ms_per_triangle,
+                c->ms_per_sample);
+    for (auto& t : times)
+        fprintf(stderr, "DEBUG %d ms %g model %g tri %g px %g\n", t.relief, t.ms, learned.cost.ms(t),
+                t.work.triangles, t.work.pixels);
     return learned;
 }
 
@@ -112,6 +118,9 @@ void time_steps(std::vector<Step>& steps, const std::string& name, const std::ve
         progress("times, " + name, static_cast<double>(k) / static_cast<double>(steps.size()));
         steps[k].frame_ms = time_walk(*steps[k].technique, walk, passes);
         steps[k].switches = steps[k].technique->switches();
+        fprintf(stderr, "DEBUG step %s %zu p50 %g p99 %g switches %zu raster %zu draws %zu\n", name.c_str(),
+                k, quantile(steps[k].frame_ms, 0.5), steps[k].ms_p99(), steps[k].switches,
+                steps[k].technique->plan().relief_draw_count, steps[k].technique->plan().draws.size());
     }
 }
 
@@ -124,6 +133,19 @@ std::size_t largest_within(const std::vector<Step>& steps, double budget_ms) {
     const auto quickest = std::min_element(
         steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.ms_p99() < b.ms_p99(); });
     return static_cast<std::size_t>(quickest - steps.begin());
+}
+
+/// The least 99th percentile, and that of every cell at its finest.
+std::pair<double, double> range_of(const std::vector<Step>& ours, const std::vector<Step>& papers) {
+    std::vector<double> all_ms;
+    for (const auto* const steps : {&ours, &papers}) {
+        for (const Step& step : *steps) {
+            all_ms.push_back(step.ms_p99());
+        }
+    }
+    const auto least = std::min_element(all_ms.begin(), all_ms.end());
+    constexpr double kept_by_both = 1.03; // the cheapest of the two ways differ by as much as times do
+    return {kept_by_both * *least, std::max(kept_by_both * papers.back().ms_p99(), kept_by_both * *least)};
 }
 
 /// The picture's errors over a walk.
@@ -204,19 +226,18 @@ Result<MixedResult> measure_mixed(const settings::Settings& settings, const std:
     std::vector<Step> papers;
     for (int k = 0; k <= options.steps; ++k) {
         const double share = static_cast<double>(k) / options.steps;
-        constexpr double beyond = 1.25; // the model may be wrong by so much
-        const double deadline_ms = std::lerp(learned.cheapest_ms / beyond, learned.finest_ms * beyond, share);
+        constexpr double beyond = 2.0; // the model may be wrong, and one walk's frames dearer than another's
+        const double low_ms = learned.cheapest_ms / beyond;
+        const double deadline_ms = low_ms * std::pow(beyond * learned.finest_ms / low_ms, share);
         ours.push_back({make_ours(*set, deadline_ms, learned.cost), {}, 0});
         papers.push_back({make_paper(*set, result.weights, share * all_polygons(*set)), {}, 0});
     }
     time_steps(ours, "ours", walk, options.passes, progress);
     time_steps(papers, "paper", walk, options.passes, progress);
 
+    const auto [cheapest_ms, dearest_ms] = range_of(ours, papers);
     std::vector<Step*> taken;
-    constexpr double above_cheapest = 1.1;
-    for (const double budget_ms :
-         spread(learned.finest_ms, std::min(learned.finest_ms, above_cheapest * learned.cheapest_ms),
-                options.budgets)) {
+    for (const double budget_ms : spread(dearest_ms, cheapest_ms, options.budgets)) {
         for (auto* const steps : {&ours, &papers}) {
             Step& step = (*steps)[largest_within(*steps, budget_ms)];
             taken.push_back(&step);

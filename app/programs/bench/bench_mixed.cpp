@@ -1,8 +1,10 @@
 #include "app/bench/mixed/game_board.h"
 #include "app/bench/mixed/mixed.h"
+#include "app/pack/container/sha256.h"
 #include "app/pack/pack_world.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
+#include "assets_baked/artifacts/write_glb.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/load_mesh.h"
@@ -39,7 +41,11 @@ Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::Sour
     };
     TRY(pack::Pack pack, bake::bake(mesh, options));
     pack.title = "Game board";
-    pack.provenance.source_name = "game board";
+    const BenchArtifact made{folder / "game_board.fspack", folder / "game_board.glb"};
+    TRY(const Bytes glb, artifacts::write_glb(mesh));
+    TRY_VOID(write_file(made.mesh, glb));
+    pack.provenance.source_name = made.mesh.filename().string();
+    pack.provenance.source_sha256 = pack::sha256_hex(glb);
     pack.provenance.source_triangles = mesh.triangles.size();
     TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {options.up, options.turn_deg, options.lift}));
     options.progress = [&](std::string_view, double done) {
@@ -53,7 +59,6 @@ Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::Sour
     }
     TRY_VOID(pack::put_world(pack, {.cells = std::move(cells.cells), .behaviours = {}}, cells.geometry));
     TRY(const Bytes bytes, pack::write_pack(pack));
-    const BenchArtifact made{folder / "game_board.fspack", {}};
     TRY_VOID(write_file(made.pack, bytes));
     return made;
 }
@@ -106,6 +111,13 @@ BenchCommand mixed_command(CommandLine& app) {
                        "pack with cells (default: a game board, baked into --out)");
     command.add_option("--mesh", arguments->artifact.mesh, "file that the pack was baked from");
     command.add_option("--config", arguments->config, "settings of the set-up").capture_default_str();
+    command.add_option("--frames", arguments->options.frames, "length of the walk, at 60 frames a second")
+        .within(2, 100000)
+        .capture_default_str();
+    command
+        .add_option("--steps", arguments->options.steps, "of each technique's own budget, from least to most")
+        .within(1, 100)
+        .capture_default_str();
     command.add_option("--seed", arguments->options.seed, "seed of the walk").capture_default_str();
     command.add_flag("--long", arguments->is_long, "a walk of 600 frames at eight budgets");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
