@@ -85,12 +85,6 @@ Learned learn_times(CellSet& set, const std::vector<BenchPose>& poses, int passe
         progress("the time model", static_cast<double>(k + 1) / uniform_ways.size());
     }
     learned.cost = scene::cost_of(times);
-    for (auto* c : {&learned.cost.mesh, &learned.cost.raster})
-        fprintf(stderr, "DEBUG cost fixed %g tri %g sample %g\n", c->fixed_ms, c->ms_per_triangle,
-                c->ms_per_sample);
-    for (auto& t : times)
-        fprintf(stderr, "DEBUG %d ms %g model %g tri %g px %g\n", t.relief, t.ms, learned.cost.ms(t),
-                t.work.triangles, t.work.pixels);
     return learned;
 }
 
@@ -118,9 +112,6 @@ void time_steps(std::vector<Step>& steps, const std::string& name, const std::ve
         progress("times, " + name, static_cast<double>(k) / static_cast<double>(steps.size()));
         steps[k].frame_ms = time_walk(*steps[k].technique, walk, passes);
         steps[k].switches = steps[k].technique->switches();
-        fprintf(stderr, "DEBUG step %s %zu p50 %g p99 %g switches %zu raster %zu draws %zu\n", name.c_str(),
-                k, quantile(steps[k].frame_ms, 0.5), steps[k].ms_p99(), steps[k].switches,
-                steps[k].technique->plan().relief_draw_count, steps[k].technique->plan().draws.size());
     }
 }
 
