@@ -85,15 +85,15 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
         }
         indices += largest[0] + largest[1];
     }
-    can_rasterize_all_ = std::all_of(cells_.begin(), cells_.end(), [&](const Cell& cell) {
-        const std::size_t end = cell.first + cells.options[static_cast<std::size_t>(&cell - cells_.data())];
-        for (std::size_t option = cell.first; option < end; ++option) {
-            if (is_rasterized(option)) {
-                return true;
-            }
+    can_rasterize_all_ = true;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        std::size_t rasterized = 0;
+        for (std::size_t option = cells_[k].first; option < cells_[k].first + cells.options[k]; ++option) {
+            rasterized += is_rasterized(option) ? 1 : 0;
         }
-        return false;
-    });
+        can_rasterize_all_ = can_rasterize_all_ && rasterized > 0;
+        cells_[k].is_relief_alone = rasterized == cells.options[k];
+    }
     parts_.reserve(2 * cells_.size() + 1);
     plans_.assign(whole.eyes, scene::make_plan(whole.prop, indices, parts_.capacity()));
 }
@@ -186,18 +186,16 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
     if (leaves_) {
         return;
     }
-    const auto eyes = static_cast<double>(plans_.size());
     constexpr double never = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
         for (std::size_t option = cells_[k].first; option < end; ++option) {
-            const scene::CellOption own = option_of(options_[option], cells_[k].pixels, all_pixels, samples);
-            offered_[option] = rasterized_[option] = own;
-            if (is_rasterized(option)) {
-                offered_[option].cost_us +=
-                    1e3 * cost_.mesh.ms_per_sample * samples * eyes * cells_[k].pixels;
-            } else {
+            offered_[option] = rasterized_[option] =
+                option_of(options_[option], cells_[k].pixels, all_pixels, samples);
+            if (!is_rasterized(option)) {
                 rasterized_[option].cost_us = never;
+            } else if (!cells_[k].is_relief_alone) {
+                offered_[option].cost_us = never;
             }
         }
     }

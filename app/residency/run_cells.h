@@ -5,9 +5,10 @@
 ///          its place in one frame, at rest, where both show the same within their errors. When everything is at rest
 ///          again and no cell fades, the picture fades back to the whole.
 /// Choice   CellChoice: each option's error is the worst that its eyes see, its time that of its triangles or blocks and
-///          of the cell's pixels (cell_plan.h), times the load that frames have shown. A relief among polygons is drawn once
-///          more by the GPU, in each sample, so it costs a polygon's pixels too; where all cells are rasterized it does not.
-///          So two choices are made, one of rasterized reliefs alone and one of everything, and the better one is taken.
+///          of the cell's pixels (cell_plan.h), times the load that frames have shown. A rasterized
+///          relief among polygons is drawn once more by the GPU, in each sample: on the software driver 10 ms of relief and
+///          20 ms of polygons cost 40 ms together. So two choices are made, one of rasterized reliefs alone and one of all else,
+///          and the better one is taken; only fades, and cells that have nothing else, mix them.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -85,10 +86,11 @@ private:
         double triangles = 0.0; ///< or blocks
     };
     struct Cell {
-        std::size_t number = 0; ///< index into the player's cells
-        std::size_t first = 0;  ///< of its options
-        double pixels = 0.0;    ///< in this frame's picture of one eye
-        std::size_t shown = 0;  ///< index into its options
+        std::size_t number = 0;       ///< index into the player's cells
+        std::size_t first = 0;        ///< of its options
+        bool is_relief_alone = false; ///< it has rasterized reliefs and nothing else
+        double pixels = 0.0;          ///< in this frame's picture of one eye
+        std::size_t shown = 0;        ///< index into its options
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };

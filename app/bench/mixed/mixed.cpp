@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace frustumscreen::bench {
@@ -26,20 +28,16 @@ double cpu_now_ms() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// Each frame's least time over the passes, milliseconds.
-std::vector<double> time_walk(MixedTechnique& technique, const std::vector<BenchPose>& walk, int passes) {
-    std::vector<double> least(walk.size());
-    for (int pass = 0; pass < passes; ++pass) {
-        technique.begin();
-        for (std::size_t frame = 0; frame < walk.size(); ++frame) {
-            const double start_ms = cpu_now_ms();
-            technique.draw(frame, walk[frame]);
-            render::wait_until_drawn();
-            const double ms = cpu_now_ms() - start_ms;
-            least[frame] = pass == 0 ? ms : std::min(least[frame], ms);
-        }
+/// One pass over the walk: keeps each frame's least time, milliseconds.
+void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, std::vector<double>& least_ms) {
+    least_ms.resize(walk.size(), std::numeric_limits<double>::infinity());
+    technique.begin();
+    for (std::size_t frame = 0; frame < walk.size(); ++frame) {
+        const double start_ms = cpu_now_ms();
+        technique.draw(frame, walk[frame]);
+        render::wait_until_drawn();
+        least_ms[frame] = std::min(least_ms[frame], cpu_now_ms() - start_ms);
     }
-    return least;
 }
 
 std::vector<BenchPose> every(std::size_t step, const std::vector<BenchPose>& walk) {
@@ -70,8 +68,12 @@ Learned learn_times(CellSet& set, const std::vector<BenchPose>& poses, int passe
     for (std::size_t k = 0; k < uniform_ways.size(); ++k) {
         const Uniformly& way = uniform_ways.at(k);
         const std::unique_ptr<MixedTechnique> technique = make_uniform(set, way.share, way.relief);
-        (void)time_walk(*technique, every(4, poses), 1); // the driver compiles its own programs
-        const std::vector<double> ms = time_walk(*technique, poses, passes);
+        std::vector<double> ms;
+        time_pass(*technique, poses, ms);
+        ms.clear(); // the driver compiled its own programs
+        for (int pass = 0; pass < passes; ++pass) {
+            time_pass(*technique, poses, ms);
+        }
         for (std::size_t pose = 0; pose < poses.size(); ++pose) {
             times.push_back({.samples = set.whole().samples,
                              .work = uniform_work(set, way.share, way.relief, poses[pose]),
@@ -106,12 +108,15 @@ struct Step {
     [[nodiscard]] double ms_p99() const { return quantile(frame_ms, 0.99); }
 };
 
-void time_steps(std::vector<Step>& steps, const std::string& name, const std::vector<BenchPose>& walk,
-                int passes, const Progress& progress) {
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-        progress("times, " + name, static_cast<double>(k) / static_cast<double>(steps.size()));
-        steps[k].frame_ms = time_walk(*steps[k].technique, walk, passes);
-        steps[k].switches = steps[k].technique->switches();
+/// The steps take turns, so that a disturbance of the machine meets none of them in all passes.
+void time_steps(std::span<Step* const> steps, const std::vector<BenchPose>& walk, int passes,
+                const Progress& progress) {
+    for (int pass = 0; pass < passes; ++pass) {
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            progress("times", (pass + static_cast<double>(k) / static_cast<double>(steps.size())) / passes);
+            time_pass(*steps[k]->technique, walk, steps[k]->frame_ms);
+            steps[k]->switches = steps[k]->technique->switches();
+        }
     }
 }
 
@@ -223,8 +228,12 @@ Result<MixedResult> measure_mixed(const settings::Settings& settings, const std:
         ours.push_back({make_ours(*set, deadline_ms, learned.cost), {}, 0});
         papers.push_back({make_paper(*set, result.weights, share * all_polygons(*set)), {}, 0});
     }
-    time_steps(ours, "ours", walk, options.passes, progress);
-    time_steps(papers, "paper", walk, options.passes, progress);
+    std::vector<Step*> in_turn;
+    for (std::size_t k = 0; k < ours.size(); ++k) {
+        in_turn.push_back(&ours[k]);
+        in_turn.push_back(&papers[k]);
+    }
+    time_steps(in_turn, walk, options.passes, progress);
 
     const auto [cheapest_ms, dearest_ms] = range_of(ours, papers);
     std::vector<Step*> taken;
