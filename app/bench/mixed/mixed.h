@@ -28,11 +28,11 @@
 namespace frustumscreen::bench {
 
 struct MixedOptions {
-    int frames = 120;
+    int frames = 90;
     int passes = 3;
     int error_every = 6; ///< frames
     int budgets = 5;
-    int steps = 6; ///< of each technique's own budget
+    int steps = 9; ///< of each technique's own budget
     int samples = 0;
     std::uint64_t seed = 1;
 };
