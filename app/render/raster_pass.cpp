@@ -267,9 +267,7 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
 }
 
 std::uint64_t RasterPass::bytes() const {
-    return painter_ ? bytes_of_texture(colour_texels_) +
-                          (nearness_.texels.empty() ? 0 : bytes_of_texture(nearness_texels_))
-                    : 0;
+    return bytes_of_texture(colour_texels_) + bytes_of_texture(nearness_texels_);
 }
 
 } // namespace frustumscreen::render

@@ -1,6 +1,7 @@
 // Objects whose boxes interlock, each a mesh, a relief of the GPU or one of the processor: every pixel shows the object
 // that its ray meets first, and its place. Kim 2008 merges objects whose boxes collide (Fig. 7); here none are merged.
 
+#include "app/scene/error_estimate.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/interlocked.h"
 
@@ -220,6 +221,149 @@ TEST(CellsDepth, SeveralSamplesAPixelAreRightAwayFromEdges) {
 TEST(CellsDepth, ACubeInTheHandBehindALensThatDistorts) {
     check("cube", geometry::make_cube(0.16), overlapping_balls(), all_combinations(3, mesh_or_raster), 6, 1,
           lenses[2], &TestTable::hold);
+}
+
+/// Linked rings at one pose, each in a light of its own.
+struct LitRings {
+    Interlocked world{geometry::make_frustum({}), linked_tori(), 1};
+    TestTable table = table_of({});
+
+    LitRings() {
+        std::mt19937 random(3);
+        table.shuffle(random);
+    }
+    [[nodiscard]] image::Image8 picture(std::span<const Way> chosen, const std::array<glm::vec3, 2>& lights,
+                                        double brightness) {
+        world.choose(chosen);
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            world.parts[k].level.light = lights[k];
+        }
+        scene::PlanView view = table.view();
+        view.brightness = brightness;
+        return world.picture(view);
+    }
+};
+
+/// IEC 61966-2-1.
+double code_of(double linear) {
+    return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+}
+
+TEST(CellsDepth, EachPartHasItsLight) {
+    LitRings rings;
+    const std::array<glm::vec3, 2> lights{glm::vec3(0.3F, 1.0F, 1.0F), glm::vec3(0.2F, 1.6F, 1.0F)};
+    for (const double brightness : {1.0, 0.5}) {
+        const std::array<double, 2> expected{code_of(0.3 * brightness),
+                                             code_of(std::min(1.6 * brightness, 1.0))};
+        for (const std::vector<Way>& chosen : all_combinations(2, ways)) {
+            const image::Image8 picture = rings.picture(chosen, lights, brightness);
+            std::array<int, 2> counted{};
+            for (const glm::u8vec4& code : picture.texels) {
+                for (int part = 0; part < 2; ++part) {
+                    if (code[part] > 0) {
+                        ++counted[static_cast<std::size_t>(part)];
+                        EXPECT_NEAR(code[part], expected[static_cast<std::size_t>(part)], 2.0)
+                            << name_of(chosen);
+                    }
+                }
+            }
+            EXPECT_GT(std::min(counted[0], counted[1]), 200) << name_of(chosen);
+        }
+    }
+}
+
+/// The first ring fades from a relief to its mesh, in red and in half of the light, so that the pixels differ.
+TEST(CellsDepth, ACellFadesBesideAnotherAsThePatternGivesItsPixels) {
+    LitRings rings;
+    const std::array<glm::vec3, 2> bright{glm::vec3(1.0F), glm::vec3(1.0F)};
+    const std::array<glm::vec3, 2> dim{glm::vec3(0.5F), glm::vec3(1.0F)};
+    for (const Way other : {Way::Mesh, Way::RasterizedRelief}) {
+        for (const Way arriving : {Way::Mesh, Way::RasterizedRelief}) {
+            const image::Image8 from = rings.picture(std::array{Way::RasterizedRelief, other}, bright, 1.0);
+            const scene::PlacedLevel leaving = rings.world.parts[0].level;
+            const image::Image8 to = rings.picture(std::array{arriving, other}, dim, 1.0);
+            const std::array<scene::Part, 2> fading = scene::fade(leaving, rings.world.parts[0].level, 0.25);
+            const scene::Part still = rings.world.parts[1];
+            const std::array<scene::Part, 3> parts{fading[0], fading[1], still};
+            rings.world.plan = scene::make_plan(rings.world.prop, 20'000, parts.size());
+            const image::Image8 middle = rings.world.picture(rings.table.view(), parts);
+            std::size_t differing = 0;
+            std::size_t arrived = 0;
+            std::size_t neither = 0;
+            for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+                const bool is_from = farthest_channel(middle.texels[k], from.texels[k]) <= 1;
+                const bool is_to = farthest_channel(middle.texels[k], to.texels[k]) <= 1;
+                neither += is_from || is_to ? 0U : 1U;
+                const bool differ = farthest_channel(from.texels[k], to.texels[k]) > 2;
+                differing += differ ? 1U : 0U;
+                arrived += differ && is_to ? 1U : 0U;
+            }
+            EXPECT_GT(differing, 300U);
+            EXPECT_LE(neither, 2U) << static_cast<int>(other) << static_cast<int>(arriving);
+            EXPECT_NEAR(static_cast<double>(arrived) / static_cast<double>(differing), 0.25, 0.05);
+        }
+    }
+}
+
+TEST(CellsDepth, AFrameAllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    Interlocked world(geometry::make_frustum({}), overlapping_balls(), 4);
+    TestTable table = table_of({});
+    std::mt19937 random(5);
+    std::vector<TestTable> tables;
+    for (int k = 0; k < 10; ++k) {
+        table.shuffle(random);
+        tables.push_back(table);
+    }
+    world.choose(std::array{Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief});
+    world.parts[0].level.light = glm::vec3(0.5F);
+    long counted = 0;
+    for (int k = 0; k < 40; ++k) { // the first rounds reserve memory for the fullest view
+        const TestTable& from = tables[static_cast<std::size_t>(k) % tables.size()];
+        const long before = allocations_so_far();
+        scene::plan_frame(world.prop, world.parts, from.view(scene::LightCompensation{}), world.plan);
+        static_cast<void>(world.renderer->draw(world.plan,
+                                               {world.display->framebuffer(), world.display->buffer_age()},
+                                               render::Redraw::Everything));
+        counted += k < 30 ? 0 : allocations_so_far() - before;
+    }
+    EXPECT_EQ(counted, 0);
+}
+
+/// A quarter turn of the part, and of the eye with the part still: the frustum is square.
+TEST(CellsDepth, TheErrorOfATurnedPartIsThatOfAnEyeOnItsOtherSide) {
+    Interlocked world(geometry::make_frustum({}), linked_tori(), 1);
+    world.choose(std::array{Way::Mesh, Way::Mesh});
+    scene::PlacedLevel still = world.parts[0].level;
+    still.prop_from_placed = glm::dmat4(1.0);
+    scene::PlacedLevel moved = still;
+    moved.prop_from_placed = turned(90.0, {0.0, 0.0, 1.0});
+    scene::SeenLevel seen;
+    for (const double side : {1.0, -1.0}) {
+        pack::SeenEye eye;
+        eye.towards = {side, 0.0, 0.0};
+        eye.patches[0] = {{0.1 * side, 0.05, 0.2}, 1.0};
+        seen.eyes.push_back(eye);
+        pack::SeenError error{};
+        error.mean_box = side > 0.0 ? 1e-3F : 2e-3F;
+        error.p95_box = 2.0F * error.mean_box;
+        error.patches_box.fill(error.mean_box);
+        seen.errors.push_back(error);
+    }
+    const auto estimate = [&](const scene::PlacedLevel& level, const glm::dvec3& eye_m) {
+        TestTable table = table_of({});
+        table.eye_m = eye_m;
+        const scene::Part part{level, std::nullopt};
+        scene::plan_frame(world.prop, std::span(&part, 1), table.view(), world.plan);
+        return scene::estimate_error(seen, world.prop, level, table.view(), world.plan).value();
+    };
+    const scene::ErrorEstimate before = estimate(still, {0.5, 0.1, 0.5});
+    const scene::ErrorEstimate after = estimate(moved, {-0.1, 0.5, 0.5}); // turned with the part
+    EXPECT_NEAR(after.mean_mm, before.mean_mm, 1e-6 * before.mean_mm);
+    EXPECT_NEAR(after.p95_mm, before.p95_mm, 1e-6 * before.p95_mm);
+    EXPECT_GT(estimate(moved, {0.1, -0.5, 0.5}).mean_mm, 1.5 * before.mean_mm);
 }
 
 } // namespace

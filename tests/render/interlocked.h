@@ -144,8 +144,9 @@ public:
             parts[k] = {levels_[k][static_cast<std::size_t>(chosen[k])], std::nullopt};
         }
     }
-    image::Image8 picture(const scene::PlanView& view) {
-        scene::plan_frame(prop, parts, view, plan);
+    image::Image8 picture(const scene::PlanView& view) { return picture(view, parts); }
+    image::Image8 picture(const scene::PlanView& view, std::span<const scene::Part> shown) {
+        scene::plan_frame(prop, shown, view, plan);
         EXPECT_TRUE(
             renderer->draw(plan, {display->framebuffer(), display->buffer_age()}, render::Redraw::Everything)
                 .drawn);
