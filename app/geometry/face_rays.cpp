@@ -16,6 +16,7 @@ FaceRays face_rays(const PropFace& face, const Pinhole& projector, const RigidTr
     }
     rays.direction =
         face.plane.distance(origin) * light - glm::outerProduct(origin - eye_m, face.plane.normal * light);
+    rays.slant = -(face.plane.normal * light);
     return rays;
 }
 

@@ -20,6 +20,7 @@ namespace frustumscreen::geometry {
 struct FaceRays {
     PerCorner<glm::dvec3> edges; ///< times (x, y, 1): not positive inside the face
     glm::dmat3 direction{1.0};   ///< times (x, y, 1): S - E, scaled by -n.L
+    glm::dvec3 slant{0.0};       ///< times (x, y, 1): -n.L, for the ray L whose component along the axis is 1
 };
 
 [[nodiscard]] FaceRays face_rays(const PropFace& face, const Pinhole& projector,

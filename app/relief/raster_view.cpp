@@ -111,6 +111,7 @@ void set_up(RasterView& view, const geometry::PropShape& prop, const RasterScene
         RasterFace face_view;
         face_view.face = static_cast<int>(k);
         face_view.direction = glm::dmat3(box_from_prop) * rays.direction;
+        face_view.slant = rays.slant;
         for (const glm::dvec3& edge : rays.edges) {
             face_view.edges.push_back(inward_edge(edge));
         }

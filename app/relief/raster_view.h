@@ -25,6 +25,7 @@ namespace frustumscreen::relief {
 struct RasterFace {
     int face = 0;                            ///< index into the prop's faces
     glm::dmat3 direction{1.0};               ///< of the eye's ray, from (x, y, 1); box, not unit
+    glm::dvec3 slant{0.0};                   ///< FaceRays::slant: an affine map of the box changes neither it nor t
     geometry::PerCorner<glm::dvec3> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
     glm::mat<4, 3, double> pixel_from_box{1.0};
@@ -49,7 +50,7 @@ struct RasterView {
 
 /// The artifact's placement in the prop, the projector and the eye.
 struct RasterScene {
-    glm::dmat4 prop_from_box{1.0}; ///< a rotation, one scale, a translation
+    glm::dmat4 prop_from_box{1.0}; ///< affine
     glm::dvec3 box_size{1.0};
     geometry::Pinhole projector;
     geometry::RigidTransform prop_from_projector;

@@ -22,11 +22,15 @@ struct ReadyItem {
     std::array<glm::vec3, 4> edges; ///< the face's first ones
     std::span<const glm::dvec3> more_edges;
     CornerMap map;
-    float outward; ///< sign of the picture area of a cell that faces the eye
+    float outward;        ///< sign of the picture area of a cell that faces the eye
+    std::uint32_t number; ///< of the block, in the samples
+    const Dither* dither; ///< null: every pixel
+    bool every_pixel;     ///< neither the face's edges nor the dither leave out a pixel
 };
 
 FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView& view,
-                                     const BlockItems& items, const BlockItem& item) {
+                                     const BlockItems& items, const BlockItem& item,
+                                     const RasterShare& share) {
     const ReliefBlock& block = relief.blocks[item.block];
     const GridView& grid = items.grids[item.face][item.direction];
     const RasterFace& face = view.faces[item.face];
@@ -40,7 +44,10 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
             .edges = first_edges(face),
             .more_edges = more_edges(face),
             .map = corner_map(block, grid),
-            .outward = turn > 0.0F ? -1.0F : 1.0F};
+            .outward = turn > 0.0F ? -1.0F : 1.0F,
+            .number = share.first_block + item.block,
+            .dither = share.dither ? &*share.dither : nullptr,
+            .every_pixel = item.inside && !share.dither};
 }
 
 /// True if the surface exists at this position of the block.
@@ -85,7 +92,7 @@ public:
             }
             if (taken) {
                 samples.nearness[to] = nearness_[from];
-                samples.block[to] = ready.item.block;
+                samples.block[to] = ready.number;
                 samples.place[to] = place_[from];
             }
         }
@@ -129,6 +136,14 @@ private:
     std::array<std::uint8_t, max_eights + 1> bits_; ///< which lanes are valid
     std::array<std::uint16_t, capacity> list_;      ///< eight elements are written, however many are valid
 };
+
+/// The pixels that the dither takes: Bayer's matrix of 8 x 8, as in the shaders.
+FRUSTUMSCREEN_INLINE Ints taken_by(const Dither& dither, Ints x, Ints y) {
+    const Ints q = x ^ y;
+    const Ints rank = (q & 1) << 5 | (y & 1) << 4 | (q & 2) << 2 | (y & 2) << 1 | (q & 4) >> 1 | (y & 4) >> 2;
+    const Ints within = (__builtin_convertvector(rank, Floats) + 0.5F) * (1.0F / 64.0F) < dither.share;
+    return dither.complement ? ~within : within;
+}
 
 FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixels) {
     const PixelLanes at = ready.lens.bends ? unbent(ready.lens, pixels) : pixels;
@@ -200,9 +215,14 @@ FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fra
         const Ints first =
             ((pixels.top - all_pixels.y) * count + k) * all_pixels.width + (pixels.left - all_pixels.x);
         const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
-            if (!ready.item.inside) {
-                in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
-                                      __builtin_convertvector(pixels.top + y, Floats) + sample.y});
+            if (!ready.every_pixel) {
+                if (!ready.item.inside) {
+                    in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
+                                          __builtin_convertvector(pixels.top + y, Floats) + sample.y});
+                }
+                if (ready.dither != nullptr) {
+                    in &= taken_by(*ready.dither, pixels.left + x, pixels.top + y);
+                }
             }
             fragments.add(fragment_at(at, corners, weights), in, row,
                           first + (y * count * all_pixels.width + x));
@@ -266,13 +286,14 @@ std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
 }
 
 FRUSTUMSCREEN_INLINE void rasterize_all(RasterSamples& samples, const BlockRelief& relief,
-                                        const RasterView& view, const BlockItems& items) {
+                                        const RasterView& view, const BlockItems& items,
+                                        const RasterShare& share) {
     Fragments fragments;
     const PixelRectangle& pixels = samples.pixels();
     for (int k = pixels.y / rows_of_band; k * rows_of_band < pixels.y + pixels.height; ++k) {
         for (const std::uint32_t place : items_of(items, k)) {
             const BlockItem& item = items.sorted[place];
-            rasterize_item(samples, ready(relief, view, items, item), within(item.area, pixels, k),
+            rasterize_item(samples, ready(relief, view, items, item, share), within(item.area, pixels, k),
                            fragments);
         }
     }
@@ -316,8 +337,8 @@ void RasterSamples::begin(const PixelRectangle& pixels, int count) {
 }
 
 void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterView& view,
-               const BlockItems& items, Instructions instructions) {
-    run_with<rasterize_all>(instructions, samples, relief, view, items);
+               const BlockItems& items, const RasterShare& share, Instructions instructions) {
+    run_with<rasterize_all>(instructions, samples, relief, view, items, share);
 }
 
 namespace {

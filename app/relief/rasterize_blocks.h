@@ -1,5 +1,5 @@
-/// Rasterizes a block relief for the eye: for each sample of each pixel the nearest block that its ray hits,
-/// the position in it, and the nearness.
+/// Rasterizes block reliefs for the eye: for each sample of each pixel the nearest block that its ray hits,
+/// the position in it, and the nearness. Reliefs rasterized into the same samples, for one eye, hide each other.
 ///
 /// Units    nearness: 1 / t of the pixel's ray (raster_view.h), 0 without a hit; position (`place`): 1 / 4096
 ///          of a cell, column in the lower half, row in the upper.
@@ -9,6 +9,7 @@
 #pragma once
 
 #include "app/relief/block_items.h"
+#include "app/relief/dither.h"
 #include "firmware_host/base/pixel_rectangle.h"
 
 #include <glm/glm.hpp>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace frustumscreen::relief {
@@ -64,9 +66,16 @@ private:
     std::vector<Extent> extents_; ///< per row
 };
 
+/// How a relief takes part in its samples.
+struct RasterShare {
+    std::uint32_t first_block = 0; ///< number of its first block in `RasterSamples::block`
+    std::optional<Dither> dither = std::nullopt; ///< nullopt: it takes every pixel
+};
+
 /// Rasterizes `items` into the samples.
 void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterView& view,
-               const BlockItems& items, Instructions instructions = best_instructions());
+               const BlockItems& items, const RasterShare& share = {},
+               Instructions instructions = best_instructions());
 
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);

@@ -1,8 +1,11 @@
-/// Rasterizes a block relief into memory: the picture of its colours, or the hit point of each pixel's ray.
+/// Rasterizes block reliefs into memory: one picture of their colours, where the nearest is visible however their boxes
+/// interlock, or the hit point of each pixel's ray.
 ///
 /// Colour   sRGB codes of the artifact; a pixel's samples are averaged in linear light, and a sample without
 ///          a hit counts as black. Alpha is 255 where some sample hits the artifact, otherwise 0. A RowLight
 ///          applies the projector's light.
+/// Depth    in the rectangles of a DepthPicture a pixel is the mean of its hits alone, and alpha is their share of its
+///          samples, so that the picture can be laid before and behind others.
 /// Units    pixels from the picture's first; hits in the box frame.
 /// Threads  `threads` in all, including the caller's; one caller at a time. The result does not depend on
 ///          their number.
@@ -10,11 +13,15 @@
 ///          been painted.
 #pragma once
 
+#include "app/relief/block_pages.h"
 #include "app/relief/frame_workers.h"
+#include "app/relief/nearness_row.h"
 #include "app/relief/rasterize_blocks.h"
+#include "app/relief/resolve_row.h"
 #include "app/relief/sample_light.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,29 +44,76 @@ public:
     virtual void light(int y, int first, std::span<glm::u8vec4> codes) const = 0;
 };
 
+/// A relief of a picture, and how the picture's eye sees it.
+struct SeenRelief {
+    const BlockRelief* relief = nullptr;
+    const RasterView* view = nullptr;
+    std::optional<Dither> dither = std::nullopt; ///< nullopt: every pixel
+    glm::vec3 light{1.0F};                       ///< 0..1, linear: factor of its colours
+};
+
+/// Where something else may hide a relief, or a relief hide it.
+struct DepthPicture {
+    std::span<const PixelRectangle> parts;
+    PictureSpan<float> nearness; ///< as nearness_row.h
+};
+/// The part of a painted rectangle that has depth: all its rows, between the outermost columns of `parts` in it.
+[[nodiscard]] PixelRectangle depth_part(const PixelRectangle& painted, std::span<const PixelRectangle> parts);
+
 class ReliefPainter {
 public:
     explicit ReliefPainter(int threads);
 
-    /// Paints `relief` as seen in `view`, with `samples` (1, 2, 4, 8 or 16) a pixel, in `light` or unlit.
-    /// Writes every pixel of the returned rectangles, which lie one below the other, and none outside. They
-    /// are valid until the next call.
+    /// Paints the reliefs as seen in their views, which are of one frame, with `samples` (1, 2, 4, 8 or 16) a pixel, in
+    /// `light` or unlit. Writes every pixel of the returned rectangles, which lie one below the other, and none outside;
+    /// of `depth`, the `depth_part` of each. They are valid until the next call.
+    std::span<const PixelRectangle> paint(std::span<const SeenRelief> reliefs, int samples,
+                                          const PictureSpan<glm::u8vec4>& picture,
+                                          const RowLight* light = nullptr, const DepthPicture& depth = {});
+
+    /// As above, for one relief.
     std::span<const PixelRectangle> paint(const BlockRelief& relief, const RasterView& view, int samples,
                                           const PictureSpan<glm::u8vec4>& picture,
-                                          const RowLight* light = nullptr);
+                                          const RowLight* light = nullptr) {
+        const SeenRelief seen{.relief = &relief, .view = &view};
+        return paint(std::span(&seen, 1), samples, picture, light);
+    }
 
     /// The position of each pixel's first hit, box frame; NaN without a hit. Writes the whole picture.
-    void hit_points(const BlockRelief& relief, const RasterView& view, const PictureSpan<glm::vec3>& points);
+    void hit_points(const SeenRelief& seen, const PictureSpan<glm::vec3>& points);
+    void hit_points(const BlockRelief& relief, const RasterView& view, const PictureSpan<glm::vec3>& points) {
+        hit_points(SeenRelief{.relief = &relief, .view = &view}, points);
+    }
 
 private:
-    void list(const BlockRelief& relief, const RasterView& view);
+    /// A relief of the picture that is being painted.
+    struct Listed {
+        SeenRelief seen;
+        RasterShare share;
+        float nearest = 0.0F;
+        BlockItems items;
+    };
+    struct Picture {
+        const PictureSpan<glm::u8vec4>& codes;
+        const RowLight* light = nullptr;
+        const DepthPicture& depth;
+    };
+
+    void list(std::span<const SeenRelief> reliefs);
+    void list_blocks_of_all();
     /// The part of these rows of `samples` that may be lit.
     [[nodiscard]] static PixelRectangle lit_part(const RasterSamples& samples, int top, int bottom);
     /// Writes the pixels of a part of `samples`, as codes.
-    void resolve(const RasterSamples& samples, const BlockRelief& relief, const PixelRectangle& part,
-                 const PictureSpan<glm::u8vec4>& picture, const RowLight* light) const;
+    void resolve(const RasterSamples& samples, const PixelRectangle& part, const Picture& picture) const;
+    /// Some columns of row `y`.
+    void resolve_columns(const RasterSamples& samples, int y, const RasterSamples::Extent& columns,
+                         Outline outline, const Picture& picture) const;
 
-    BlockItems items_;
+    std::vector<Listed> listed_;         ///< the first `count_` are of this picture
+    std::size_t count_ = 0;
+    std::vector<std::size_t> order_;     ///< of these, roughly front to back
+    BlockPages pages_;
+    NearnessView nearness_;
     std::vector<RasterSamples> samples_; ///< one per thread, each for one band at a time
     std::vector<PixelRectangle> painted_;
     SampleLight light_;

@@ -25,7 +25,7 @@ std::array<std::uint16_t, indices_of_block> indices() {
 }
 
 /// Sets the matrices of each direction's grid, computed in 64-bit arithmetic.
-void set_grids(const relief::BlockRelief& relief, const scene::Draw& draw, double metres_per_box,
+void set_grids(const relief::BlockRelief& relief, const scene::Draw& draw, const glm::dmat4& prop_from_box,
                const Shader& shader) {
     std::array<glm::mat4, max_directions> clip{};
     std::array<glm::mat4, max_directions> prop{};
@@ -33,8 +33,8 @@ void set_grids(const relief::BlockRelief& relief, const scene::Draw& draw, doubl
     for (std::size_t k = 0; k < relief.grids.size(); ++k) {
         const glm::dmat4 box = relief::box_from_grid(relief.grids[k], static_cast<double>(relief.texel_box));
         clip[k] = glm::mat4(draw.clip_from_box * box);
-        prop[k] = glm::mat4(glm::dmat4(glm::dmat3(metres_per_box)) * box);
-        mirrored |= glm::determinant(glm::dmat3(box)) < 0.0 ? 1U << k : 0U;
+        prop[k] = glm::mat4(prop_from_box * box);
+        mirrored |= glm::determinant(glm::dmat3(prop_from_box * box)) < 0.0 ? 1U << k : 0U;
     }
     const auto count = static_cast<GLsizei>(relief.grids.size());
     glUniformMatrix4fv(shader.location(Uniform::ClipFromGrid), count, GL_FALSE, glm::value_ptr(clip[0]));
@@ -95,7 +95,7 @@ void BlockInstances::draw(const scene::FramePlan& plan, const scene::Draw& draw,
     if (run == runs_.end() || run->count == 0) {
         return;
     }
-    set_grids(*blocks.relief, draw, plan.relief_draws[draw.relief_draw].metres_per_box, shader);
+    set_grids(*blocks.relief, draw, plan.relief_draws[draw.relief_draw].prop_from_box, shader);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, blocks.numbers.get());
     glActiveTexture(GL_TEXTURE2);

@@ -13,25 +13,14 @@ namespace frustumscreen::render {
 
 namespace {
 
-GLuint stencil_value(std::size_t face) {
-    return static_cast<GLuint>(face) + 1U;
-}
-
 /// A factor of light to this power is the factor of codes: sRGB's own power, away from black.
 constexpr float code_power = 1.0F / 2.4F;
 
-void set_uniform(const Shader& shader, Uniform uniform, const glm::dvec2& scale, const glm::dvec2& offset) {
-    const glm::vec4 packed(scale, offset);
-    glUniform4fv(shader.location(uniform), 1, glm::value_ptr(packed));
-}
-
 void set_view(const Shader& shader, const geometry::Pinhole& pinhole, const Raster& raster) {
-    const glm::dvec2 scale = 1.0 / glm::dvec2(raster.fragments);
-    const glm::dvec2 corner(raster.corner);
-    const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
-    set_uniform(shader, Uniform::PixelFromFragment, scale, corner);
-    set_uniform(shader, Uniform::RayFromFragment, scale * per_pixel,
-                (corner - glm::dvec2(pinhole.cx, pinhole.cy)) * per_pixel);
+    const glm::vec4 pixel(1.0F / glm::vec2(raster.fragments), raster.corner);
+    const glm::vec4 ray = ray_from_fragment(pinhole, raster);
+    glUniform4fv(shader.location(Uniform::PixelFromFragment), 1, glm::value_ptr(pixel));
+    glUniform4fv(shader.location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
 }
 
 void set_face(const Shader& shader, const scene::FaceLight& light) {
@@ -43,6 +32,8 @@ void set_face(const Shader& shader, const scene::FaceLight& light) {
 void set_draw(const Shader& shader, const scene::Draw& draw) {
     glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
     glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
+    const std::array<glm::vec3, 2> light{draw.light, glm::pow(draw.light, glm::vec3(code_power))};
+    glUniform3fv(shader.location(Uniform::Light), 2, glm::value_ptr(light[0]));
     glUniformMatrix4fv(shader.location(Uniform::PropFromUnit), 1, GL_FALSE,
                        glm::value_ptr(draw.prop_from_unit));
     glUniformMatrix4fv(shader.location(Uniform::ClipFromUnit), 1, GL_FALSE,
@@ -96,10 +87,8 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
     blocks_.list(plan, store);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    // A face is lit from the side that it is seen from, so only y is mirrored (row 0 is the top).
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    glFrontFace(GL_CW);
     int calls = outline_calls(plan);
     for (const scene::Draw& draw : plan.draws) {
         if (draw.shader.pass != scene::ShaderKey::Pass::Surface) {
@@ -117,6 +106,7 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
         if (mesh != nullptr) {
             draw_mesh(draw, *mesh);
         } else {
+            glFrontFace(GL_CW); // the shader mirrors
             blocks_.draw(plan, draw, *blocks, *shader);
         }
         ++calls;
@@ -201,6 +191,9 @@ void FacePass::begin_surface(const scene::FramePlan& plan, const scene::Draw& dr
 }
 
 void FacePass::draw_mesh(const scene::Draw& draw, const GpuStore::Mesh& mesh) const {
+    // A face is lit from the side that it is seen from, so only y is mirrored (row 0 is the top), unless a cell's pose
+    // mirrors too.
+    glFrontFace(glm::determinant(glm::mat3(draw.prop_from_unit)) < 0.0F ? GL_CCW : GL_CW);
     glBindVertexArray(mesh.vertex_array.get());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     const std::uintptr_t offset = std::uintptr_t{draw.range.first} * sizeof(std::uint32_t);

@@ -69,12 +69,17 @@ void HitPointRenderer::add_rasters(const scene::FramePlan& plan, const GpuStore&
         }
         image::ImageFloat met(width_, height_);
         painter_->hit_points(
-            *relief, planned.view,
+            {.relief = relief, .view = &planned.view, .dither = planned.dither},
             {.first = met.texels.data(), .width = width_, .height = height_, .stride = width_});
-        const auto metres = static_cast<float>(planned.metres_per_box);
+        const auto in_prop = [&](const glm::dvec3& box) {
+            return glm::dvec3(planned.prop_from_box * glm::dvec4(box, 1.0));
+        };
+        const glm::dvec3 eye = in_prop(planned.view.eye_box);
         for (std::size_t k = 0; k < points.texels.size(); ++k) {
-            if (std::isnan(points.texels[k].x)) {
-                points.texels[k] = metres * met.texels[k];
+            glm::vec3& nearest = points.texels[k];
+            const glm::dvec3 point = in_prop(met.texels[k]);
+            if (std::isnan(nearest.x) || glm::distance(point, eye) < glm::distance(glm::dvec3(nearest), eye)) {
+                nearest = point;
             }
         }
     }

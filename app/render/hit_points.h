@@ -24,7 +24,7 @@ public:
     [[nodiscard]] image::ImageFloat draw(const scene::FramePlan& plan, const GpuStore& store);
 
 private:
-    /// Adds the rasterized reliefs where the meshes show nothing.
+    /// Adds the rasterized reliefs where they are nearer than the GPU's draws.
     void add_rasters(const scene::FramePlan& plan, const GpuStore& store, image::ImageFloat& points);
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 

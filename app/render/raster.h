@@ -3,10 +3,13 @@
 /// Threads  values; the setters, the render thread.
 #pragma once
 
+#include "app/geometry/pinhole.h"
 #include "app/scene/lit_tiles.h"
 
 #include <GLES3/gl32.h>
 #include <glm/glm.hpp>
+
+#include <cstddef>
 
 namespace frustumscreen::render {
 
@@ -27,6 +30,18 @@ inline void set_scissor(const PixelRectangle& r, const Raster& raster = {}) {
     const glm::ivec2 first = (glm::ivec2(r.x, r.y) - raster.corner) * raster.fragments;
     const glm::ivec2 size = glm::ivec2(r.width, r.height) * raster.fragments;
     glScissor(first.x, first.y, size.x, size.y);
+}
+
+/// Scale and offset that take a fragment to the direction (x, y) of its ideal ray, whose z is 1.
+inline glm::vec4 ray_from_fragment(const geometry::Pinhole& pinhole, const Raster& raster) {
+    const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
+    return {glm::vec2(per_pixel / glm::dvec2(raster.fragments)),
+            glm::vec2((glm::dvec2(raster.corner) - glm::dvec2(pinhole.cx, pinhole.cy)) * per_pixel)};
+}
+
+/// The value that a face of the plan has in the stencil.
+inline GLuint stencil_value(std::size_t face) {
+    return static_cast<GLuint>(face) + 1U;
 }
 
 /// The colours that are written; alpha always is.

@@ -3,9 +3,10 @@
 #include "app/render/gl_memory.h"
 #include "firmware_host/base/usable_cores.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -13,17 +14,38 @@ namespace frustumscreen::render {
 
 namespace {
 
-/// True if the relief can be copied there: all colours are written, no fade, no mesh, no picture on the table. A face drawn in black
-/// under such a picture does not matter, because the relief's unlit pixels are black too.
+/// True if the picture can be copied there: all colours are written, no mesh, no picture on the table. A face drawn in
+/// black under such a picture does not matter, because the relief's unlit pixels are black too.
 bool stands_alone(const scene::FramePlan& plan, const PixelRectangle& part) {
-    return plan.relief_draw_count == 1 && glm::all(plan.picture.channels) &&
+    return glm::all(plan.picture.channels) &&
            std::none_of(plan.draws.begin(), plan.draws.end(), [&](const scene::Draw& draw) {
                const bool black = draw.face == scene::Draw::on_table &&
                                   draw.drawable.material.texture == scene::TextureId::None;
-               return draw.shader.pass == scene::ShaderKey::Pass::Raster
-                          ? draw.shader.dithered
-                          : !black && !intersected(draw.bounds, part).empty();
+               return draw.shader.pass != scene::ShaderKey::Pass::Raster && !black &&
+                      !intersected(draw.bounds, part).empty();
            });
+}
+
+/// True if the two draws may light one pixel: not if a fade gives each pixel to one of them.
+bool may_share_pixels(const scene::Draw& surface, const scene::Draw& raster,
+                      const std::optional<scene::Dither>& dither) {
+    const bool apart = surface.shader.dithered && dither && surface.dither.share == dither->share &&
+                       surface.dither.complement != dither->complement;
+    return surface.face == raster.face && !apart;
+}
+
+/// The pixels that a draw in the prop may light. Of a relief its view knows them better than the draw.
+PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) {
+    if (draw.shader.pass == scene::ShaderKey::Pass::Surface && !draw.shader.blocks) {
+        return draw.bounds;
+    }
+    const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
+    for (const relief::RasterFace& seen : plan.relief_draws[draw.relief_draw].view.faces) {
+        if (seen.face == face) {
+            return seen.lit;
+        }
+    }
+    return {};
 }
 
 /// The colour texture of the framebuffer that is drawn into.
@@ -39,107 +61,213 @@ GLuint texture_of_framebuffer() {
 
 } // namespace
 
-Result<void> RasterPass::prepare(std::size_t relief_draws, int width, int height) {
-    if (relief_draws > 0 && !painter_) {
-        painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
-        memory_ = image::Image8(width, height);
-    }
-    while (pictures_.size() < relief_draws) {
-        Picture picture{gl::GlTexture::generate(), {}};
-        glBindTexture(GL_TEXTURE_2D, picture.texels.get());
-        glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
+Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int height) {
+    const auto make = [&](gl::GlTexture& texture, GLenum format, const Upload& zeros) {
+        texture = gl::GlTexture::generate();
+        glBindTexture(GL_TEXTURE_2D, texture.get());
+        glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         // Touches the driver's pages now, instead of when a shader first reads them.
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        memory_.texels.data());
-        if (glGetError() != GL_NO_ERROR) {
-            return fail(
-                ErrorKind::BadConfiguration, "render.no_room_for_cast",
-                "render: the driver has no memory for a picture that is cast; use a technique of meshes");
-        }
-        pictures_.push_back(std::move(picture));
+        const PixelRectangle whole{.x = 0, .y = 0, .width = width, .height = height};
+        upload(zeros, std::span(&whole, 1), {});
+    };
+    if (needs.relief_draws > 0 && !painter_) {
+        painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
+        memory_ = image::Image8(width, height);
+        make(colour_texels_, GL_RGBA8, colours());
+    }
+    if (needs.relief_draws > 0 && needs.interlocks && nearness_.texels.empty()) {
+        nearness_ = image::Image<float>(width, height);
+        make(nearness_texels_, GL_R32F, depths());
+    }
+    if (glGetError() != GL_NO_ERROR) {
+        return fail(ErrorKind::BadConfiguration, "render.no_room_for_cast",
+                    "render: the driver has no memory for a picture that is cast; use a technique of meshes");
     }
     return {};
 }
 
-void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
-    for (std::size_t k = 0; k < pictures_.size(); ++k) {
-        Picture& picture = pictures_[k];
-        picture.painted.clear();
-        picture.copied = 0;
-        const relief::BlockRelief* const relief = k < plan.relief_draw_count && !plan.relief_draws[k].on_gpu
-                                                      ? store.find_relief(plan.relief_draws[k].relief)
-                                                      : nullptr;
-        if (relief == nullptr) {
-            continue;
+RasterPass::Upload RasterPass::colours() const {
+    return {.format = GL_RGBA,
+            .type = GL_UNSIGNED_BYTE,
+            .texels = memory_.texels.data(),
+            .bytes_of_texel = sizeof(glm::u8vec4),
+            .width = memory_.width};
+}
+
+RasterPass::Upload RasterPass::depths() const {
+    return {.format = GL_RED,
+            .type = GL_FLOAT,
+            .texels = nearness_.texels.data(),
+            .bytes_of_texel = sizeof(float),
+            .width = nearness_.width};
+}
+
+void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& store) {
+    seen_.clear();
+    for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
+        const scene::ReliefDraw& planned = plan.relief_draws[k];
+        const relief::BlockRelief* const relief = planned.on_gpu ? nullptr : store.find_relief(planned.relief);
+        if (relief != nullptr) {
+            seen_.push_back({.relief = relief,
+                             .view = &planned.view,
+                             .dither = planned.dither,
+                             .light = light_.rest_of(planned.light)});
         }
-        light_.begin(plan, k);
-        const std::span<const PixelRectangle> painted =
-            painter_->paint(*relief, plan.relief_draws[k].view, plan.relief_draws[k].samples,
-                            {.first = memory_.texels.data(),
-                             .width = memory_.width,
-                             .height = memory_.height,
-                             .stride = memory_.width},
-                            &light_);
-        picture.painted.assign(painted.begin(), painted.end());
-        const auto drawn =
-            std::partition(picture.painted.begin(), picture.painted.end(),
-                           [&](const PixelRectangle& part) { return stands_alone(plan, part); });
-        picture.copied = static_cast<std::size_t>(drawn - picture.painted.begin());
-        glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, picture.texels.get());
-        upload(std::span(picture.painted).subspan(picture.copied), plan.picture.viewport);
     }
 }
 
-void RasterPass::upload(std::span<const PixelRectangle> parts, const PixelRectangle& viewport) const {
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, memory_.width);
+void RasterPass::find_meeting(const scene::FramePlan& plan) {
+    meeting_.clear();
+    if (nearness_.texels.empty()) {
+        return;
+    }
+    for (const scene::Draw& surface : plan.draws) {
+        if (surface.shader.pass != scene::ShaderKey::Pass::Surface) {
+            continue;
+        }
+        PixelRectangle reliefs;
+        for (const scene::Draw& raster : plan.draws) {
+            if (raster.shader.pass == scene::ShaderKey::Pass::Raster &&
+                may_share_pixels(surface, raster, plan.relief_draws[raster.relief_draw].dither)) {
+                reliefs = united(reliefs, pixels_of(plan, raster));
+            }
+        }
+        const PixelRectangle both = intersected(reliefs, pixels_of(plan, surface));
+        if (!both.empty()) {
+            meeting_.push_back(both);
+        }
+    }
+}
+
+void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle& part) {
+    const auto add = [&](int left, int right) {
+        const PixelRectangle columns{.x = left, .y = part.y, .width = right - left, .height = part.height};
+        if (!columns.empty()) {
+            (stands_alone(plan, columns) ? copied_ : drawn_).push_back(columns);
+        }
+    };
+    const int right = part.x + part.width;
+    const PixelRectangle deep = relief::depth_part(part, meeting_);
+    if (deep.empty()) {
+        add(part.x, right);
+        return;
+    }
+    in_depth_.push_back(deep);
+    add(part.x, deep.x);
+    add(deep.x + deep.width, right);
+}
+
+void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
+    copied_.clear();
+    drawn_.clear();
+    in_depth_.clear();
+    if (!painter_) {
+        return;
+    }
+    light_.begin(plan);
+    list_reliefs(plan, store);
+    find_meeting(plan);
+    int samples = 1;
+    for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
+        samples = plan.relief_draws[k].on_gpu ? samples : std::max(samples, plan.relief_draws[k].samples);
+    }
+    const relief::DepthPicture depth{.parts = meeting_,
+                                     .nearness = {.first = nearness_.texels.data(),
+                                                  .width = nearness_.width,
+                                                  .height = nearness_.height,
+                                                  .stride = nearness_.width}};
+    const std::span<const PixelRectangle> painted = painter_->paint(seen_, samples,
+                                                                    {.first = memory_.texels.data(),
+                                                                     .width = memory_.width,
+                                                                     .height = memory_.height,
+                                                                     .stride = memory_.width},
+                                                                    &light_, depth);
+    for (const PixelRectangle& part : painted) {
+        add_painted(plan, part);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    if (!drawn_.empty() || !in_depth_.empty()) {
+        glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
+        upload(colours(), drawn_, plan.picture.viewport);
+        upload(colours(), in_depth_, plan.picture.viewport);
+    }
+    if (!in_depth_.empty()) {
+        glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
+        upload(depths(), in_depth_, plan.picture.viewport);
+    }
+}
+
+void RasterPass::upload(const Upload& from, std::span<const PixelRectangle> parts,
+                        const PixelRectangle& viewport) {
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, from.width);
     for (const PixelRectangle& part : parts) {
+        const auto first = static_cast<std::ptrdiff_t>(part.y) * from.width + part.x;
         glTexSubImage2D(GL_TEXTURE_2D, 0, viewport.x + part.x, viewport.y + part.y, part.width, part.height,
-                        GL_RGBA, GL_UNSIGNED_BYTE, &memory_.at(part.x, part.y));
+                        from.format, from.type,
+                        static_cast<const std::byte*>(from.texels) + first * from.bytes_of_texel);
     }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
+int RasterPass::show_in_depth(const scene::FramePlan& plan, const ShaderCache& shaders,
+                              const Raster& raster) const {
+    const Shader* const shader = shaders.find({scene::ShaderKey::Pass::RasterInDepth});
+    if (in_depth_.empty() || shader == nullptr) {
+        return 0;
+    }
+    shader->use();
+    const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
+    glUniform4i(shader->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x, corner.y);
+    const glm::vec4 ray = ray_from_fragment(plan.projector, raster);
+    glUniform4fv(shader->location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
+    glBindVertexArray(no_attributes_.get());
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_STENCIL_TEST);
+    glEnable(GL_SCISSOR_TEST);
+    for (std::size_t face = 0; face < plan.faces.size(); ++face) {
+        glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
+        set_scissor(plan.faces[face].bounds, raster);
+        glUniform4fv(shader->location(Uniform::DepthFromNearness), 1,
+                     glm::value_ptr(plan.faces[face].depth_from_nearness));
+        shader->draw_rectangles({plan.projector.width, plan.projector.height}, in_depth_);
+    }
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(0);
+    return static_cast<int>(plan.faces.size());
+}
+
 int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) const {
+    if (!copied_.empty()) {
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
+        upload(colours(), copied_, plan.picture.viewport);
+    }
+    const Shader* const shader = shaders.find(scene::raster_shader());
+    if (drawn_.empty() || shader == nullptr) {
+        return 0;
+    }
+    // One draw serves all faces: their pixels are disjoint, and the light is already applied.
+    shader->use();
     glBindVertexArray(no_attributes_.get());
     glActiveTexture(GL_TEXTURE0);
-    int calls = 0;
-    for (std::size_t k = 0; k < std::min(plan.relief_draw_count, pictures_.size()); ++k) {
-        const std::span<const PixelRectangle> painted(pictures_[k].painted);
-        const std::span<const PixelRectangle> copied = painted.first(pictures_[k].copied);
-        const std::span<const PixelRectangle> drawn = painted.subspan(pictures_[k].copied);
-        if (!copied.empty()) {
-            glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
-            upload(copied, plan.picture.viewport);
-        }
-        // One draw serves all faces: their pixels are disjoint, and the light is already applied.
-        const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const scene::Draw& draw) {
-            return draw.shader.pass == scene::ShaderKey::Pass::Raster && draw.relief_draw == k;
-        });
-        const Shader* const shader = shown != plan.draws.end() ? shaders.find(shown->shader) : nullptr;
-        if (shader == nullptr || drawn.empty()) {
-            continue;
-        }
-        shader->use();
-        glUniform4f(shader->location(Uniform::PixelFromFragment), 1.0F, 1.0F,
-                    static_cast<float>(-plan.picture.viewport.x),
-                    static_cast<float>(-plan.picture.viewport.y));
-        glUniform2f(shader->location(Uniform::Dither), shown->dither.share,
-                    shown->dither.complement ? 0.0F : 1.0F);
-        glBindTexture(GL_TEXTURE_2D, pictures_[k].texels.get());
-        shader->draw_rectangles({plan.projector.width, plan.projector.height}, drawn);
-        ++calls;
-    }
+    glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
+    shader->draw_rectangles({plan.projector.width, plan.projector.height}, drawn_);
     glBindVertexArray(0);
-    return calls;
+    return 1;
 }
 
 std::uint64_t RasterPass::bytes() const {
-    return std::accumulate(
-        pictures_.begin(), pictures_.end(), std::uint64_t{0},
-        [](std::uint64_t sum, const Picture& picture) { return sum + bytes_of_texture(picture.texels); });
+    return painter_ ? bytes_of_texture(colour_texels_) +
+                          (nearness_.texels.empty() ? 0 : bytes_of_texture(nearness_texels_))
+                    : 0;
 }
 
 } // namespace frustumscreen::render

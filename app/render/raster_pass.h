@@ -1,7 +1,7 @@
-/// Reliefs rasterized on the processor, as pictures in the GPU's memory, for the draws that name them.
+/// Reliefs rasterized on the processor, as one picture in the GPU's memory.
 ///
-/// Lit rectangles without other content are copied into the picture; elsewhere, and in a fade, they are
-/// drawn, pixel by pixel, over it. GL state as in FacePass.
+/// Lit rectangles without other content are copied into the picture; under others it is drawn, pixel by pixel. Where a
+/// mesh or a relief of the GPU may hide it or be hidden by it, it is drawn among them by depth. GL state as in FacePass.
 ///
 /// Colour   sRGB codes, in the projector's light (scene/raster_light.h); alpha 0 where no surface was hit.
 /// Threads  the render thread, with one thread of its own for each further core. `paint` allocates nothing
@@ -12,6 +12,7 @@
 #include "app/image/image.h"
 #include "app/relief/relief_painter.h"
 #include "app/render/gpu_store.h"
+#include "app/render/raster.h"
 #include "app/render/shader_cache.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/raster_light.h"
@@ -29,32 +30,45 @@ namespace frustumscreen::render {
 
 class RasterPass {
 public:
-    /// Allocates `casts` pictures, each as large as the whole picture.
-    [[nodiscard]] Result<void> prepare(std::size_t relief_draws, int width, int height);
+    /// Allocates what the needs' reliefs take: a picture as large as the whole picture, and its depth.
+    [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs, int width, int height);
 
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws.
     void paint(const scene::FramePlan& plan, const GpuStore& store);
-    /// Shows the painted reliefs of this plan in the bound framebuffer, whose colour must be a texture;
-    /// returns the number of draw calls.
+    /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
+    /// has drawn them; returns the number of draw calls.
+    int show_in_depth(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
+    /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
-    struct Picture {
-        gl::GlTexture texels;                ///< valid in the rectangles that are drawn; the rest is from
-                                             ///< earlier frames
-        std::vector<PixelRectangle> painted; ///< first the rectangles to copy, then those to draw
-        std::size_t copied = 0;
+    /// From main memory into the eye's viewport in a texture.
+    struct Upload {
+        unsigned format = 0, type = 0;
+        const void* texels = nullptr;
+        int bytes_of_texel = 0, width = 0; ///< in main memory
     };
-    /// Uploads from main memory into the eye's viewport in the bound texture.
-    void upload(std::span<const PixelRectangle> parts, const PixelRectangle& viewport) const;
+    static void upload(const Upload& from, std::span<const PixelRectangle> parts, const PixelRectangle& viewport);
+    [[nodiscard]] Upload colours() const;
+    [[nodiscard]] Upload depths() const;
+
+    void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
+    void find_meeting(const scene::FramePlan& plan);
+    /// Sorts what was painted by the way in which it is shown.
+    void add_painted(const scene::FramePlan& plan, const PixelRectangle& part);
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
     scene::RasterLight light_;
-    image::Image8 memory_; ///< main memory that each relief is rasterized in, one after another
-    std::vector<Picture> pictures_;
+    image::Image8 memory_;           ///< main memory that the reliefs are rasterized in
+    image::Image<float> nearness_;   ///< as large if there is depth, otherwise empty
+    gl::GlTexture colour_texels_;    ///< valid in the rectangles that are drawn; the rest is from earlier frames
+    gl::GlTexture nearness_texels_;
+    std::vector<relief::SeenRelief> seen_;
+    std::vector<PixelRectangle> meeting_; ///< where the GPU draws something at other depths
+    std::vector<PixelRectangle> copied_, drawn_, in_depth_;
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 

@@ -58,7 +58,7 @@ Result<Renderer> Renderer::create(int width, int height, const scene::RenderNeed
 Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
     const scene::RenderNeeds all = scene::united(needs_, needs);
     TRY_VOID(shaders_.prepare(scene::shaders_of(all), all.bent_by));
-    TRY_VOID(raster_pass_.prepare(all.relief_draws, width_, height_));
+    TRY_VOID(raster_pass_.prepare(all, width_, height_));
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
         TRY(sample_grid_, SampleGrid::create(all.outline.value_or(PixelSize{width_, height_}), all.samples));
     }
@@ -169,6 +169,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         sample_grid_->begin(plan.lit, raster, shaders_);
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
+        result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
@@ -183,6 +184,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     } else if (meshes) {
         result.draw_calls += faces_.draw(plan, store_, shaders_, direct);
+        result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, direct);
     }
     if (repaint.prop) {
         result.draw_calls += raster_pass_.show(plan, shaders_);

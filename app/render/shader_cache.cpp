@@ -16,10 +16,11 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
     "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
     "face_gain", "edge_share",          "rectangles",        "picture",
-    "raster",    "clip_from_grid",      "prop_from_grid",    "mirrored"};
+    "raster",    "clip_from_grid",      "prop_from_grid",    "mirrored",
+    "light",     "depth_from_nearness"};
 
-/// In the order of the texture units that they read (GpuStore::Texture, then GpuStore::Blocks).
-constexpr std::array<const char*, 3> sampler_names{"image", "blocks", "covers"};
+/// In the order of the texture units that they read (GpuStore::Texture, GpuStore::Blocks, RasterPass).
+constexpr std::array<const char*, 4> sampler_names{"image", "blocks", "covers", "nearness"};
 
 /// The lens is constant during a program's lifetime, so its uniforms are set once.
 void set_lens(GLuint program, const geometry::Pinhole& pinhole) {

@@ -37,6 +37,8 @@ enum class Uniform : std::size_t {
     ClipFromGrid,
     PropFromGrid,
     Mirrored,
+    Light,
+    DepthFromNearness,
     Count
 };
 

@@ -78,7 +78,7 @@ void main() {
 }
 )";
 
-// For shaders that fade.
+// For surfaces that fade.
 constexpr std::string_view dither = R"(
 #ifdef DITHERED
 uniform vec4 pixel_from_fragment; // scale, offset
@@ -95,6 +95,23 @@ bool is_other_draws() { return false; }
 #endif
 )";
 
+/// From the direction of a fragment to that of the ideal lens.
+constexpr std::string_view unbent_fragment = R"(
+#ifdef BENT
+// Each step comes some ten times nearer, and neither light nor depth of a place changes much over a pixel.
+vec2 unbent(vec2 real) {
+    vec2 x = real;
+    for (int k = 0; k < 4; ++k) {
+        float r2 = min(dot(x, x), distortion.z);
+        x = real / (1.0 + r2 * (distortion.x + distortion.y * r2));
+    }
+    return x;
+}
+#else
+vec2 unbent(vec2 real) { return real; }
+#endif
+)";
+
 constexpr std::string_view surface_fragment = R"(
 out vec4 result;
 #if !defined(PLACES) || defined(CUT_OUT)
@@ -105,28 +122,20 @@ in vec2 texel;
 in vec3 point;
 #else
 uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
+#ifdef COLOURED
+uniform vec3 light[2];   // as brightness, for each channel
+#endif
 #ifdef EVEN_LIGHT
 uniform vec4 ray_from_fragment; // scale, offset; z = 1
 uniform vec3 inverse_depth;     // of the face's plane, along a ray
 uniform vec4 face_gain;         // times d^3, most; both to the power of 1 / 2.4
 #ifdef BENT
-// Each step comes some ten times nearer, and the light of a place hardly changes over a pixel.
-vec2 unbent(vec2 real) {
-    vec2 x = real;
-    for (int k = 0; k < 4; ++k) {
-        float r2 = min(dot(x, x), distortion.z);
-        x = real / (1.0 + r2 * (distortion.x + distortion.y * r2));
-    }
-    return x;
-}
 // The lens packs pixels more densely by its area factor.
 vec2 share_of_pixel(vec2 x) {
     float r2 = min(dot(x, x), distortion.z);
     float area = (1.0 + r2 * (distortion.x + distortion.y * r2)) * (1.0 + r2 * (3.0 * distortion.x + 5.0 * distortion.y * r2));
     return vec2(1.0 / area, pow(area, -1.0 / 2.4));
 }
-#else
-vec2 unbent(vec2 real) { return real; }
 #endif
 // As `brightness`. 3 / 2.4 is 1 + 1 / 4: a power of the distance takes roots alone.
 vec2 compensation() {
@@ -163,9 +172,16 @@ void main() {
     // The code of `gain` times the light of a code. sRGB is straight near black and a power law above: up to a gain of 1 the larger of both
     // is right, above 1 the smaller. Where one of the two codes lies on the straight piece and the other does not, the result is up to two
     // codes off; at a gain of 8, where codes lie 8 apart, up to four.
+#ifdef COLOURED
+    vec3 factor = gain.x * light[0];
+    vec3 straight = factor * code;
+    vec3 power = (code + 0.055) * (gain.y * light[1]) - 0.055;
+    result = vec4(mix(max(straight, power), min(straight, power), greaterThan(factor, vec3(1.0))), 1.0);
+#else
     vec3 straight = gain.x * code;
     vec3 power = (code + 0.055) * gain.y - 0.055;
     result = vec4(gain.x > 1.0 ? min(straight, power) : max(straight, power), 1.0);
+#endif
 #endif
 }
 )";
@@ -219,13 +235,32 @@ constexpr std::string_view rasterize_fragment = R"(
 uniform sampler2D image;
 out vec4 result;
 void main() {
-    if (is_other_draws()) {
-        discard;
-    }
     result = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
     if (result.a < 0.5) {
         discard;
     }
+}
+)";
+// The same pixels among polygons. Of a pixel's fragments as many are drawn as it has samples with a hit.
+constexpr std::string_view rasterize_in_depth_fragment = R"(
+uniform sampler2D image;          // mean of the hits; alpha is their share of the samples
+uniform highp sampler2D nearness;
+uniform ivec4 raster;             // fragments along a pixel's sides, the texel of the framebuffer's corner
+uniform vec4 ray_from_fragment;   // scale, offset; z = 1
+uniform vec4 depth_from_nearness; // of the face: times ray and nearness, and added
+out vec4 result;
+void main() {
+    ivec2 fragment = ivec2(gl_FragCoord.xy);
+    ivec2 texel = fragment / raster.xy + raster.zw;
+    ivec2 in_pixel = fragment % raster.xy;
+    vec4 seen = texelFetch(image, texel, 0);
+    if (float(in_pixel.y * raster.x + in_pixel.x) + 0.5 > seen.a * float(raster.x * raster.y)) {
+        discard;
+    }
+    vec3 ray = vec3(unbent(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+    float depth = dot(depth_from_nearness.xyz, ray) * texelFetch(nearness, texel, 0).r + depth_from_nearness.w;
+    gl_FragDepth = 0.5 * depth + 0.5;
+    result = vec4(seen.rgb, 1.0);
 }
 )";
 constexpr std::string_view black_fragment = R"(
@@ -268,6 +303,7 @@ std::string defines_of(const scene::ShaderKey& key) {
     define(key.dithered, "DITHERED");
     define(key.even_light, "EVEN_LIGHT");
     define(key.blocks, "BLOCKS");
+    define(key.coloured, "COLOURED");
     return defines;
 }
 
@@ -281,7 +317,6 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     const auto quad = [](std::string_view vertex) {
         return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
     };
-    const auto fading = [](std::string_view fragment) { return fmt::format("{}{}", dither, fragment); };
     const std::string tiles(tiles_vertex);
     switch (key.pass) {
     case scene::ShaderKey::Pass::Outline:
@@ -290,9 +325,12 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
         return {defines,
                 key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
                            : fmt::format("{}{}", bent_vertex, surface_vertex),
-                fmt::format("{}{}{}{}", dither, block_bits, block_cover, surface_fragment)};
+                fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
-        return {tiles_defines, tiles, fading(rasterize_fragment)};
+        return {tiles_defines, tiles, std::string(rasterize_fragment)};
+    case scene::ShaderKey::Pass::RasterInDepth:
+        return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles,
+                fmt::format("{}{}", unbent_fragment, rasterize_in_depth_fragment)};
     case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case scene::ShaderKey::Pass::TablePicture:

@@ -68,6 +68,8 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
             return std::vector<std::uint32_t>{};
         });
     TRY_VOID(pack);
+    TRY(opened.world, open_world(settings, file, opened.outline.description, opened.plan,
+                                 request_of(settings, options, opened.outline)));
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != settings::SoundKind::None));
@@ -166,6 +168,9 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
         } else {
             opened->plan.needs = with_cut_outs(opened->plan.needs);
         }
+        if (opened->world) {
+            opened->plan.needs = with_cut_outs(needs_of(*opened->world, opened->plan.needs));
+        }
         all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));
     }
@@ -186,16 +191,16 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        needs.draws.insert(scene::raster_shader(dithered));
         if (reliefs_on_gpu) {
             key.blocks = true;
             needs.draws.insert(key);
         }
     }
+    needs.draws.insert(scene::raster_shader());
     needs.relief_draws = 2; // in a fade
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
-    return with_cut_outs(needs);
+    return with_cut_outs(scene::with_cells(std::move(needs)));
 }
 
 TextStyle text_style(const settings::Settings& settings) {

@@ -3,6 +3,7 @@
 #include "app/pack/pack_relief.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ struct Seen {
 };
 
 Seen shown(const pack::SeenEye& seen, const pack::SeenError& error, const geometry::PropShape& prop,
-           double metres_per_box, const glm::dvec3& eye, const FramePlan& plan) {
+           const glm::dmat4& prop_from_box, const glm::dvec3& eye, const FramePlan& plan) {
     double pixels = 0.0;
     double even_box = 0.0;
     Seen sum;
@@ -55,7 +56,9 @@ Seen shown(const pack::SeenEye& seen, const pack::SeenError& error, const geomet
         const auto error_box = static_cast<double>(error.patches_box[k]);
         even_box += patch.share * error_box;
         const FacePlan* const face =
-            patch.share > 0.0 ? seen_through(prop, plan, eye, metres_per_box * patch.place) : nullptr;
+            patch.share > 0.0
+                ? seen_through(prop, plan, eye, glm::dvec3(prop_from_box * glm::dvec4(patch.place, 1.0)))
+                : nullptr;
         if (face != nullptr && face->pixels_per_m > 0.0) {
             const double share = patch.share * face->pixels_per_m * face->pixels_per_m;
             pixels += share;
@@ -128,15 +131,17 @@ std::optional<ErrorEstimate> estimate_error(const SeenLevel& seen, const geometr
     if (plan.faces.empty()) {
         return std::nullopt;
     }
-    const double scale = level.metres_per_box;
+    const glm::dmat4 prop_from_box = level.prop_from_box();
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(prop_from_box))));
     const glm::dvec3 eye = view.table_from_prop.inverse().point(view.eyes_m.front());
-    const glm::dvec3 towards = glm::normalize(eye - glm::dvec3(0.0, 0.0, 0.5 * level.box_size.z * scale));
+    const glm::dvec3 eye_box(glm::affineInverse(prop_from_box) * glm::dvec4(eye, 1.0));
+    const glm::dvec3 towards = glm::normalize(eye_box - glm::dvec3(0.0, 0.0, 0.5 * level.box_size.z));
     ErrorEstimate sum;
     double weights = 0.0;
     for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
         const glm::dvec3 apart = seen.eyes[k].towards - towards;
         const double weight = std::exp(-glm::dot(apart, apart) / (2.0 * spread * spread));
-        const Seen now = shown(seen.eyes[k], seen.errors[k], prop, scale, eye, plan);
+        const Seen now = shown(seen.eyes[k], seen.errors[k], prop, prop_from_box, eye, plan);
         const double mean_mm = 1e3 * scale * now.mean_box;
         const double p95_mm = 1e3 * scale * static_cast<double>(seen.errors[k].p95_box) * now.over_even;
         const double rounding_mm = rounding_px * static_cast<double>(seen.eyes[k].steepness) * now.pixel_mm;

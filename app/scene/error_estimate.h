@@ -7,7 +7,8 @@
 ///             by d / cos; where an edge hides something else, by the distance between the two. Both change
 ///             slowly with the eye, apart from noise, so the eye's own figure is the mean of its neighbours',
 ///             weighted by exp(-(angle / spread)^2 / 2). An error is a length, so the placement's scale
-///             converts it to the configured prop.
+///             converts it to the configured prop: the cube root of its volume, since a cell's pose may
+///             stretch it.
 ///   Edges     Where an edge is misplaced, a ray meets what is behind it: a few rays in ten thousand, each
 ///             with a thousand times the usual error. The hits of one eye's rays predict little about a
 ///             picture's pixels. The bake therefore measures how far a level's edges move over all eyes

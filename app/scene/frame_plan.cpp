@@ -122,6 +122,7 @@ Draw draw_level(const Part& part, const glm::dmat4& clip_from_placed, const glm:
     Draw draw;
     draw.shader.dithered = part.dither.has_value();
     draw.shader.even_light = shared.view.light.has_value();
+    draw.shader.coloured = level.light != glm::vec3(1.0F);
     draw.drawable = level.drawable;
     draw.clip_from_unit = glm::mat4(from_unit(clip_from_placed, box));
     draw.prop_from_unit = glm::mat4(from_unit(level.prop_from_placed, box));
@@ -149,7 +150,7 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
             draw.shader.blocks = true;
             draw.clip_from_box = clip_from_box;
         } else {
-            draw.shader = raster_shader(part.dither.has_value());
+            draw.shader = raster_shader();
         }
         draw.relief_draw = plan.relief_draw_count - 1;
         draw.bounds = through.bounds;
@@ -167,27 +168,56 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
 
+/// Leaves the faces, as bits, on which the level may show.
+void keep_faces(std::uint32_t faces, relief::RasterView& view) {
+    std::erase_if(view.faces, [&](const relief::RasterFace& seen) {
+        return (faces >> static_cast<unsigned>(seen.face) & 1U) == 0;
+    });
+    view.lit = {};
+    for (const relief::RasterFace& seen : view.faces) {
+        view.lit = united(view.lit, seen.lit);
+    }
+}
+
 /// Returns false if the plan has no space for it.
-bool plan_relief_draw(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
+bool plan_relief_draw(const Part& part, const Shared& shared, FramePlan& plan) {
+    const PlacedLevel& level = part.level;
     if (plan.relief_draw_count == plan.relief_draws.size()) {
         return false;
     }
     ReliefDraw& relief_draw = plan.relief_draws[plan.relief_draw_count++];
     relief_draw.relief = level.drawable.mesh;
     relief_draw.on_gpu = level.on_gpu;
-    relief_draw.metres_per_box = level.metres_per_box;
+    relief_draw.prop_from_box = level.prop_from_box();
     relief_draw.light = level.light;
+    relief_draw.dither = part.dither;
     relief_draw.samples = level.samples;
     relief_draw.even_light = shared.view.light.has_value();
     relief::RasterScene scene;
-    scene.prop_from_box = level.prop_from_box();
+    scene.prop_from_box = relief_draw.prop_from_box;
     scene.box_size = level.box_size;
     scene.projector = shared.view.projector;
     scene.prop_from_projector =
         (shared.view.table_from_projector.inverse() * shared.view.table_from_prop).inverse();
     scene.eye_m = shared.eye(0);
     relief::set_up(relief_draw.view, shared.prop, scene);
+    keep_faces(level.faces, relief_draw.view);
     return true;
+}
+
+/// FacePlan::depth_from_nearness. Clip w of E + s (S - E) is s w(S), and w(S) is a constant of the face divided by
+/// -n.L: so z / w = a + b / w is linear in L / s. The constant is found at a corner of the face, where S is known.
+glm::vec4 depth_from_nearness(const geometry::PropFace& face, const glm::dmat4& clip, const Shared& shared) {
+    const glm::dvec3 slant = -glm::dmat3(shared.projector_from_prop) * face.plane.normal; // times L: -n.L
+    const glm::dvec3 corner(shared.projector_from_prop * glm::dvec4(face.corners[0], 1.0));
+    const double w = (clip * glm::dvec4(face.corners[0], 1.0)).w;
+    const double w_slant = w * glm::dot(slant, corner) / corner.z;
+    // The collineation's depth row is a times its w row, and b more in the last column.
+    const glm::dvec3 w_row(clip[0].w, clip[1].w, clip[2].w);
+    const glm::dvec3 z_row(clip[0].z, clip[1].z, clip[2].z);
+    const double a = glm::dot(z_row, w_row) / glm::dot(w_row, w_row);
+    const double b = clip[3].z - a * clip[3].w;
+    return {glm::vec3(b / w_slant * slant), static_cast<float>(a)};
 }
 
 /// Part by part, because the triangles that face the eye are found once for all faces that share the eye. Returns the
@@ -201,7 +231,7 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
     }
     std::uint32_t open = 0;
     for (const Part& part : parts) {
-        if (part.level.is_empty() || (part.level.relief && !plan_relief_draw(part.level, shared, plan))) {
+        if (part.level.is_empty() || (part.level.relief && !plan_relief_draw(part, shared, plan))) {
             continue;
         }
         for (std::size_t face = 0; face < faces; ++face) {
@@ -221,6 +251,8 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
                     added.corners_clip.push_back(corner_in_clip(corner, shared.clip_from_prop));
                 }
                 added.pixels_per_m = draw->pixels_per_box / part.level.metres_per_box;
+                added.depth_from_nearness =
+                    depth_from_nearness(shared.prop.faces[face], through[face]->clip_from_prop, shared);
             }
             FacePlan& on = plan.faces[*planned[face]];
             on.bounds = united(on.bounds, draw->bounds);

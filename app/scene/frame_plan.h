@@ -17,6 +17,7 @@
 #include "app/geometry/transform.h"
 #include "app/pack/pack.h"
 #include "app/relief/block_relief.h"
+#include "app/relief/dither.h"
 #include "app/relief/raster_view.h"
 #include "app/scene/drawable.h"
 #include "app/scene/edge_feather.h"
@@ -67,12 +68,7 @@ struct PlacedLevel {
 [[nodiscard]] PlacedLevel placed(const pack::Pack& pack, std::shared_ptr<const relief::BlockRelief> relief,
                                  double metres_per_box, const Drawable& drawable);
 
-/// The picture's pixels that a draw takes, with all their samples: an ordered pattern. A draw with a share
-/// and one with its complement take each pixel exactly once together: no pixel is mixed and none is left out.
-struct Dither {
-    float share = 1.0F;      ///< 0..1
-    bool complement = false; ///< the pixels that the share leaves
-};
+using relief::Dither;
 
 /// A level to draw in the prop.
 struct Part {
@@ -136,6 +132,9 @@ struct FacePlan {
     PixelRectangle bounds; ///< around the bounds of its draws
     /// At the artifact's middle, perpendicular to the eye's ray; the mean of two directions, by area.
     double pixels_per_m = 0.0;
+    /// Depth of its draws in normalised device coordinates: dot(xyz, L) r + w, for the light's ray L = (x, y, 1) in the
+    /// projector's frame and the nearness r (relief/nearness_row.h).
+    glm::vec4 depth_from_nearness{0.0F};
 };
 
 /// A relief as the frame's eye sees it, to be rasterized into a picture in main memory or drawn by the GPU.
@@ -143,10 +142,11 @@ struct ReliefDraw {
     MeshId relief = MeshId::None; ///< in the renderer's store
     bool on_gpu = false;
     relief::RasterView view;
-    double metres_per_box = 1.0;
-    glm::vec3 light{1.0F};   ///< PlacedLevel::light
-    int samples = 1;         ///< a pixel
-    bool even_light = false; ///< evens out the projector's light
+    glm::dmat4 prop_from_box{1.0};
+    glm::vec3 light{1.0F};        ///< PlacedLevel::light
+    std::optional<Dither> dither; ///< Part::dither
+    int samples = 1;              ///< a pixel
+    bool even_light = false;      ///< evens out the projector's light
 };
 
 /// A mesh or a relief seen through one face of the prop, a relief's rasterized picture there, or a
@@ -196,8 +196,8 @@ struct FramePlan {
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 
-/// The first part that the GPU draws sets the samples a pixel; a relief rasterized on the processor has its
-/// own. With one eye per face a relief is drawn for the first eye.
+/// The first part that the GPU draws sets the samples a pixel; of the reliefs rasterized on the processor the one with
+/// the most. With one eye per face a relief is drawn for the first eye.
 void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
                 FramePlan& plan);
 /// As above, for one part; without triangles the prop stays dark.

@@ -55,14 +55,19 @@ FRUSTUMSCREEN_INLINE relief::Ints lit(const RasterLight::Gain& gain, const relie
         gain.brightness_code *
         relief::least(relief::all(gain.max_code),
                       share.code * gain.per_cubic_metre_code * distance * root_of(root_of(distance)));
-    const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
+    const auto channel_in = [&](int shift, const relief::Floats& linear_in, const relief::Floats& power_in)
+                                FRUSTUMSCREEN_INLINED {
         const relief::Floats code = __builtin_convertvector(texels >> shift & 255, relief::Floats);
-        const relief::Floats straight = linear * code;
-        const relief::Floats by_power = (code + code_offset) * power - code_offset;
+        const relief::Floats straight = linear_in * code;
+        const relief::Floats by_power = (code + code_offset) * power_in - code_offset;
         const relief::Floats shown =
-            linear > 1.0F ? relief::least(straight, by_power) : relief::most(straight, by_power);
+            linear_in > 1.0F ? relief::least(straight, by_power) : relief::most(straight, by_power);
         return __builtin_convertvector(relief::least(shown, relief::all(255.0F)) + 0.5F, relief::Ints)
                << shift;
+    };
+    const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
+        return gain.coloured ? channel_in(shift, linear * gain.light[shift / 8], power * gain.light_code[shift / 8])
+                             : channel_in(shift, linear, power);
     };
     constexpr auto alpha = static_cast<std::int32_t>(0xFF000000U);
     const relief::Ints seen = texels & alpha;
@@ -148,13 +153,16 @@ FRUSTUMSCREEN_INLINE void light_row(const RasterLight::Parts& parts, int y, int 
 }
 
 RasterLight::Gain gain_of(const FacePlan& face, const geometry::Pinhole& pinhole, bool even_light,
-                          float brightness) {
+                          float brightness, const glm::vec3& light) {
     RasterLight::Gain gain;
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
     gain.ray_per_pixel = glm::vec2(per_pixel);
     gain.first_ray = glm::vec2(-glm::dvec2(pinhole.cx, pinhole.cy) * per_pixel);
     gain.brightness = brightness;
     gain.brightness_code = std::pow(brightness, code_power);
+    gain.coloured = light != glm::vec3(1.0F);
+    gain.light = light;
+    gain.light_code = glm::pow(light, glm::vec3(code_power));
     gain.per_cubic_metre = gain.per_cubic_metre_code = std::numeric_limits<float>::infinity();
     if (even_light) {
         gain.inverse_depth = face.light.inverse_depth;
@@ -174,33 +182,66 @@ glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
 
 } // namespace
 
-void RasterLight::begin(const FramePlan& plan, std::size_t relief_draw) {
-    const ReliefDraw& planned = plan.relief_draws[relief_draw];
+glm::vec3 RasterLight::rest_of(const glm::vec3& light) const {
+    glm::vec3 rest(1.0F);
+    for (int channel = 0; channel < 3; ++channel) {
+        if (common_light_[channel] > 0.0F) {
+            rest[channel] = light[channel] / common_light_[channel];
+        }
+    }
+    return rest;
+}
+
+void RasterLight::begin(const FramePlan& plan) {
     parts_.lens = relief::PixelLens(plan.projector);
-    parts_.changes_codes = planned.even_light;
+    parts_.changes_codes = false;
     parts_.faces.clear();
     parts_.feathers.clear();
     parts_.faces.reserve(plan.faces.capacity());
     parts_.feathers.reserve(plan.feathers.capacity());
+    bool any_relief = false;
+    common_light_ = glm::vec3(1.0F);
     for (const Draw& draw : plan.draws) {
-        if (draw.shader.pass != ShaderKey::Pass::Raster || draw.relief_draw != relief_draw) {
+        if (draw.shader.pass == ShaderKey::Pass::Raster) {
+            common_light_ = any_relief ? glm::max(common_light_, draw.light) : draw.light;
+            any_relief = true;
+        }
+    }
+    for (const Draw& draw : plan.draws) {
+        if (draw.shader.pass != ShaderKey::Pass::Raster) {
             continue;
         }
-        parts_.changes_codes = parts_.changes_codes || draw.brightness != 1.0F;
-        const FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
+        const ReliefDraw& planned = plan.relief_draws[draw.relief_draw];
+        parts_.changes_codes = parts_.changes_codes || planned.even_light || draw.brightness != 1.0F ||
+                               common_light_ != glm::vec3(1.0F);
         for (const relief::RasterFace& seen : planned.view.faces) {
-            if (seen.face == face.face) {
-                RasterLight::Face& added = parts_.faces.emplace_back();
-                added.face = draw.face;
-                added.lit = seen.lit;
-                added.edges = relief::first_edges(seen);
-                for (const glm::dvec3& edge : relief::more_edges(seen)) {
-                    added.more_edges.push_back(glm::vec3(edge));
-                }
-                added.gain = gain_of(face, plan.projector, planned.even_light, draw.brightness);
+            if (seen.face == plan.faces[static_cast<std::size_t>(draw.face)].face) {
+                add_face(plan, draw, seen);
             }
         }
     }
+    add_feathers(plan);
+}
+
+void RasterLight::add_face(const FramePlan& plan, const Draw& draw, const relief::RasterFace& seen) {
+    const auto known = std::find_if(parts_.faces.begin(), parts_.faces.end(),
+                                    [&](const Face& face) { return face.face == draw.face; });
+    if (known != parts_.faces.end()) { // of another relief
+        known->lit = united(known->lit, seen.lit);
+        return;
+    }
+    Face& added = parts_.faces.emplace_back();
+    added.face = draw.face;
+    added.lit = seen.lit;
+    added.edges = relief::first_edges(seen);
+    for (const glm::dvec3& edge : relief::more_edges(seen)) {
+        added.more_edges.push_back(glm::vec3(edge));
+    }
+    added.gain = gain_of(plan.faces[static_cast<std::size_t>(draw.face)], plan.projector,
+                         plan.relief_draws[draw.relief_draw].even_light, draw.brightness, common_light_);
+}
+
+void RasterLight::add_feathers(const FramePlan& plan) {
     const auto pixel = [&](const glm::vec4& clip) {
         return (0.5 * glm::dvec2(clip) + 0.5) * glm::dvec2(plan.projector.width, plan.projector.height);
     };

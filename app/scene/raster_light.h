@@ -1,10 +1,10 @@
-/// The projector's light on a relief that is rasterized on the processor: the codes that the shaders give a
+/// The projector's light on the reliefs that are rasterized on the processor: the codes that the shaders give a
 /// mesh (app/render/shader_source.cpp), computed row by row while the row is in the cache, including
 /// feathered edges.
 ///
 /// Colour   sRGB codes in and out; linear light is multiplied, by sRGB's power law, as in the shaders.
-/// Pixels   a pixel belongs to the face of the prop under its centre, and goes dark if the plan does not show
-///          the relief on that face. Lines are straight in the pixels of the ideal pinhole: a lens that
+/// Pixels   a pixel belongs to the face of the prop under its centre, and goes dark if the plan shows no such
+///          relief on that face. Lines are straight in the pixels of the ideal pinhole: a lens that
 ///          distorts is undone for each pixel.
 /// Threads  `begin` on one thread; it allocates nothing for a plan no larger than an earlier one. Then
 ///          `light` on any, several at once.
@@ -27,8 +27,12 @@ public:
     explicit RasterLight(relief::Instructions instructions = relief::best_instructions())
         : instructions_(instructions) {}
 
-    /// Prepares the light for one of the plan's reliefs.
-    void begin(const FramePlan& plan, std::size_t relief_draw);
+    /// Prepares the light for a picture of the plan's reliefs.
+    void begin(const FramePlan& plan);
+    /// The largest light of these reliefs, for each channel; the picture gets it here. 1 if all keep their colours.
+    [[nodiscard]] const glm::vec3& common_light() const { return common_light_; }
+    /// The rest of a relief's light, 0..1.
+    [[nodiscard]] glm::vec3 rest_of(const glm::vec3& light) const;
     void light(int y, int first, std::span<glm::u8vec4> codes) const override;
 
     /// Factors for a face's pixels, as FaceLight; `..._code`: to the power of 1 / 2.4, for multiplying codes.
@@ -38,6 +42,8 @@ public:
         float per_cubic_metre = 0.0F, per_cubic_metre_code = 0.0F;
         float most = 1.0F, max_code = 1.0F;
         float brightness = 1.0F, brightness_code = 1.0F;
+        bool coloured = false; ///< by the factors that follow
+        glm::vec3 light{1.0F}, light_code{1.0F};
     };
 
     struct Face {
@@ -62,8 +68,12 @@ public:
     };
 
 private:
+    void add_face(const FramePlan& plan, const Draw& draw, const relief::RasterFace& seen);
+    void add_feathers(const FramePlan& plan);
+
     relief::Instructions instructions_;
     Parts parts_;
+    glm::vec3 common_light_{1.0F};
 };
 
 } // namespace frustumscreen::scene

@@ -219,7 +219,8 @@ std::uint64_t gpu_bytes(const SceneLevel& level, const image::Image8& texture) {
 
 std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     constexpr std::uint64_t bytes_per_sample = 4 + 4; // colour; depth and stencil
-    constexpr std::uint64_t bytes_per_texel = 4;
+    const std::uint64_t bytes_per_texel = // colours, and depth
+        needs.relief_draws == 0 ? 0 : needs.interlocks ? 4 + 4 : 4;
     const auto area = [](const PixelSize& size) {
         return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     };
@@ -227,7 +228,7 @@ std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     const std::uint64_t samples =
         needs.samples > 1 ? static_cast<std::uint64_t>(needs.samples) * area(needs.outline.value_or(picture))
                           : 0;
-    return bytes_per_texel * needs.relief_draws * area(picture) + bytes_per_sample * samples;
+    return bytes_per_texel * area(picture) + bytes_per_sample * samples;
 }
 
 std::uint64_t caption_gpu_bytes(int width, int height) {

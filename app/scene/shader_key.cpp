@@ -7,8 +7,8 @@ namespace frustumscreen::scene {
 
 namespace {
 
-std::string_view name_of_light(const ShaderKey& key) {
-    return key.even_light ? " in even light" : " in plain light";
+std::string name_of_light(const ShaderKey& key) {
+    return std::string(key.even_light ? " in even light" : " in plain light") + (key.coloured ? " of a colour" : "");
 }
 
 std::string name_of_surface(const ShaderKey& key) {
@@ -29,7 +29,7 @@ std::string name_of(const ShaderKey& key) {
     case ShaderKey::Pass::Surface:
         return name_of_surface(key);
     case ShaderKey::Pass::Raster:
-        return key.dithered ? "fading cast relief" : "cast relief";
+        return "cast relief";
     case ShaderKey::Pass::EdgeFeather:
         return "edges between faces";
     case ShaderKey::Pass::TablePicture:
@@ -40,26 +40,27 @@ std::string name_of(const ShaderKey& key) {
         return "averaging of samples";
     case ShaderKey::Pass::TileAverageMany:
         return "averaging of many samples";
+    case ShaderKey::Pass::RasterInDepth:
+        return "cast relief among polygons";
     }
     return {};
 }
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 5U | bit(key.blocks, 4) | bit(key.places, 3) |
+    return static_cast<std::uint32_t>(key.pass) << 6U | bit(key.coloured, 5) | bit(key.blocks, 4) | bit(key.places, 3) |
            bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
 }
 
 ShaderKey places_of(ShaderKey key) {
     key.places = true;
     key.even_light = false;
+    key.coloured = false;
     return key;
 }
 
-ShaderKey raster_shader(bool dithered) {
-    ShaderKey key{ShaderKey::Pass::Raster};
-    key.dithered = dithered;
-    return key;
+ShaderKey raster_shader() {
+    return {ShaderKey::Pass::Raster};
 }
 
 std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector) {
@@ -75,14 +76,30 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     } else if (a.outline && b.outline) {
         both.outline = united(*a.outline, *b.outline);
     }
+    both.interlocks = a.interlocks || b.interlocks;
     both.bent_by = b.bent_by ? b.bent_by : a.bent_by;
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
 }
 
+RenderNeeds with_cells(RenderNeeds needs) {
+    const std::set<ShaderKey> plain = needs.draws;
+    for (ShaderKey key : plain) {
+        if (key.pass == ShaderKey::Pass::Surface) {
+            key.coloured = true;
+            needs.draws.insert(key);
+        }
+    }
+    needs.interlocks = needs.relief_draws > 0;
+    return needs;
+}
+
 std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
     std::set<ShaderKey> shaders = needs.draws;
     shaders.insert({ShaderKey::Pass::Outline});
+    if (needs.interlocks) {
+        shaders.insert({ShaderKey::Pass::RasterInDepth});
+    }
     if (needs.samples > 1) {
         shaders.insert({ShaderKey::Pass::TileClear});
         shaders.insert({ShaderKey::Pass::TileAverage});

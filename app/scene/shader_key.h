@@ -25,14 +25,16 @@ struct ShaderKey {
         TileClear,       ///< blackens tiles of the larger picture that holds several samples a pixel
         TileAverage,     ///< averages these samples, up to 2 x 2 a pixel
         TileAverageMany, ///< averages more samples than that
+        RasterInDepth,   ///< shows such a relief behind and before what the GPU draws
     };
     Pass pass = Pass::Surface;
-    // For Surface only, except `dithered`, which Cast uses too:
+    // For Surface only:
     bool places : 1 = false;     ///< outputs each pixel's position in the prop instead of its colour
     bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
     bool dithered : 1 = false;   ///< draws a share of the pixels
     bool even_light : 1 = false; ///< evens out the projector's light
     bool blocks : 1 = false;     ///< draws a relief's blocks, which leave out no texels
+    bool coloured : 1 = false;   ///< multiplies its colours by the draw's light
 
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };
@@ -44,13 +46,14 @@ struct ShaderKey {
 [[nodiscard]] ShaderKey places_of(ShaderKey key);
 
 /// The shader for reliefs that are rasterized on the processor.
-[[nodiscard]] ShaderKey raster_shader(bool dithered);
+[[nodiscard]] ShaderKey raster_shader();
 
 /// Capabilities and memory that a renderer must provide.
 struct RenderNeeds {
     int samples = 1;              ///< samples a pixel that the target must hold wherever the prop stands
     std::set<ShaderKey> draws;    ///< the shaders that the draws of its plans name
-    std::size_t relief_draws = 0; ///< pictures that one plan may rasterize into memory
+    std::size_t relief_draws = 0; ///< reliefs that one plan may rasterize into memory, into one picture
+    bool interlocks = false;      ///< such a relief may hide, or be hidden by, what the GPU draws
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<geometry::Pinhole> bent_by =
@@ -59,6 +62,8 @@ struct RenderNeeds {
 /// The value of RenderNeeds::bent_by: the projector if its lens distorts, otherwise nullopt.
 [[nodiscard]] std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector);
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
+/// What a world of cells needs of a renderer beyond its artifact: a light for each, and depth between relief and polygons.
+[[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
 

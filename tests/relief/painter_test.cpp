@@ -83,8 +83,12 @@ struct PoseRaster {
     BlockItems items;
     RasterSamples samples;
     RasterView view = painting.view(painting.poses[0]);
+    BlockPages pages;
 
-    PoseRaster() { list_blocks(items, painting.relief, view); }
+    PoseRaster() {
+        list_blocks(items, painting.relief, view);
+        pages.add(painting.relief);
+    }
     void take(int count) {
         samples.begin(view.lit, count);
         rasterize(samples, painting.relief, view, items);
@@ -93,14 +97,14 @@ struct PoseRaster {
 
 TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
     PoseRaster pose;
-    const auto& [painting, light, items, samples, view] = pose;
+    const auto& [painting, light, items, samples, view, pages] = pose;
     for (const int count : {1, 2, 4, 8, 16}) {
         pose.take(count);
         std::vector<glm::u8vec4> best(static_cast<std::size_t>(view.lit.width));
         std::vector<glm::u8vec4> plain = best;
         for (int y = view.lit.y; y < view.lit.y + view.lit.height; ++y) {
-            resolve_row(samples, painting.relief, light, y, view.lit.x, plain, Instructions::Plain);
-            resolve_row(samples, painting.relief, light, y, view.lit.x, best);
+            resolve_row(samples, pages, light, y, view.lit.x, plain, Outline::OverBlack, Instructions::Plain);
+            resolve_row(samples, pages, light, y, view.lit.x, best);
             ASSERT_EQ(best, plain) << count << " " << y;
         }
     }
@@ -111,14 +115,14 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
 /// their mean light.
 TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
     PoseRaster pose;
-    const auto& [painting, light, items, samples, view] = pose;
+    const auto& [painting, light, items, samples, view, pages] = pose;
     for (const unsigned count : {2U, 4U, 16U}) {
         pose.take(static_cast<int>(count));
         std::vector<glm::u8vec4> codes(static_cast<std::size_t>(view.lit.width));
         int mixed = 0;
         int even = 0;
         for (int y = view.lit.y; y < view.lit.y + view.lit.height; ++y) {
-            resolve_row(samples, painting.relief, light, y, view.lit.x, codes);
+            resolve_row(samples, pages, light, y, view.lit.x, codes);
             for (int x = view.lit.x; x < view.lit.x + view.lit.width; ++x) {
                 glm::uvec3 sum(0);
                 glm::u8vec4 low(255);

@@ -261,7 +261,7 @@ TEST(Raster, EveryInstructionSetMakesTheSamePicture) {
             rasterize(best, relief, frame.view, frame.items);
             RasterSamples plain;
             plain.begin(frame.view.lit, samples);
-            rasterize(plain, relief, frame.view, frame.items, Instructions::Plain);
+            rasterize(plain, relief, frame.view, frame.items, {}, Instructions::Plain);
             EXPECT_EQ(best.nearness, plain.nearness);
             EXPECT_EQ(best.block, plain.block);
             EXPECT_EQ(best.place, plain.place);

@@ -27,7 +27,7 @@ inline TestTable table_of(const geometry::Lens& lens) {
 inline scene::RenderNeeds needs_with_reliefs(int samples, const geometry::Pinhole& projector) {
     scene::RenderNeeds all = needs(samples, true);
     all.bent_by = scene::if_it_bends(projector);
-    all.draws.insert({scene::raster_shader(false), scene::raster_shader(true)});
+    all.draws.insert(scene::raster_shader());
     all.relief_draws = 2;
     for (scene::ShaderKey key : needs(samples, true).draws) {
         key.blocks = key.pass == scene::ShaderKey::Pass::Surface;

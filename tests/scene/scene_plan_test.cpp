@@ -284,8 +284,9 @@ TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
 
 TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
     std::set<ShaderKey> keys;
-    for (unsigned bits = 0; bits < 16; ++bits) {
+    for (unsigned bits = 0; bits < 32; ++bits) {
         ShaderKey key;
+        key.coloured = (bits & 16U) != 0;
         key.even_light = (bits & 1U) != 0;
         key.dithered = (bits & 2U) != 0;
         key.cut_out = (bits & 4U) != 0;
@@ -295,14 +296,14 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
             key.blocks = true;
             keys.insert(key.places ? places_of(key) : key);
         }
-        keys.insert(raster_shader(key.dithered));
+        keys.insert(raster_shader());
     }
     for (const ShaderKey::Pass pass :
          {ShaderKey::Pass::Outline, ShaderKey::Pass::TablePicture, ShaderKey::Pass::TileClear,
-          ShaderKey::Pass::TileAverage, ShaderKey::Pass::TileAverageMany}) {
+          ShaderKey::Pass::TileAverage, ShaderKey::Pass::TileAverageMany, ShaderKey::Pass::RasterInDepth}) {
         keys.insert({pass});
     }
-    EXPECT_EQ(keys.size(), 25U); // hit points do not depend on light
+    EXPECT_EQ(keys.size(), 37U); // hit points do not depend on light
     std::set<std::string> names;
     std::set<std::uint32_t> numbers;
     for (const ShaderKey& key : keys) {

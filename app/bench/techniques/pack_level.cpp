@@ -247,7 +247,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         shader.blocks = true;
         needs = needs_of(layout.pinhole, samples_of(options, pack), shader);
     } else {
-        needs.draws = {scene::raster_shader(false)};
+        needs.draws = {scene::raster_shader()};
         needs.relief_draws = 1;
     }
     TRY(render::Renderer renderer,
