@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -174,10 +173,9 @@ private:
     }
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         const scene::StereoLayout layout = layout_of(kiosk_, stereo_);
-        const std::array<glm::dvec3, 2> both = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
-        const std::span<const glm::dvec3> eyes_m =
-            layout.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
-        const std::array<scene::PlanView, 2> views = scene::views_of(layout, view_of(pose, light), eyes_m);
+        const std::array<glm::dvec3, 2> both_m = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
+        const std::array<scene::PlanView, 2> views =
+            scene::views_of(layout, view_of(pose, light), scene::drawn_eyes(layout, pose.eye_m, both_m));
         for (std::size_t eye = 0; eye < layout.count; ++eye) {
             scene::plan_frame(kiosk_.prop, placed, views[eye], plans_[eye]);
             if (!light.feathered) {
