@@ -306,7 +306,7 @@ void calibration_settings(auto& fields, auto& calibration) {
 void press_settings(auto& fields, auto& press) {
     fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "time after the script begins");
     fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
-                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help");
+                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help, 5 behaviour");
 }
 
 void panel_settings(auto& fields, auto& panel) {
