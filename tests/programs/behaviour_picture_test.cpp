@@ -190,6 +190,7 @@ world::Behaviour opening() {
     behaviour.name = "open";
     behaviour.seconds = seconds;
     behaviour.stays = true;
+    behaviour.trigger = world::Trigger::Arrival;
     world::Channel lid{.cell = 1, .path = world::Path::Rotation, .curve = {}};
     // Short arcs, so that the turn from key to key is even.
     for (const double t : {0.0, 0.5 * seconds, seconds}) {
@@ -361,6 +362,23 @@ TEST_F(BehaviourPicture, IsTheWholeArtifactsWithoutTheOption) {
     ASSERT_EQ(render("--technique finest --aov"), 0) << text("err.txt");
     EXPECT_EQ(text("out/frame_00003.png"), picture);
     EXPECT_EQ(text("out/frame_00003.pfm"), points);
+}
+
+TEST_F(BehaviourPicture, RunsInTheExhibitWhenTheArtifactArrives) {
+    put("kiosk.toml", text("kiosk.toml") + "[tracker]\nkind = \"replay\"\nposes = \"walk.csv\"\n"
+                                           "[exhibit]\npacks = [\"chest.fspack\"]\n");
+    std::string walk = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+    for (int k = 0; k < 80; ++k) { // a visitor slides the prop
+        const double x_m = 0.03 * std::sin(0.2 * k);
+        walk += fmt::format("{0},1,{1},0,0.05,1,0,0,0,1\n{0},2,0.1,-0.4,0.6,1,0,0,0,1\n", 100000 * k, x_m);
+    }
+    put("walk.csv", walk);
+    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --seconds 8 --out run"), 0)
+        << text("err.txt");
+    const std::string frames = text("run/frames.csv");
+    const std::size_t first = frames.find(",cells,");
+    ASSERT_NE(first, std::string::npos) << frames.substr(0, 400);
+    EXPECT_NE(frames.substr(0, first).find(",level"), std::string::npos) << "first it is drawn whole";
 }
 
 TEST_F(BehaviourPicture, RefusesABehaviourThatThereIsNotInOneLine) {
