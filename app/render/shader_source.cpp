@@ -325,10 +325,11 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     case scene::ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case scene::ShaderKey::Pass::Surface:
-        return {defines,
-                key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
-                           : fmt::format("{}{}", bent_vertex, surface_vertex),
-                fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
+        return {
+            defines,
+            key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
+                       : fmt::format("{}{}", bent_vertex, surface_vertex),
+            fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
         return {tiles_defines, tiles, std::string(rasterize_fragment)};
     case scene::ShaderKey::Pass::RasterInDepth:
