@@ -198,6 +198,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
     glEnable(GL_SCISSOR_TEST);
+    set_channels(glm::bvec3(true));
     if (!repaint.clear.empty()) {
         set_scissor(repaint.clear);
         clear(GL_COLOR_BUFFER_BIT | (meshes ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT : 0U));
