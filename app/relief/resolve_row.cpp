@@ -73,8 +73,7 @@ private:
                 power[lane] = light.code[channel];
             }
             const auto shift = static_cast<unsigned>(8 * channel);
-            const Floats code =
-                __builtin_convertvector(std::bit_cast<Ints>(codes >> shift & 255U), Floats);
+            const Floats code = __builtin_convertvector(std::bit_cast<Ints>(codes >> shift & 255U), Floats);
             const Floats shown = relief::most(linear * code, (code + offset) * power - offset);
             lit |= std::bit_cast<Words>(__builtin_convertvector(shown + 0.5F, Ints)) << shift;
         }

@@ -21,6 +21,25 @@ namespace {
 constexpr double warm_up_step_m = 0.01;
 constexpr double sample_side_m = 0.05;
 
+void play(MonotonicTime now, const exhibit::BehaviourEvents& behaviours, world::Player& player) {
+    if (behaviours.end_all) {
+        player.end_all(now);
+    }
+    for (const exhibit::BehaviourEvent& event : behaviours.events()) {
+        switch (event.kind) {
+        case exhibit::BehaviourEvent::Kind::Start:
+            player.start(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::End:
+            player.end(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::Toggle:
+            player.trigger(event.behaviour, now);
+            break;
+        }
+    }
+}
+
 } // namespace
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Settings& settings,
@@ -358,6 +377,9 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
             cells->enter(now);
         }
         on_ = presentation.artifact;
+    }
+    if (cells != nullptr) {
+        play(now, presentation.behaviours, cells->player());
     }
     if (cells != nullptr && cells->step(now, load_)) {
         return cells->draw(now, levels->shown(), prop_, std::span(views).first(layout_.count), renderer_,

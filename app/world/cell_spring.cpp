@@ -54,8 +54,8 @@ void CellSpring::push(MonotonicTime now) {
         return;
     }
     keep(now);
-    const double rate = from_target_.x * std::sqrt(law_.stiffness_per_s2);
-    const double square = push_per_s_ * push_per_s_ - rate * rate;
+    const double speed = from_target_.x * std::sqrt(law_.stiffness_per_s2);
+    const double square = push_per_s_ * push_per_s_ - speed * speed;
     if (square > from_target_.v * from_target_.v) {
         from_target_.v = std::copysign(std::sqrt(square), push_per_s_);
     }

@@ -60,6 +60,17 @@ def gltf():
     return document
 
 
+def still_after(stiffness, damping):
+    """Seconds until a thousandth of the way is left for good, by small steps."""
+    x, v, step, last = 0.0, 0.0, 1e-4, 0.0
+    for k in range(200000):
+        v += (stiffness * (1 - x) - damping * v) * step
+        x += v * step
+        if abs(x - 1) > 1e-3:
+            last = k * step
+    return last
+
+
 class BakeCells(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -121,6 +132,14 @@ class BakeCells(unittest.TestCase):
         self.assertEqual([cell["name"] for cell in report["cells"]["cells"]], ["chest", "lid"])
         self.assertEqual(report["cells"]["behaviours"], [])
 
+    def test_a_word_that_is_no_way_to_cut_is_refused(self):
+        self.assertIn("--cells", self.bake("--cells", "auto", status=2))
+
+    def test_a_check_lists_parts_and_animations(self):
+        done = subprocess.run([PROGRAM, "--check", "chest.gltf", "--json"], cwd=self.folder, capture_output=True, text=True, check=True)
+        scan = json.loads(done.stdout)["scans"][0]
+        self.assertEqual((scan["parts"], scan["animations"]), (["chest", "lid"], ["open"]))
+
     def test_artifact_toml_says_what_moves_the_parts(self):
         lines = ['scan = "chest.gltf"', "[[texts]]", 'language = "en"', 'title = "Chest"',
                  "[[behaviours]]", 'name = "turn the lid"', 'animation = "open"', 'trigger = "arrival"', 'titles = { en = "Turn the lid" }',
@@ -136,6 +155,8 @@ class BakeCells(unittest.TestCase):
         spring = behaviours[1]["springs"][0]
         self.assertEqual((spring["cell"], spring["axis"], spring["turns"]), (1, [0, 0, 1], False))
         self.assertAlmostEqual(spring["reach"], 0.5, msg="50 mm in a frame that is scaled by 0.1")
+        still_s = still_after(50, 5)
+        self.assertTrue(still_s <= behaviours[1]["seconds"] <= 2 * still_s, (still_s, behaviours[1]["seconds"]))
         self.assertEqual(behaviours[2]["seconds"], 3)
         self.assertTrue(behaviours[2]["stays"])
         for wrong, words in (('animation = "opne"', "the model has no animation 'opne' that moves parts; it has open"),

@@ -206,7 +206,9 @@ TEST_F(CellsOnShow, AreDrawnMoreCoarselyWhereTimeIsShort) {
     }
     upload();
     const auto triangles_drawn = [&](double ms_per_triangle) {
-        cells().start({.mesh = {.ms_per_triangle = ms_per_triangle}});
+        scene::FrameCost cost;
+        cost.mesh.ms_per_triangle = ms_per_triangle;
+        cells().start(cost);
         cells().player().start(0, now_);
         for (int frame = 0; frame < 100; ++frame) {
             draw();
