@@ -4,6 +4,7 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/exhibit/behaviour_triggers.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/narration_sequencer.h"
@@ -32,6 +33,7 @@ struct CatalogueEntry {
     std::vector<Tellable> tellables{};
     std::vector<DescriptionShape> descriptions{};
     HotspotSet hotspots{};
+    std::vector<TriggeredBehaviour> behaviours{}; ///< in the pack's order
     /// The corners of the hull of the artifact in the prop (pack/pack_hull.h), prop frame; empty: unknown, and every
     /// face in view counts.
     std::vector<glm::dvec3> hull{};

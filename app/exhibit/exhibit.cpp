@@ -10,7 +10,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
     : place_(place), first_language_(language), catalogue_(std::move(catalogue)),
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
       table_(lay_out_catalogue(catalogue_.all(), place)), caption_(place.picture_m), labels_(place.picture_m),
-      guide_(place.guidance), advice_(place.words, place.picture_m) {}
+      guide_(place.guidance), advice_(place.words, place.picture_m), title_(place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
                            const tracking::TrackedState& tracked_state) {

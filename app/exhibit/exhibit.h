@@ -21,6 +21,8 @@
 #include "app/exhibit/advice_presenter.h"
 #include "app/exhibit/artifact_caption.h"
 #include "app/exhibit/artifact_state.h"
+#include "app/exhibit/behaviour_title.h"
+#include "app/exhibit/behaviour_triggers.h"
 #include "app/exhibit/catalogue.h"
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/idle_pose.h"
@@ -34,6 +36,7 @@
 #include "app/exhibit/shown_catalogue.h"
 #include "app/exhibit/staff_tool.h"
 #include "app/exhibit/states.h"
+#include "app/exhibit/stillness.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/visitor_guide.h"
 #include "app/settings/command.h"
@@ -146,6 +149,14 @@ private:
               const DrawnPose& drawn, bool pressed, Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
+    // Behaviours: exhibit_behaves.cpp.
+    void behave(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+                const DrawnPose& drawn, bool pressed, Presentation& presentation);
+    [[nodiscard]] std::optional<PresentedTitle> title(MonotonicTime now,
+                                                      const tracking::TrackedState& tracked_state,
+                                                      const Shown& shown, const DrawnPose& drawn,
+                                                      const Presentation& presentation);
+
     // The sets and artifacts.
     ExhibitPlace place_;
     std::string first_language_;
@@ -170,6 +181,9 @@ private:
     Narrator narrator_;
     VisitorGuide guide_;
     AdvicePresenter advice_;
+    Stillness stillness_; ///< of the visitor, for behaviours
+    BehaviourTriggers triggers_;
+    BehaviourTitle title_;
 };
 
 } // namespace frustumscreen::exhibit

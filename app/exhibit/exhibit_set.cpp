@@ -47,6 +47,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
     dim(presentation.caption);
     dim(presentation.hotspot);
     dim(presentation.advice);
+    dim(presentation.title);
 }
 
 Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> table,
@@ -66,6 +67,8 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     caption_ = ArtifactCaption(place_.picture_m);
     labels_ = HotspotLabels(place_.picture_m);
     narrator_ = Narrator();
+    triggers_ = BehaviourTriggers();
+    title_ = BehaviourTitle(place_.picture_m);
     advice_.set_words(std::move(words), place_.picture_m);
     return before;
 }

@@ -27,6 +27,7 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
         presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
     presentation.hotspot = label(now, shown, tracked_state, drawn, presentation);
+    behave(now, tracked_state, shown, drawn, pressed, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
@@ -40,7 +41,8 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     const double opacity = caption_.opacity(now);
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !drawn.changing &&
-                           !waits() && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
+                           !waits() && !narrator_.text().changing && !title_.changing() &&
+                           (opacity <= 0.0 || opacity >= 1.0);
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
     presentation.staff_view = staff_.shown();
@@ -252,6 +254,9 @@ std::uint32_t Exhibit::lamps() const {
     const bool helps = guide_.guidance() != nullptr || (told != nullptr && !told->portions.empty());
     const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
     lamps |= tells || rests_on_picture ? 1U << settings::button_of(settings::Command::Choose) : 0U;
+    const CatalogueEntry* const entry = catalogue_.captioned(selection_.artifact());
+    const bool behaves = entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0);
+    lamps |= behaves ? 1U << settings::button_of(settings::Command::Behaviour) : 0U;
     lamps |= helps ? 1U << settings::button_of(settings::Command::Help) : 0U;
     return lamps;
 }

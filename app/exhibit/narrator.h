@@ -54,6 +54,7 @@ public:
     const Told& step(MonotonicTime now, const tracking::TrackedState& tracked_state,
                      const NarratorInput& input);
     [[nodiscard]] const Told& told() const { return told_; }
+    [[nodiscard]] const SpeechProgress& narration() const { return narration_; }
     [[nodiscard]] CaptionText text() const;
 
 private:

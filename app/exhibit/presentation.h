@@ -5,6 +5,8 @@
 #pragma once
 
 #include "app/exhibit/advice_sign.h"
+#include "app/exhibit/behaviour_title.h"
+#include "app/exhibit/behaviour_triggers.h"
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/narration_sequencer.h"
 #include "app/exhibit/notice_place.h"
@@ -67,6 +69,8 @@ struct Presentation {
     std::optional<DescriptionIndex> prepares; ///< description that may be heard next
     std::optional<std::size_t> tells_of;      ///< the hotspot pointed out, visible or not
     std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
+    BehaviourEvents behaviours;               ///< that begin or end in this step
+    std::optional<PresentedTitle> title;      ///< what the button for behaviours does now
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit
     double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light

@@ -18,6 +18,7 @@ public:
         at(command) = counts;
         choose_ = choose_ || (counts && command == settings::Command::Choose);
         help_ = help_ || (counts && command == settings::Command::Help);
+        behaviour_ = behaviour_ || (counts && command == settings::Command::Behaviour);
     }
     /// No chord undoes this press.
     void forget(settings::Command command) { at(command) = false; }
@@ -31,6 +32,8 @@ public:
     void end_choose() { choose_ = false; }
     [[nodiscard]] bool help() const { return help_; }
     void end_help() { help_ = false; }
+    /// True if a behaviour is requested; the next call returns false.
+    [[nodiscard]] bool take_behaviour() { return std::exchange(behaviour_, false); }
 
 private:
     [[nodiscard]] bool& at(settings::Command command) {
@@ -41,6 +44,7 @@ private:
         undoable_{}; ///< by button: its latest press reached the selection
     bool choose_ = false;
     bool help_ = false;
+    bool behaviour_ = false;
 };
 
 } // namespace frustumscreen::exhibit

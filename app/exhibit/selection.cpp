@@ -107,6 +107,7 @@ void Selection::undo(settings::Command command, MonotonicTime now) {
         break;
     case settings::Command::Choose:
     case settings::Command::Help:
+    case settings::Command::Behaviour:
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:
@@ -123,6 +124,7 @@ bool Selection::accepts(settings::Command command) const {
         return language_count_ > 1;
     case settings::Command::Choose:
     case settings::Command::Help:
+    case settings::Command::Behaviour:
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:

@@ -148,6 +148,9 @@ void ArtifactCache::start(const scene::FrameCost& cost, const geometry::PropShap
                 seen.eyes_m = std::span(&eye_m, 1);
                 seen.light = known(items_[item].artifact).plan.light;
                 levels->levels.start(cost, prop, seen);
+                if (levels->cells) {
+                    levels->cells->start(cost);
+                }
             }
             return prepared;
         });
@@ -279,7 +282,7 @@ void ArtifactCache::release(render::GpuStore& store, std::size_t item) {
     std::size_t end = item + 1;
     if (const LoadedLevels* const gone = items_[item].part ? nullptr : levels(artifact)) {
         const LevelState state = gone->artifact.levels.state();
-        past_switches_ += state.switches;
+        past_switches_ += gone->switches();
         past_ignored_times_ += state.ignored_times;
         states_[artifact] = exhibit::ArtifactState::Away;
         end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
@@ -321,6 +324,10 @@ const RunLevels* ArtifactCache::find(std::size_t artifact) const {
     return const_cast<ArtifactCache*>(this)->find(artifact);
 }
 
+RunCells* ArtifactCache::find_cells(std::size_t artifact) const {
+    return find(artifact) != nullptr ? levels(artifact)->artifact.cells.get() : nullptr;
+}
+
 double ArtifactCache::exposure(std::size_t artifact) const {
     const LoadedLevels* const loaded = levels(artifact);
     return loaded != nullptr ? loaded->artifact.exposure : 1.0;
@@ -360,7 +367,7 @@ std::uint64_t ArtifactCache::switches() const {
     std::uint64_t switches = past_switches_;
     for (std::size_t artifact = 0; artifact < size(); ++artifact) {
         const LoadedLevels* const loaded = levels(artifact);
-        switches += loaded != nullptr ? loaded->artifact.levels.state().switches : 0;
+        switches += loaded != nullptr ? loaded->switches() : 0;
     }
     return switches;
 }

@@ -89,6 +89,8 @@ public:
     /// Null if the artifact is not ready.
     [[nodiscard]] RunLevels* find(std::size_t artifact);
     [[nodiscard]] const RunLevels* find(std::size_t artifact) const;
+    /// Null if the artifact is not ready, or nothing of it moves.
+    [[nodiscard]] RunCells* find_cells(std::size_t artifact) const;
     [[nodiscard]] double exposure(std::size_t artifact) const;
     /// None if the artifact is not ready, or has no hotspots.
     [[nodiscard]] exhibit::ArtifactTriangles triangles(std::size_t artifact) const;

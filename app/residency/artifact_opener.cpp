@@ -56,6 +56,13 @@ Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& 
     return {};
 }
 
+exhibit::TriggeredBehaviour triggered(const world::Behaviour& behaviour) {
+    return {.trigger = behaviour.trigger,
+            .hotspot = behaviour.hotspot,
+            .narration_s = behaviour.narration_s,
+            .lasts = behaviour.repeats || behaviour.stays};
+}
+
 Result<KnownArtifact> open_pack(const settings::Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
     KnownArtifact opened{.file = file, .outline = {}, .plan = {}, .texts = {}};
@@ -68,10 +75,17 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
             return std::vector<std::uint32_t>{};
         });
     TRY_VOID(pack);
+    TRY(opened.world, open_world(settings, file, opened.outline.description, opened.plan,
+                                 request_of(settings, options, opened.outline)));
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != settings::SoundKind::None));
     TRY_VOID(find_whole_zone(settings, opened));
+    if (opened.world) {
+        for (const pack::PackBehaviour& behaviour : opened.world->world.behaviours) {
+            opened.texts.entry.behaviours.push_back(triggered(behaviour.behaviour));
+        }
+    }
     return opened;
 }
 
@@ -166,6 +180,9 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
         } else {
             opened->plan.needs = with_cut_outs(opened->plan.needs);
         }
+        if (opened->world) {
+            opened->plan.needs = with_cut_outs(needs_of(*opened->world, opened->plan.needs));
+        }
         all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));
     }
@@ -195,7 +212,7 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
     needs.relief_draws = 2; // in a fade
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
-    return with_cut_outs(needs);
+    return with_cut_outs(scene::with_cells(std::move(needs)));
 }
 
 TextStyle text_style(const settings::Settings& settings) {

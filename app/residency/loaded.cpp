@@ -16,14 +16,28 @@ Result<void> LoadedLevels::upload(render::GpuStore& store, std::uint64_t max_byt
     render::LevelUpload& level = uploads_[uploaded_];
     TRY_VOID(level.go_on(max_bytes));
     if (level.done()) {
-        artifact.levels.give(uploaded_, store.keep(std::move(level)), store);
+        const std::size_t levels = artifact.levels.uses().size();
+        const scene::Drawable drawable = store.keep(std::move(level));
+        if (uploaded_ < levels) {
+            artifact.levels.give(uploaded_, drawable, store);
+        } else {
+            artifact.cells->give(uploaded_ - levels, drawable, store);
+        }
         ++uploaded_;
     }
     return {};
 }
 
+void LoadedLevels::release(render::GpuStore& store) {
+    artifact.levels.release(store);
+    if (artifact.cells) {
+        artifact.cells->release(store);
+    }
+}
+
 std::uint64_t LoadedLevels::bytes() const {
-    return artifact.levels.bytes() + (artifact.triangles.tree ? artifact.triangles.tree->bytes() : 0);
+    return artifact.levels.bytes() + (artifact.triangles.tree ? artifact.triangles.tree->bytes() : 0) +
+           (artifact.cells ? artifact.cells->bytes() : 0);
 }
 
 LoadedTexts::LoadedTexts(TextPictures pictures) : pictures_(std::move(pictures)) {

@@ -1,4 +1,5 @@
-/// An artifact's data in memory, or on its way to the GPU's memory: its levels, or some of its texts.
+/// An artifact's data in memory, or on its way to the GPU's memory: its levels with those of its cells, or some of its
+/// texts.
 ///
 /// Units    bytes.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context
@@ -23,15 +24,20 @@ public:
     [[nodiscard]] Result<void> upload(render::GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == uploads_.size(); }
     /// Removes all of it from the store.
-    void release(render::GpuStore& store) { artifact.levels.release(store); }
+    void release(render::GpuStore& store);
     /// GPU memory and main memory.
     [[nodiscard]] std::uint64_t bytes() const;
+
+    /// Of quality levels, also of cells.
+    [[nodiscard]] std::uint64_t switches() const {
+        return artifact.levels.state().switches + (artifact.cells ? artifact.cells->switches() : 0);
+    }
 
     PreparedArtifact artifact;
 
 private:
     std::vector<render::LevelUpload> uploads_;
-    std::size_t uploaded_ = 0; ///< levels that are in the store
+    std::size_t uploaded_ = 0; ///< levels, also of cells, that are in the store
 };
 
 class LoadedTexts {

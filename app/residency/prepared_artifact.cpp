@@ -43,6 +43,24 @@ std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
     return levels;
 }
 
+/// Of the levels and reliefs that a plan reads.
+std::uint64_t expected_bytes(const pack::PackOutline& outline, const scene::ScenePlan& plan,
+                             std::uint64_t texture_bytes) {
+    constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
+    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t number : plan.levels) {
+        const pack::LevelOutline& level = outline.levels[number];
+        bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+    }
+    for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
+        const std::uint64_t relief = plan.reliefs[place].bytes;
+        constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
+        bytes += more_in_memory * relief + (draws_relief(plan, place, true) ? relief : 0);
+    }
+    return bytes;
+}
+
 } // namespace
 
 Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
@@ -92,8 +110,16 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
                           .data = {},
                           .exposure = exposure,
                           .triangles = std::move(triangles)};
-    for (PreparedLevel& level : levels) {
-        made.data.push_back(std::move(level.data));
+    PreparedCells cells;
+    if (known.world) {
+        TRY(const pack::PackWorld world, pack::load_world(known.file));
+        TRY(cells, prepare_cells(known.file, *known.world, given_up));
+        made.cells = std::make_unique<RunCells>(world, *known.world, plan, levels, cells, deadline_ms);
+    }
+    for (std::vector<PreparedLevel>* const prepared : {&levels, &cells.levels}) {
+        for (PreparedLevel& level : *prepared) {
+            made.data.push_back(std::move(level.data));
+        }
     }
     return made;
 }
@@ -105,17 +131,11 @@ Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, st
 }
 
 std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
-    constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
-    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
-    std::uint64_t bytes = 0;
-    for (const std::uint32_t number : known.plan.levels) {
-        const pack::LevelOutline& level = known.outline.levels[number];
-        bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
-    }
-    for (std::size_t place = 0; place < known.plan.reliefs.size(); ++place) {
-        const std::uint64_t relief = known.plan.reliefs[place].bytes;
-        constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
-        bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
+    std::uint64_t bytes = expected_bytes(known.outline, known.plan, texture_bytes);
+    if (known.world) {
+        for (const KnownCell& cell : known.world->drawn) {
+            bytes += expected_bytes(cell.outline, cell.plan, texture_bytes);
+        }
     }
     if (!known.outline.description.hotspots.empty()) {
         bytes += geometry::TriangleTree::max_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);

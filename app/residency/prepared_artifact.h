@@ -9,6 +9,8 @@
 #include "app/exhibit/hotspot_labels.h"
 #include "app/pack/pack_outline.h"
 #include "app/residency/artifact_texts.h"
+#include "app/residency/known_world.h"
+#include "app/residency/run_cells.h"
 #include "app/residency/run_levels.h"
 #include "app/scene/frame_time_model.h"
 #include "app/scene/level_data.h"
@@ -17,6 +19,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,13 +31,15 @@ struct KnownArtifact {
     pack::PackOutline outline;
     scene::ScenePlan plan;
     ArtifactTexts texts{};
+    std::shared_ptr<const KnownWorld> world{}; ///< null: nothing of it moves
 };
 
 struct PreparedArtifact {
     RunLevels levels;
-    std::vector<scene::LevelData> data;   ///< of the levels, to upload
+    std::vector<scene::LevelData> data;   ///< of the levels, then of the cells, to upload
     double exposure = 1.0;                ///< factor of linear light
     exhibit::ArtifactTriangles triangles; ///< none without hotspots
+    std::unique_ptr<RunCells> cells{};    ///< null: nothing of the artifact moves
 };
 
 /// `given_up`: asked between two levels; true cancels the preparation.

@@ -267,6 +267,7 @@ void RunLevels::measure(const geometry::PropShape& prop, std::span<const scene::
             (is_raster || key.even_light == views[0].light.has_value()) && level != levels_.end()) {
             scene::PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
+            placed.light = glm::vec3(key.coloured ? 0.5F : 1.0F);
             if (key.dithered) {
                 plan(prop, scene::fade(placed, placed, 0.5), views);
             } else {

@@ -126,6 +126,8 @@ public:
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const geometry::PropShape& prop,
                                           std::span<const scene::PlanView> views, render::Renderer& renderer,
                                           const render::RenderTarget& target, render::Redraw redraw);
+    /// The level that `draw` draws, without its fade.
+    [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 

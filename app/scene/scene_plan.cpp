@@ -381,7 +381,8 @@ Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::Pac
     plan.table_from_projector = settings.projector.table_from_projector;
     plan.prop = settings::make_prop(settings.prop);
     TRY_VOID(check_sides(settings.prop, plan.prop, pack.description));
-    plan.metres_per_box = pack::place(pack.description, plan.prop).metres_per_box;
+    plan.metres_per_box =
+        request.metres_per_box.value_or(pack::place(pack.description, plan.prop).metres_per_box);
     plan.visibility = request.visibility;
     if (request.light) {
         plan.light = light_compensation(settings);

@@ -78,6 +78,8 @@ struct SceneRequest {
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can reach
     bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
+    /// Of a cell, which its artifact places (cell_plan.h); nullopt: the largest size inside the prop.
+    std::optional<double> metres_per_box = std::nullopt;
 };
 
 struct ScenePlan {

@@ -125,7 +125,9 @@ template <typename Fields> void projector_pose_settings(Fields& fields, auto& po
 void projector_settings(auto& fields, auto& projector) {
     lens_settings(fields, projector.pinhole);
     projector_pose_settings(fields, projector.table_from_projector);
-    fields.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
+    fields.number(
+        "refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"},
+        "pictures a second; with \"frame_sequential\" both eyes' are counted: half of them for each");
     fields.choice("stereo", projector.stereo, projector_stereo_names,
                   "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
     fields.number(
@@ -306,7 +308,7 @@ void calibration_settings(auto& fields, auto& calibration) {
 void press_settings(auto& fields, auto& press) {
     fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "time after the script begins");
     fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
-                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help");
+                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help, 5 behaviour");
 }
 
 void panel_settings(auto& fields, auto& panel) {

@@ -21,6 +21,25 @@ namespace {
 constexpr double warm_up_step_m = 0.01;
 constexpr double sample_side_m = 0.05;
 
+void play(MonotonicTime now, const exhibit::BehaviourEvents& behaviours, world::Player& player) {
+    if (behaviours.end_all) {
+        player.end_all(now);
+    }
+    for (const exhibit::BehaviourEvent& event : behaviours.events()) {
+        switch (event.kind) {
+        case exhibit::BehaviourEvent::Kind::Start:
+            player.start(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::End:
+            player.end(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::Toggle:
+            player.trigger(event.behaviour, now);
+            break;
+        }
+    }
+}
+
 } // namespace
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Settings& settings,
@@ -122,13 +141,17 @@ void ArtifactShow::measure(const settings::Settings& settings, const render::Ren
     const scene::ScenePlan& plan = artifact_cache.known(0).plan;
     view.light = plan.light;
     view.brightness = artifact_cache.exposure(0);
-    if (plan.quality_levels.size() > 1 || artifact_cache.size() > 1 || other_sets) {
+    residency::RunCells* const cells = artifact_cache.find_cells(0);
+    if (plan.quality_levels.size() > 1 || artifact_cache.size() > 1 || other_sets || cells != nullptr) {
         const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
         first.measure(prop_, std::span(views).first(layout_.count), renderer_, target);
     }
     warm_up(view, eyes_m, target);
     expected_ = {
         .cost = scene::cost_of(first.times()), .prop = prop_, .view = view, .eye_m = settings.eye.default_m};
+    if (cells != nullptr) {
+        cells->start(expected_.cost);
+    }
     artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
@@ -347,9 +370,20 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
         }
         return renderer_.draw(dark_, target, redraw);
     }
+    residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
     if (on_ != presentation.artifact) {
         levels->enter(now, load_);
+        if (cells != nullptr) {
+            cells->enter(now);
+        }
         on_ = presentation.artifact;
+    }
+    if (cells != nullptr) {
+        play(now, presentation.behaviours, cells->player());
+    }
+    if (cells != nullptr && cells->step(now, load_)) {
+        return cells->draw(now, levels->shown(), prop_, std::span(views).first(layout_.count), renderer_,
+                           target, redraw);
     }
     return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw);
 }
@@ -369,13 +403,23 @@ ShowUse ArtifactShow::use() const {
             for (const residency::LevelUse& level : levels->uses()) {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
+            if (const residency::RunCells* const cells = set_->artifact_cache->find_cells(artifact)) {
+                for (const residency::LevelUse& level : cells->uses()) {
+                    use.planned_gpu_bytes += level.planned_gpu_bytes;
+                }
+            }
         }
     }
     return use;
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    if (residency::RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr) {
+    residency::RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr;
+    residency::RunCells* const cells = on_ ? set_->artifact_cache->find_cells(*on_) : nullptr;
+    if (cells != nullptr && cells->shows()) {
+        cells->record_time(now, ms);
+        load_ = cells->load();
+    } else if (levels != nullptr) {
         levels->record_time(now, ms);
         load_ = levels->load();
     }
@@ -385,13 +429,18 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     const residency::ArtifactCache& artifact_cache = *set_->artifact_cache;
     const residency::RunLevels* const shown = artifact_cache.find(presentation.artifact);
     residency::LevelState levels = shown != nullptr ? shown->state() : residency::LevelState{};
+    const residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
+    if (cells != nullptr && cells->shows()) {
+        levels.level = residency::level_of_cells;
+        levels.error = cells->error();
+    }
     levels.technique = kept(levels.technique);
     levels.switches = past_switches_ + artifact_cache.switches();
     levels.ignored_times = past_ignored_times_ + artifact_cache.ignored_times();
     ShowState state{.artifact = kept(artifact_cache.known(presentation.artifact).outline.description.title),
                     .language = kept(presentation.language),
                     .levels = levels,
-                    .settled = presentation.settled};
+                    .settled = presentation.settled && (cells == nullptr || !cells->fades())};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
     state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;

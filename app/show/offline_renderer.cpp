@@ -1,155 +1,192 @@
 #include "app/show/offline_renderer.h"
 
-#include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
+#include "app/scene/cell_plan.h"
 #include "app/scene/exposure.h"
+#include "app/scene/scene_level.h"
+#include "app/world/player.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <chrono>
+#include <set>
+#include <utility>
 
 namespace frustumscreen::show {
 
 namespace {
 
-/// The finest level is chosen where cost does not matter, so it gets the smoothest outlines too.
-int samples_of(const OfflineOptions& options, const pack::PackDescription& pack) {
-    const int usual = options.technique == "finest" ? render::finest_samples : pack.samples;
-    return options.samples > 0 ? options.samples : usual;
+/// Something to draw: the whole artifact, or one of its cells.
+struct Source {
+    const scene::ScenePlan& plan;
+    const pack::Pack& pack;
+    const std::shared_ptr<const relief::BlockRelief>& relief;
+    std::optional<std::size_t> cell;
+    std::optional<scene::SceneLevel> level = std::nullopt; ///< none: the relief is drawn
+};
+
+std::vector<Source> sources_of(const OfflineScene& scene) {
+    std::vector<Source> sources;
+    if (scene.world) {
+        for (const OfflineCell& cell : scene.world->drawn) {
+            sources.push_back(
+                {.plan = cell.plan, .pack = *cell.pack, .relief = cell.relief, .cell = cell.cell});
+        }
+    } else {
+        sources.push_back(
+            {.plan = scene.plan, .pack = *scene.pack, .relief = scene.relief, .cell = std::nullopt});
+    }
+    for (Source& source : sources) {
+        if (!source.relief) {
+            source.level =
+                scene::scene_level(source.pack, source.plan.quality_levels.front().level, source.plan);
+        }
+    }
+    return sources;
 }
 
-std::vector<std::uint32_t> levels_to_read(const scene::ScenePlan& plan) {
-    return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
+scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves) {
+    scene::RenderNeeds needs;
+    std::size_t relief_draws = 0;
+    for (const Source& source : sources) {
+        const scene::RenderNeeds own =
+            source.level ? scene::needs_of(source.plan, *source.level) : source.plan.needs;
+        needs = scene::united(needs, own);
+        relief_draws += own.relief_draws;
+    }
+    needs.relief_draws = relief_draws;
+    return moves ? scene::with_cells(std::move(needs)) : needs;
 }
 
-/// The settings in the size and layout of the options.
-settings::Settings sized(const OfflineSetup& setup) {
-    const auto& [checked, options] = setup;
-    settings::Settings settings = *checked;
-    if (!options.both_eyes) {
-        settings.projector.stereo = settings::ProjectorStereo::Off;
+Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
+    const scene::ScenePlan& plan = source.plan;
+    if (source.relief) {
+        const bool on_gpu = plan.quality_levels.front().on_gpu;
+        TRY(const scene::Drawable drawable, on_gpu ? store.upload(source.relief) : store.keep(source.relief));
+        scene::PlacedLevel placed = scene::placed(source.pack, source.relief, plan.metres_per_box, drawable);
+        placed.on_gpu = on_gpu;
+        return placed;
     }
-    if (options.width > 0 && options.height > 0) {
-        settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);
-    }
-    return settings;
+    const pack::PackLevel& mesh = source.level->mesh;
+    TRY(const scene::Drawable drawable, store.upload(*source.level, source.pack.textures[mesh.texture]));
+    return scene::PlacedLevel{
+        .triangles = std::make_shared<scene::LevelTriangles>(scene::triangles_of(mesh, source.pack.box_size)),
+        .box_size = source.pack.box_size,
+        .metres_per_box = plan.metres_per_box,
+        .drawable = drawable};
 }
 
-/// The scene plan of a pack for the options.
-Result<scene::ScenePlan> plan_offline(const OfflineSetup& setup, const pack::PackOutline& pack) {
-    const settings::Settings settings = sized(setup);
-    const OfflineOptions& options = setup.options;
-    scene::SceneRequest request;
-    request.technique = options.technique;
-    request.live = false;
-    request.light = options.light;
-    request.samples = samples_of(options, pack.description);
-    request.sample_headroom = render::default_samples;
-    request.cull_kinds = options.cull_kinds;
-    if (!options.views.empty()) {
-        request.visibility = scene::visibility_of(settings, options.views);
+/// "level0"; "level0+relief96".
+std::string names_of(const std::vector<Source>& sources) {
+    std::string names;
+    std::set<std::string> told;
+    for (const Source& source : sources) {
+        const std::string name = scene::name_of(source.plan.quality_levels.front());
+        if (told.insert(name).second) {
+            names += (names.empty() ? "" : "+") + name;
+        }
     }
-    return scene::plan_scene(settings, pack, request);
+    return names;
 }
 
 } // namespace
 
-Result<OfflineScene>
-load_offline(const std::filesystem::path& file,
-             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of) {
-    std::optional<OfflineSetup> setup;
-    scene::ScenePlan plan;
-    Result<pack::VerifiedPack> pack =
-        pack::load_pack(file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            TRY(OfflineSetup made, setup_of(outline));
-            TRY(scene::ScenePlan planned, plan_offline(made, outline));
-            setup = std::move(made);
-            plan = std::move(planned);
-            return levels_to_read(plan);
-        });
-    TRY_VOID(pack);
-    OfflineScene scene{
-        .setup = *std::move(setup), .plan = std::move(plan), .pack = *std::move(pack), .relief = nullptr};
-    if (!scene.plan.reliefs.empty()) {
-        TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));
-        scene.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
-    }
-    return scene;
-}
-
 OfflineRenderer::OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan)
     : layout_(layout), projector_(plan.projector), table_from_projector_(plan.table_from_projector),
-      prop_(plan.prop), light_(plan.light) {}
+      prop_(plan.prop), light_(plan.light), metres_per_box_(plan.metres_per_box) {}
 
 Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineScene& scene) {
-    const auto& [setup, plan, pack, relief] = scene;
-    const OfflineOptions& options = setup.options;
-    std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(scene::stereo_layout(sized(setup)), plan));
+    const scene::ScenePlan& plan = scene.plan;
+    const pack::Pack& pack = *scene.pack;
+    std::unique_ptr<OfflineRenderer> made(
+        new OfflineRenderer(scene::stereo_layout(sized(scene.setup)), plan));
     TRY(made->display_,
         display::SurfacelessDisplay::create(made->layout_.display.width, made->layout_.display.height));
-    made->technique_ = scene::name_of(plan.quality_levels.front());
-    const pack::PackLevel& brightness = pack->levels[plan.exposure_level];
-    made->exposure_ = scene::exposure_of(brightness, pack->box_size, pack->textures[brightness.texture],
-                                         plan.highlight_code);
-    TRY_VOID(scene.relief ? made->take_relief(scene) : made->take_level(scene));
-    if (options.hit_points) {
+    const pack::PackLevel& brightness = pack.levels[plan.exposure_level];
+    made->exposure_ =
+        scene::exposure_of(brightness, pack.box_size, pack.textures[brightness.texture], plan.highlight_code);
+    TRY_VOID(made->take(scene));
+    if (scene.setup.options.hit_points) {
         TRY(made->hit_points_, render::HitPointRenderer::create(*made->renderer_));
-    }
-    made->placed_.samples = samples_of(options, *pack);
-    made->placed_.faces = plan.faces;
-    for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
-        made->plans_.push_back(scene::make_plan(made->prop_, made->placed_));
     }
     return made;
 }
 
-Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
-    const auto& [setup, plan, pack, relief] = scene;
-    const std::uint32_t number = plan.quality_levels.front().level;
-    const scene::SceneLevel level = scene::scene_level(*pack, number, plan);
+Result<void> OfflineRenderer::take(const OfflineScene& scene) {
+    const std::vector<Source> sources = sources_of(scene);
     TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
-                                            scene::needs_of(plan, level)));
-    const image::Image8& texture = pack->textures[level.mesh.texture];
-    TRY(const scene::Drawable drawable, renderer_->store().upload(level, texture));
-    seen_ = plan.seen[number];
-    placed_ = {.triangles =
-                   std::make_shared<scene::LevelTriangles>(scene::triangles_of(level.mesh, pack->box_size)),
-               .box_size = pack->box_size,
-               .metres_per_box = plan.metres_per_box,
-               .drawable = drawable};
+                                            needs_of(sources, scene.world.has_value())));
+    technique_ = names_of(sources);
+    std::size_t indices = 0;
+    for (const Source& source : sources) {
+        TRY(scene::PlacedLevel placed, upload(source, renderer_->store()));
+        placed.samples = samples_of(scene.setup.options, *scene.pack);
+        placed.faces = source.plan.faces;
+        indices += placed.triangles ? placed.triangles->indices.size() : 0;
+        shown_.push_back({source.relief ? source.plan.seen_reliefs.front()
+                                        : source.plan.seen[source.plan.quality_levels.front().level],
+                          source.cell});
+        parts_.push_back({std::move(placed), std::nullopt});
+    }
+    if (scene.world) {
+        cells_ = scene.world->cells;
+        behaviour_ = scene.world->behaviour;
+    }
+    for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
+        plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
+    }
     return {};
 }
 
-Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
-    const auto& [setup, plan, pack, relief] = scene;
-    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height, plan.needs));
-    seen_ = plan.seen_reliefs.front();
-    const bool on_gpu = plan.quality_levels.front().on_gpu;
-    TRY(const scene::Drawable drawable,
-        on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief));
-    placed_ = scene::placed(*pack, relief, plan.metres_per_box, drawable);
-    placed_.on_gpu = on_gpu;
-    return {};
+void OfflineRenderer::pose_cells(double seconds) {
+    if (cells_.empty()) {
+        return;
+    }
+    const std::vector<world::CellPose> poses = world::poses_at(cells_, behaviour_, seconds);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        scene::set_pose(parts_[k].level, poses[shown_[k].cell.value()], metres_per_box_);
+    }
 }
 
 void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {
     for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
-        scene::plan_frame(prop_, placed_, views[eye], plans_[eye]);
+        scene::plan_frame(prop_, parts_, views[eye], plans_[eye]);
     }
     renderer_->draw(plans_, {display_->framebuffer(), display_->buffer_age()}, render::Redraw::Everything);
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
+/// Of several parts the mean, weighted by the pixels of each.
+std::optional<scene::ErrorEstimate> OfflineRenderer::error_in(const scene::PlanView& view,
+                                                              const scene::FramePlan& plan) const {
+    if (parts_.size() == 1) {
+        return scene::estimate_error(shown_.front().seen, prop_, parts_.front().level, view, plan);
+    }
+    scene::ErrorEstimate sum;
+    double pixels = 0.0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const scene::PlacedLevel& level = parts_[k].level;
+        const double own = scene::pixels_of(level, view);
+        if (const auto error = scene::estimate_error(shown_[k].seen, prop_, level, view, plan)) {
+            sum.mean_mm += own * error->mean_mm;
+            sum.p95_mm += own * error->p95_mm;
+            pixels += own;
+        }
+    }
+    return pixels > 0.0 ? std::optional(scene::ErrorEstimate{sum.mean_mm / pixels, sum.p95_mm / pixels})
+                        : std::nullopt;
+}
+
 std::optional<scene::ErrorEstimate> OfflineRenderer::error_of(std::span<const scene::PlanView> views) const {
     std::optional<scene::ErrorEstimate> worst;
     for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
-        worst = scene::larger(worst, scene::estimate_error(seen_, prop_, placed_, views[eye], plans_[eye]));
+        worst = scene::larger(worst, error_in(views[eye], plans_[eye]));
     }
     return worst;
 }
 
 OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
-                                     std::span<const glm::dvec3> eyes_m) {
+                                     std::span<const glm::dvec3> eyes_m, double seconds) {
+    pose_cells(seconds);
     const scene::PlanView view{.projector = projector_,
                                .table_from_projector = table_from_projector_,
                                .table_from_prop = table_from_prop,

@@ -6,18 +6,14 @@
 #pragma once
 
 #include "app/image/image.h"
-#include "app/pack/pack_file.h"
 #include "app/render/hit_points.h"
 #include "app/render/renderer.h"
 #include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
-#include "app/scene/scene_level.h"
 #include "app/scene/stereo.h"
-#include "app/settings/settings.h"
+#include "app/show/offline_scene.h"
 #include "firmware_host/display/surfaceless_display.h"
 
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,35 +21,6 @@
 #include <vector>
 
 namespace frustumscreen::show {
-
-struct OfflineOptions {
-    std::string technique = "auto";
-    int width = 0; ///< of the picture; 0 = the configured projector's. The intrinsics scale with it.
-    int height = 0;
-    bool light = true;
-    bool hit_points = false; ///< of one eye's picture
-    bool both_eyes = false;  ///< in the configured layout; otherwise one eye's picture, in the full size
-    int samples = 0;         ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
-    unsigned cull_kinds = scene::AllCullKinds;
-    /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
-    std::vector<scene::KnownView> views;
-};
-
-struct OfflineSetup {
-    settings::CheckedSettings settings;
-    OfflineOptions options;
-};
-/// A pack's file, of which only what its pictures need was read.
-struct OfflineScene {
-    OfflineSetup setup;
-    scene::ScenePlan plan;
-    pack::VerifiedPack pack;
-    std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
-};
-/// `setup_of` returns the set-up for a pack's outline.
-[[nodiscard]] Result<OfflineScene>
-load_offline(const std::filesystem::path& file,
-             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of);
 
 struct OfflinePicture {
     image::Image8 colour;
@@ -67,9 +34,10 @@ public:
     /// `scene` need not outlive the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
 
-    /// `eyes_m`: one, or with OfflineOptions::both_eyes one for each eye of the layout (scene/stereo.h).
+    /// `eyes_m`: one, or with OfflineOptions::both_eyes one for each eye of the layout (scene/stereo.h). `seconds`: since
+    /// the behaviour began.
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
-                                      std::span<const glm::dvec3> eyes_m);
+                                      std::span<const glm::dvec3> eyes_m, double seconds = 0.0);
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
                                       const glm::dvec3& eye_m) {
         return draw(table_from_prop, std::span(&eye_m, 1));
@@ -77,15 +45,23 @@ public:
 
     [[nodiscard]] const geometry::Pinhole& projector() const { return projector_; }
     [[nodiscard]] const geometry::PropShape& prop() const { return prop_; }
-    /// "level0", "relief96", ...: the choice of "auto", "finest" or "relief".
+    /// "level0", "relief96", ...: the choice of "auto", "finest" or "relief"; of cells that differ, "level0+relief96".
     [[nodiscard]] const std::string& technique() const { return technique_; }
 
 private:
+    /// The whole artifact, or one of its cells.
+    struct Shown {
+        scene::SeenLevel seen;
+        std::optional<std::size_t> cell;
+    };
+
     OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan);
-    /// Takes the level or relief to draw, and creates a renderer for it.
-    [[nodiscard]] Result<void> take_level(const OfflineScene& scene);
-    [[nodiscard]] Result<void> take_relief(const OfflineScene& scene);
+    /// Creates a renderer for all of the scene, and takes what it draws.
+    [[nodiscard]] Result<void> take(const OfflineScene& scene);
+    void pose_cells(double seconds);
     void draw_once(std::span<const scene::PlanView> views);
+    [[nodiscard]] std::optional<scene::ErrorEstimate> error_in(const scene::PlanView& view,
+                                                               const scene::FramePlan& plan) const;
     [[nodiscard]] std::optional<scene::ErrorEstimate> error_of(std::span<const scene::PlanView> views) const;
 
     scene::StereoLayout layout_;
@@ -95,8 +71,11 @@ private:
     std::optional<scene::LightCompensation> light_;
     double exposure_ = 1.0;
     std::string technique_;
-    scene::SeenLevel seen_;
-    scene::PlacedLevel placed_;
+    double metres_per_box_ = 1.0; ///< of the whole artifact
+    std::vector<Shown> shown_;
+    std::vector<scene::Part> parts_; ///< one for each of `shown_`
+    std::vector<world::Cell> cells_;
+    world::Behaviour behaviour_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     std::unique_ptr<display::SurfacelessDisplay>
         display_; ///< declared before everything that lives in its context

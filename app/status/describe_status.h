@@ -215,7 +215,7 @@ void drawing_fields(auto& fields, auto& status) {
     fields.field(
         "level", status.level,
         "what is drawn: `level0`, ..., or a relief: `relief96`, ..., rasterized on the processor, or "
-        "`relief96-gpu`, ..., drawn by the GPU");
+        "`relief96-gpu`, ..., drawn by the GPU; `cells` while a behaviour moves the artifact's cells");
     fields.field("samples", status.samples, "samples a pixel: more make smoother outlines",
                  Metric{"samples_per_pixel", "Samples that are drawn for a pixel."});
     fields.field("language", status.language, "of the caption");

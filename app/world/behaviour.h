@@ -56,8 +56,8 @@ struct Spring {
 
     [[nodiscard]] bool operator==(const Spring&) const = default;
 };
-/// A cell that hangs and swings about an axis, for small angles: x'' = -(g / length) x - damping x'. It is pushed to
-/// `angle` when the behaviour starts.
+/// A cell that hangs and swings about an axis, for small angles: x'' = -(g / length) x - damping x'. When the behaviour
+/// starts it is pushed: it gets the speed that makes a first swing of `angle`.
 struct Pendulum {
     std::size_t cell = 0;
     glm::dvec3 axis{0.0, 1.0, 0.0}; ///< unit, cell frame
@@ -85,11 +85,11 @@ struct Behaviour {
     double narration_s = 0.0;  ///< for Trigger::Narration
     double seconds = 0.0;      ///< of one run; for a spring or pendulum until it counts as still
     bool repeats = false;      ///< begins again until it is ended
-    bool stays =
-        false; ///< keeps its end until it is triggered again; otherwise it returns to rest at its end
-    std::vector<Channel> channels;
-    std::vector<Spring> springs;
-    std::vector<Pendulum> pendulums;
+    /// Keeps its end until it is triggered again; otherwise it returns to rest at its end.
+    bool stays = false;
+    std::vector<Channel> channels{};
+    std::vector<Spring> springs{};
+    std::vector<Pendulum> pendulums{};
 
     [[nodiscard]] bool operator==(const Behaviour&) const = default;
 };

@@ -4,7 +4,7 @@
 ///          glTF's node. Geometry: the box of the cell's own geometry, which is baked like an artifact's.
 ///          box_from_cell = box_from_parent * parent_from_base * base_from_cell.
 /// Units    box units; a rotation is a unit quaternion.
-/// Threads  values; any. `pose_at_rest` allocates nothing into a list that has room.
+/// Threads  values; any. `pose_cells` allocates nothing into a list that has room.
 /// Source   Kim 2008, "Mixed object node"; Khronos, glTF 2.0, 3.5.3 (a node's transform is T * R * S).
 #pragma once
 
@@ -50,9 +50,17 @@ struct CellPose {
     [[nodiscard]] bool operator==(const CellPose&) const = default;
 };
 
-/// One pose for each cell, from one local pose for each; `light` stays. A cell without geometry gets its own frame's.
-void pose_cells(std::span<const Cell> cells, std::span<const LocalPose> local, std::vector<CellPose>& poses);
+/// One pose for each cell, from base_from_cell of each; `light` stays. A cell without geometry gets its own frame's.
+void pose_cells(std::span<const Cell> cells, std::span<const glm::dmat4> base_from_cell,
+                std::vector<CellPose>& poses);
 /// The poses while nothing moves.
 [[nodiscard]] std::vector<CellPose> poses_at_rest(std::span<const Cell> cells);
+
+/// How large a cell's geometry and all below it is at rest, in the cell's frame; 0: there is none.
+struct CellExtent {
+    double size = 0.0;   ///< the longest edge of the largest geometry's box
+    double radius = 0.0; ///< the farthest corner of a box from the cell's origin
+};
+[[nodiscard]] std::vector<CellExtent> extents_of(std::span<const Cell> cells);
 
 } // namespace frustumscreen::world

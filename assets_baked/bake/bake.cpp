@@ -374,7 +374,9 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     add_reduction(bakery.reduction(), seen);
     pack::put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
-    pack.table_picture = make_table_picture(pack);
+    if (options.table_picture) {
+        pack.table_picture = make_table_picture(pack);
+    }
     options.progress("done", 1.0);
     return pack;
 }

@@ -60,10 +60,11 @@ struct BakeOptions {
     bool unlit = false;
     bool relief = true; ///< the pack contains layered relief (measured_reliefs.h)
     BakedProp prop = baked_frustum();
-    std::string up;        ///< empty: the format's own up axis
-    double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
-    double lift = 0.0;     ///< above the prop's bottom, in heights of the artifact
-    double scale = 1.0;    ///< relative to the largest size inside the prop
+    std::string up;            ///< empty: the format's own up axis
+    double turn_deg = 0.0;     ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
+    double lift = 0.0;         ///< above the prop's bottom, in heights of the artifact
+    double scale = 1.0;        ///< relative to the largest size inside the prop
+    bool table_picture = true; ///< a picture to lie on the table; a part of an artifact needs none
     /// Share of the points and rays for measurements, 0..1: with fewer, a pack's errors are less exact.
     double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;

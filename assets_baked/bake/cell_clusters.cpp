@@ -133,6 +133,9 @@ public:
         }
         mesh_.triangles.push_back(corners);
         mesh_.triangle_materials.push_back(from_.mesh_.triangle_materials[triangle]);
+        if (!from_.mesh_.triangle_nodes.empty()) {
+            mesh_.triangle_nodes.push_back(from_.mesh_.triangle_nodes[triangle]);
+        }
     }
 
     [[nodiscard]] SourceMesh take() { return std::move(mesh_); }

@@ -116,11 +116,17 @@ void remove_scraps(SourceMesh& mesh, const Scraps& scraps) {
         if (!scraps.is_scrap[t]) {
             mesh.triangles[kept] = mesh.triangles[t];
             mesh.triangle_materials[kept] = mesh.triangle_materials[t];
+            if (!mesh.triangle_nodes.empty()) {
+                mesh.triangle_nodes[kept] = mesh.triangle_nodes[t];
+            }
             ++kept;
         }
     }
     mesh.triangles.resize(kept);
     mesh.triangle_materials.resize(kept);
+    if (!mesh.triangle_nodes.empty()) {
+        mesh.triangle_nodes.resize(kept);
+    }
 }
 
 std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps, Lighting lighting) {

@@ -137,6 +137,7 @@ void reduce_scan(SourceMesh& mesh, const ReduceLimits& limits) {
     mesh.normals = std::move(reduced.normals);
     mesh.triangles = std::move(reduced.triangles);
     mesh.triangle_materials = std::move(reduced.triangle_materials);
+    mesh.triangle_nodes = std::move(reduced.triangle_nodes);
     mesh.notes.push_back(note_of(reduction, mesh.triangles.size(), extent.longest()));
     mesh.reduced_from = reduction;
 }

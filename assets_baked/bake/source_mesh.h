@@ -71,7 +71,7 @@ struct SourceNode {
     glm::dmat4 parent_from_base{1.0};  ///< of a root: file_from_base; a matrix of the file, or nodes left out
     world::LocalPose rest;             ///< base_from_node, as the file's translation, rotation and scale
 };
-/// An animation of the file that moves nodes; morph targets and joints of skins are not kept (gltf_losses.h).
+/// An animation of the file that moves nodes; morph targets and joints of skins are not kept.
 struct SourceAnimation {
     std::string name;                     ///< unique, as of nodes
     std::vector<world::Channel> channels; ///< `cell`: index into SourceMesh::nodes

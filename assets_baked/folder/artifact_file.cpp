@@ -2,8 +2,8 @@
 
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_text.h"
-#include "app/settings/language_tag.h"
 #include "app/settings/toml_file.h"
+#include "assets_baked/folder/artifact_labels.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
@@ -38,6 +38,9 @@ constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
                                                      {"recording", "[[texts]]"},
                                                      {"point", "[[hotspots]]"},
                                                      {"labels", "[[hotspots]]"},
+                                                     {"animation", "[[behaviours]]"},
+                                                     {"trigger", "[[behaviours]]"},
+                                                     {"titles", "[[behaviours]]"},
                                                      {"up", "[placement]"},
                                                      {"turn_deg", "[placement]"},
                                                      {"scale", "[placement]"},
@@ -93,20 +96,6 @@ void read_placement(settings::TableReader& table, ArtifactFile& file) {
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
-/// Reads a language tag in its usual case; refuses an invalid one.
-bool read_language(settings::TableReader& table, std::string_view key, std::string& language) {
-    const std::optional<std::string> usual =
-        pack::has_language_form(language) ? settings::parse_language_tag(language) : std::nullopt;
-    if (!usual) {
-        table.refuse("folder.language", key,
-                     fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
-                                 settings::allowed_language_tags));
-        return false;
-    }
-    language = *usual;
-    return true;
-}
-
 void read_caption(settings::TableReader& table, pack::PackCaption& caption, std::set<std::string>& languages,
                   ArtifactFile& file) {
     table.any_text("language", caption.language);
@@ -138,32 +127,13 @@ void read_caption(settings::TableReader& table, pack::PackCaption& caption, std:
 
 void read_hotspot(settings::TableReader& table, ArtifactHotspot& hotspot) {
     table.vector("point", hotspot.point_file, coordinate);
-    std::vector<std::pair<std::string, std::string>> labels;
-    table.named_texts("labels", labels, pack::max_languages);
+    read_labels(table, "labels", hotspot.labels);
     table.finish(); // as for a text
     table.require("folder.no_point", table.has("point"), "point",
                   "is missing; write it as [x, y, z] in the scan's coordinates");
     hotspot.place = table.place("point");
-    table.require("folder.no_labels", !labels.empty(), "labels",
+    table.require("folder.no_labels", !hotspot.labels.empty(), "labels",
                   "has no text; write one for each language, { en = \"...\" }");
-    for (auto& [written, text] : labels) {
-        std::string language = written;
-        if (!read_language(table, "labels", language)) {
-            return;
-        }
-        const bool is_second =
-            std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
-                        [&](const pack::PackLabel& each) { return each.language == language; });
-        table.require("folder.label_twice", !is_second, "labels",
-                      fmt::format("has \"{}\" twice; allowed is each language once", language));
-        const std::optional<std::string> fault = pack::fault_of_text(text, pack::TextShape::Line);
-        table.require("folder.label_text", !fault, "labels",
-                      fmt::format("in {} {}", language, fault.value_or("")));
-        text = std::string(trimmed(text));
-        table.require("folder.label_empty", !text.empty(), "labels",
-                      fmt::format("in {} is empty; write a word for what is there", language));
-        hotspot.labels.push_back({std::move(language), std::move(text)});
-    }
 }
 
 void read_all(settings::TableReader& table, ArtifactFile& file) {
@@ -187,6 +157,11 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
                  },
                  {});
     table.tables("hotspots", file.hotspots, pack::max_hotspots, read_hotspot, {});
+    table.tables("behaviours", file.behaviours, world::max_behaviours,
+                 [&](settings::TableReader& item, ArtifactBehaviour& behaviour) {
+                     read_behaviour(item, behaviour, file.hotspots.size(), file.behaviours);
+                 },
+                 {});
     for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
@@ -194,7 +169,8 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
 
 /// Refuses [texts] in place of [[texts]].
 void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
-    for (const auto& [key, each] : {std::pair("texts", "language"), {"hotspots", "place"}}) {
+    for (const auto& [key, each] :
+         {std::pair("texts", "language"), {"hotspots", "place"}, {"behaviours", "movement"}}) {
         const toml::node* node = root.get(key);
         if (node != nullptr && node->is_table()) {
             state.refuse(
@@ -209,7 +185,7 @@ void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
 void refuse_misspelt_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
-        for (const std::string_view known : {"texts", "hotspots"}) {
+        for (const std::string_view known : {"texts", "hotspots", "behaviours"}) {
             const std::size_t apart = letters_apart(name, known);
             if (node.is_array_of_tables() && apart > 0 && 3 * apart <= known.size()) {
                 state.refuse("folder.unknown_table", static_cast<std::uint32_t>(key.source().begin.line),

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/pack/pack.h"
+#include "assets_baked/folder/artifact_behaviours.h"
 #include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
@@ -49,6 +50,7 @@ struct ArtifactFile {
     std::vector<pack::PackCaption> texts; ///< in the file's order; a missing title is the first text's
     std::map<std::string, std::filesystem::path> recordings; ///< by language; paths including the folder
     std::vector<ArtifactHotspot> hotspots;
+    std::vector<ArtifactBehaviour> behaviours;
 };
 
 /// `file` is the name in messages; paths in the text are relative to its folder.

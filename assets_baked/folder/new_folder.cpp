@@ -177,6 +177,13 @@ title = {title}
 #[[hotspots]]
 #point = {middle}
 #labels = {{ en = "The handle", de = "Der Henkel" }}
+
+# What moves, and what starts it: an animation of the model, or a spring, a pendulum or light of one of its parts.
+#[[behaviours]]
+#name = "open"
+#animation = "Lid"
+#trigger = "button"
+#titles = {{ en = "Turn the lid", de = "Den Deckel drehen" }}
 )";
 
 /// The line with the file's value; without one, a commented line with an example.

@@ -3,6 +3,7 @@
 #include "app/pack/container/zip_archive.h"
 #include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
+#include "app/pack/world_sections.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/tracker/packet_file.h"
@@ -10,7 +11,7 @@
 #include "tests/fuzz/words_file.h"
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
-#include "tests/pack/samples.h"
+#include "tests/pack/world_samples.h"
 #include "tests/signature/vectors.h"
 #include "tests/texts/wav_bytes.h"
 #include "tests/tracker/wire_bytes.h"
@@ -22,6 +23,11 @@
 #include <fstream>
 
 using namespace frustumscreen;
+using namespace frustumscreen::artifacts;
+using namespace frustumscreen::folder;
+using namespace frustumscreen::image;
+using namespace frustumscreen::pack;
+using namespace frustumscreen::tracker;
 
 namespace {
 
@@ -142,6 +148,23 @@ void packs(const Seeds& seeds) {
     seeds.add("pack", "sections", as_text(full));
     seeds.add("pack", "words", as_text(samples::bytes_of(samples::pack_with_words())));
     seeds.add("manifest", "sections", samples::take_apart(full).manifest.dump());
+}
+
+void worlds(const Seeds& seeds) {
+    const Pack pack = samples::pack_with_world();
+    const std::string curves(as_text(pack.section_parts.at("behaviours/curves.bin")));
+    seeds.add("curves", "every_kind", curves);
+    seeds.add("curves", "cut", curves.substr(0, 60));
+    const std::string cells = write_cells(samples::cells());
+    seeds.add("world", "every_kind", cells + "\n" + write_behaviours(samples::behaviours()));
+    seeds.add("world", "cells", cells + "\n{\"behaviours\":[]}");
+    seeds.add("world", "cycle", R"({"cells":[{"name":"a","parent":0}]})");
+    // A pack within 8 kB, as the fuzzer's inputs are.
+    Pack small = samples::small_cell_pack();
+    PackWorld world{{samples::cells().front()}, {samples::behaviours().back()}};
+    if (put_world(small, world, std::vector{samples::small_cell_pack()})) {
+        seeds.add("pack", "world", as_text(samples::bytes_of(small)));
+    }
 }
 
 void signatures(const Seeds& seeds) {
@@ -296,6 +319,7 @@ int main(int count, char** arguments) {
     talks(seeds);
     recordings(seeds);
     packs(seeds);
+    worlds(seeds);
     signatures(seeds);
     folders(seeds);
     glyph_runs(seeds);

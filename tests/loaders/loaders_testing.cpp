@@ -107,6 +107,18 @@ void expect_sound(const bake::SourceMesh& mesh) {
     for (const std::uint32_t material : mesh.triangle_materials) {
         ASSERT_LT(material, mesh.materials.size());
     }
+    ASSERT_TRUE(mesh.nodes.empty() ? mesh.triangle_nodes.empty() && mesh.animations.empty()
+                                   : mesh.triangle_nodes.size() == mesh.triangles.size());
+    ASSERT_LE(mesh.nodes.size(), world::max_cells);
+    for (const std::uint32_t node : mesh.triangle_nodes) {
+        ASSERT_LT(node, mesh.nodes.size());
+    }
+    for (const bake::SourceAnimation& animation : mesh.animations) {
+        for (const world::Channel& channel : animation.channels) {
+            ASSERT_LT(channel.cell, mesh.nodes.size());
+            ASSERT_FALSE(channel.curve.times_s.empty());
+        }
+    }
     for (const bake::SourceMaterial& material : mesh.materials) {
         ASSERT_LT(material.texture, static_cast<int>(mesh.textures.size()));
         ASSERT_TRUE(material.texture < 0 ||

@@ -197,6 +197,24 @@ std::string rich_gltf(const std::string& picture) {
             picture_offset, picture.size()));
 }
 
+/// A box's lid: a triangle that turns about its parent, by one animation of two channels.
+std::string moving_gltf() {
+    const std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 0, 1, 0,
+                                                          1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 2});
+    return gltf_text(
+        bytes,
+        R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},)"
+        R"({"buffer":0,"byteOffset":48,"byteLength":48},{"buffer":0,"byteOffset":96,"byteLength":36}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
+        R"({"bufferView":1,"componentType":5126,"type":"SCALAR","count":3},)"
+        R"({"bufferView":2,"componentType":5126,"type":"VEC4","count":3},)"
+        R"({"bufferView":3,"componentType":5126,"type":"VEC3","count":3}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+        R"("nodes":[{"name":"box","mesh":0,"children":[1]},{"name":"lid","mesh":0,"translation":[0,0,1]}],)"
+        R"("animations":[{"name":"open","samplers":[{"input":1,"output":2},{"input":1,"output":3,"interpolation":"STEP"}],)"
+        R"("channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}},{"sampler":1,"target":{"node":1,"path":"translation"}}]}])");
+}
+
 } // namespace
 
 std::vector<SampleModel> sample_models() {
@@ -208,6 +226,7 @@ std::vector<SampleModel> sample_models() {
         {"edge_breaker.glb", draco_glb(5, true)},
         {"sequential.glb", draco_glb(3, false)},
         {"meshopt.glb", meshopt_glb(5)},
+        {"moving.gltf", moving_gltf()},
         {"grid.obj", grid_obj(3)},
         {"text.ply", grid_ply(3, true)},
         {"binary.ply", grid_ply(3, false)},

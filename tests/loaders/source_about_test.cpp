@@ -90,7 +90,7 @@ TEST(GltfLosses, are_told_with_counts_where_they_are_drawn) {
     EXPECT_EQ(one(lost_of(R"({"emissiveFactor":[0,0.5,0]})")).find("the light that 1 material gives"), 0U);
     EXPECT_TRUE(lost_of(R"({"emissiveFactor":[0,0,0],"emissiveTexture":{"index":0}})").empty())
         << "black times a picture is black";
-    EXPECT_EQ(one(lost_of("{}", R"(,"animations":[{},{},{}])")).find("3 animations;"), 0U);
+    EXPECT_TRUE(lost_of("{}", R"(,"animations":[{},{},{}])").empty()) << "they move nothing";
     EXPECT_EQ(
         one(lost_of("{}", "", R"(,"targets":[{"POSITION":0},{"POSITION":0}])")).find("2 shapes to change"),
         0U);

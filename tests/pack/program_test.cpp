@@ -1,7 +1,7 @@
 // frustumscreen-pack from outside: its output and its exit status.
 #include "tests/base/text_of.h"
 #include "tests/folders.h"
-#include "tests/pack/samples.h"
+#include "tests/pack/world_samples.h"
 
 #include <sys/wait.h>
 
@@ -126,6 +126,58 @@ TEST_F(Program, explain_has_everything_that_a_pack_says) {
         EXPECT_NE(text.out.find(words), std::string::npos) << words << "\n" << text.out;
     }
     EXPECT_NE(pack_program("list good.fspack").out.find("section glyphs: passed over"), std::string::npos);
+}
+
+TEST_F(Program, explain_has_the_cells_and_behaviours) {
+    ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::pack_with_world())));
+    const Outcome outcome = pack_program("explain good.fspack --json");
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+    const auto json = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(json["cells"].size(), 3U);
+    const nlohmann::json& body = json["cells"][0];
+    EXPECT_EQ(body["name"], "body");
+    EXPECT_EQ(body["parent"], nullptr);
+    EXPECT_EQ(body["triangles"], 123456);
+    // The prop's frame, in metres: the box frame times one number.
+    const double metres = json["metres_per_box"];
+    EXPECT_NEAR(body["box"][0][1].get<double>(), -0.125 * metres, 1e-12);
+    EXPECT_NEAR(body["box"][1][2].get<double>(), 0.4 * metres, 1e-12);
+    EXPECT_NEAR(json["artifact_size_m"][2].get<double>(), 0.8 * metres, 1e-12);
+    EXPECT_EQ(json["cells"][2]["parent"], json["cells"][1]["name"]);
+    EXPECT_EQ(json["cells"][1]["box"], json["cells"][2]["box"]) << "all that hangs from the hinge";
+    EXPECT_EQ(json["behaviours"],
+              nlohmann::json({{{"name", "open"}, {"seconds", 2.0}, {"trigger", "hotspot"}},
+                              {{"name", "wobble"}, {"seconds", 1.0 / 3.0}, {"trigger", "button"}},
+                              {{"name", "told"}, {"seconds", 0.0}, {"trigger", "narration"}}}));
+    const std::string text = pack_program("explain good.fspack").out;
+    for (const char* words :
+         {"  cell body: 123456 triangles, ", "  cell lid, on hinge \xC3\xA0 gauche: 78 triangles, ",
+          "  behaviour open: 2 s, trigger hotspot; en: Turn the lid; pt-BR: Vire a tampa\n"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+    }
+    EXPECT_EQ(text.find("section cells: passed over"), std::string::npos);
+    EXPECT_NE(pack_program("list good.fspack").out.find("cells/2.fspack"), std::string::npos);
+    // A pack without them has empty lists.
+    ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::pack())));
+    const auto plain = nlohmann::json::parse(pack_program("explain good.fspack --json").out);
+    EXPECT_EQ(plain["cells"], nlohmann::json::array());
+    EXPECT_EQ(plain["behaviours"], nlohmann::json::array());
+}
+
+TEST_F(Program, verify_checks_the_cells_own_packs_wholly) {
+    ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::pack_with_world())));
+    EXPECT_EQ(pack_program("verify good.fspack").status, 0);
+    samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack_with_world()));
+    samples::Entries lid = samples::take_apart(entries.part("cells/2.fspack"));
+    lid.part("relief_blocks/32.bin")[4] ^= std::byte{2};
+    samples::right_hashes(lid);
+    entries.part("cells/2.fspack") = samples::put_together(lid);
+    samples::right_hashes(entries);
+    ASSERT_TRUE(write_file("good.fspack", samples::put_together(entries)));
+    const Outcome outcome = pack_program("verify good.fspack");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.error.find("good.fspack: cells/2.fspack: relief_blocks/32.bin: "), std::string::npos)
+        << outcome.error;
 }
 
 TEST_F(Program, verify_holds_the_parts_of_unknown_sections_against_their_hashes) {

@@ -128,21 +128,22 @@ struct Agreement {
     int other = 0; ///< pixels that are hit in one alone
     /// Between two hits of a pixel; where a surface is grazed, at its best within a rasterizer's step.
     double worst_m = 0.0;
+    std::vector<double> off_m{}; ///< of each pixel that both hit
 };
 /// llvmpipe places corners in steps of 1/256 of a pixel.
 inline constexpr double raster_step_px = 1.0 / 256.0;
 
-/// Eye and lens are in the prop's frame, and so is `ray(x, y)`, the direction of a pixel's light.
-template <typename Ray>
+/// `surface` has the function `hit` of Star. Eye and lens are in the prop's frame, and so is `ray(x, y)`, the direction of a pixel's light.
+template <typename Surface, typename Ray>
 Agreement agreement(const std::vector<glm::vec3>& points, const std::vector<HalfSpace>& prop,
-                    const Star& star, const glm::dvec3& eye, const glm::dvec3& lens, const Ray& ray,
+                    const Surface& surface, const glm::dvec3& eye, const glm::dvec3& lens, const Ray& ray,
                     const glm::ivec2& size) {
     const auto truth_at = [&](double x, double y) -> std::optional<glm::dvec3> {
         const glm::dvec3 along = ray(x, y);
         const std::optional<Entry> face = entry(prop, lens, along);
         const bool shows = face && prop[face->plane].lit &&
                            glm::dot(prop[face->plane].normal, eye) > prop[face->plane].offset;
-        return shows ? star.hit(eye, lens + face->t * along - eye) : std::nullopt;
+        return shows ? surface.hit(eye, lens + face->t * along - eye) : std::nullopt;
     };
     const auto off_m = [&](int x, int y, const glm::dvec3& truth, const glm::dvec3& drawn) {
         constexpr double close_m = 1e-4;
@@ -165,7 +166,8 @@ Agreement agreement(const std::vector<glm::vec3>& points, const std::vector<Half
             if (truth.has_value() == std::isnan(drawn.x)) {
                 ++seen.other;
             } else if (truth) {
-                seen.worst_m = std::fmax(seen.worst_m, off_m(x, y, *truth, glm::dvec3(drawn)));
+                seen.off_m.push_back(off_m(x, y, *truth, glm::dvec3(drawn)));
+                seen.worst_m = std::fmax(seen.worst_m, seen.off_m.back());
             }
         }
     }

@@ -19,6 +19,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> smoother_cases();
 [[nodiscard]] std::vector<StabilityCase> fade_cases();
 [[nodiscard]] std::vector<StabilityCase> estimator_cases();
+[[nodiscard]] std::vector<StabilityCase> motion_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 [[nodiscard]] std::vector<StabilityCase> calibration_cases();
 /// These draw in a context of their own.

@@ -150,6 +150,12 @@ std::uint64_t JsonReader::whole_of(const char* key, std::uint64_t most) {
 }
 
 void JsonReader::number(const char* key, float& value) {
+    double read = static_cast<double>(value);
+    number(key, read);
+    value = static_cast<float>(read);
+}
+
+void JsonReader::number(const char* key, double& value) {
     const Json* read = take(key);
     if (read == nullptr) {
         return;
@@ -158,7 +164,7 @@ void JsonReader::number(const char* key, float& value) {
         refuse("json.number", key, fmt::format("is {}; allowed is a number", found(*read)));
         return;
     }
-    value = static_cast<float>(read->get<double>());
+    value = read->get<double>();
 }
 
 void JsonReader::number_or(const char* key, double& value, double left_out) {

@@ -40,7 +40,15 @@ public:
     template <typename Whole> void whole(const char* key, Whole& value, std::uint64_t most) {
         value = static_cast<Whole>(whole_of(key, most));
     }
+    /// As above, or null: none.
+    template <typename Whole>
+    void whole_or_null(const char* key, std::optional<Whole>& value, std::uint64_t most) {
+        if (const nlohmann::json* read = take(key); read != nullptr && !read->is_null()) {
+            whole(key, value.emplace(), most);
+        }
+    }
     void number(const char* key, float& value);
+    void number(const char* key, double& value);
     /// An optional field.
     void number_or(const char* key, double& value, double left_out);
     /// Exactly `values.size()` numbers.

@@ -35,7 +35,11 @@ public:
     }
     void flag(const char* key, bool value) { object_[key] = value; }
     void whole(const char* key, auto value, std::uint64_t /*most*/) { object_[key] = value; }
+    void whole_or_null(const char* key, const auto& value, std::uint64_t /*most*/) {
+        object_[key] = value ? Json(*value) : Json(nullptr);
+    }
     void number(const char* key, float value) { object_[key] = in_few_digits(value); }
+    void number(const char* key, double value) { object_[key] = value; }
     void number_or(const char* key, double value, double left_out) {
         if (value != left_out) {
             object_[key] = value;

@@ -15,6 +15,11 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
     app.add_flag("--no-relief", arguments.no_relief,
                  "leave out the layered relief: the pack is smaller and has meshes only");
     app.add_option(
+           "--cells", arguments.cells,
+           "parts of the model that can move by themselves: nodes of a glTF file, or none (default: nodes "
+           "if an animation or artifact.toml moves them)")
+        .one_of({"none", "nodes"});
+    app.add_option(
         "--prop", arguments.prop,
         "prop that the artifact is baked for: frustum, cube, or a prop file, *.obj, of a prop in the hand "
         "(default: frustum)");
@@ -72,6 +77,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     add_number("--size", arguments.size);
     add_flag("--unlit", arguments.unlit);
     add_flag("--no-relief", arguments.no_relief);
+    add_text("--cells", arguments.cells);
     add_text("--prop", arguments.prop.value_or(""));
     add_text("--up", arguments.up.value_or(""));
     add_number("--turn", arguments.turn_deg);

@@ -150,6 +150,38 @@ std::string missing_text(const BakeResult& result) {
     return text;
 }
 
+std::string_view trigger_name(const world::Behaviour& behaviour) {
+    return world::trigger_names.at(static_cast<std::size_t>(behaviour.trigger));
+}
+
+/// Whether it has cells and why, and what moves them.
+std::string cells_text(const BakeResult& result) {
+    std::string text = fmt::format("  {:<8}{}, since {}\n", "cells", result.cells.nodes ? "nodes" : "none",
+                                   result.cells.why);
+    for (const pack::PackBehaviour& each : result.world.behaviours) {
+        text += fmt::format("  {:<8}'{}', {:.2g} s, by {}\n", "moves", each.behaviour.name,
+                            each.behaviour.seconds, trigger_name(each.behaviour));
+    }
+    return text;
+}
+
+Json cells_json(const BakeResult& result) {
+    Json cells = Json::array();
+    for (const pack::PackCell& each : result.world.cells) {
+        cells.push_back({{"name", each.cell.name}, {"triangles", each.triangles}});
+    }
+    Json behaviours = Json::array();
+    for (const pack::PackBehaviour& each : result.world.behaviours) {
+        behaviours.push_back({{"name", each.behaviour.name},
+                              {"seconds", each.behaviour.seconds},
+                              {"trigger", trigger_name(each.behaviour)}});
+    }
+    return {{"taken", result.cells.nodes ? "nodes" : "none"},
+            {"why", result.cells.why},
+            {"cells", std::move(cells)},
+            {"behaviours", std::move(behaviours)}};
+}
+
 std::string page_text(const BakeResult& result) {
     return result.page.empty()
                ? std::string()
@@ -195,7 +227,8 @@ std::string report_text(const BakeResult& result) {
                        size.y, size.z, result.pack.prop_kind,
                        result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
-           speech_text(result) + (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
+           cells_text(result) + speech_text(result) +
+           (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
            notes_text(result, bake::SourceNote::Kind::Guessed, "guessed") +
            notes_text(result, bake::SourceNote::Kind::Taken, "taken") + missing_text(result) +
            page_text(result);
@@ -235,6 +268,7 @@ Json report_json(const BakeResult& result) {
                    {"guessed", texts_of(result, bake::SourceNote::Kind::Guessed)},
                    {"taken", texts_of(result, bake::SourceNote::Kind::Taken)},
                    {"missing", result.missing},
+                   {"cells", cells_json(result)},
                    {"scan", json_of(result.scan)},
                    {"id", result.pack.id},
                    {"licence", result.rights.licence},

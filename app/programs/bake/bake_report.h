@@ -7,6 +7,8 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_contents.h"
+#include "app/pack/pack_world.h"
+#include "app/programs/bake/cells_choice.h"
 #include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/scan_summary.h"
 #include "app/programs/preview/preview_page.h"
@@ -32,6 +34,8 @@ struct BakeResult {
     bool up_given = false; ///< false: the format's
     double turn_deg = 0.0;
     bool turn_given = false; ///< false: chosen by the bake
+    CellsChoice cells;
+    pack::PackWorld world; ///< empty: the pack has no cells
     ScanSummary scan;
     std::vector<bake::SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions without speech, and why
@@ -49,7 +53,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
+/// guessed: [], taken: [], missing: [], cells: {taken, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen::programs

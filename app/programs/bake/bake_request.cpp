@@ -18,23 +18,43 @@ namespace frustumscreen::programs {
 
 namespace {
 
+/// Words of the folder's file in several languages, and their name in messages.
+struct Labelled {
+    std::string name; ///< hotspots[1]
+    std::string key;  ///< labels
+    std::vector<pack::PackLabel> labels;
+};
+
+std::vector<Labelled> labelled_in(const folder::ArtifactFile& file) {
+    std::vector<Labelled> all;
+    for (const folder::ArtifactHotspot& hotspot : file.hotspots) {
+        all.push_back({fmt::format("hotspots[{}]", all.size()), "labels", hotspot.labels});
+    }
+    for (std::size_t k = 0; k < file.behaviours.size(); ++k) {
+        if (!file.behaviours[k].titles.empty()) { // without any, visitors are told nothing
+            all.push_back({fmt::format("behaviours[{}]", k), "titles", file.behaviours[k].titles});
+        }
+    }
+    return all;
+}
+
 /// Returns a sentence for each label that is missing in a language of `captions`, and for each label in a language
 /// without texts. `left_out`: languages that were left out on purpose; their labels give no sentence.
-std::vector<std::string> label_notes(std::span<const folder::ArtifactHotspot> hotspots,
+std::vector<std::string> label_notes(std::span<const Labelled> all,
                                      std::span<const pack::PackCaption> captions,
                                      std::span<const std::string> left_out) {
     const auto is_in = [](const std::string& language) {
         return [&](const auto& each) { return each.language == language; };
     };
     std::vector<std::string> notes;
-    for (std::size_t k = 0; k < hotspots.size(); ++k) {
-        const std::vector<pack::PackLabel>& labels = hotspots[k].labels;
+    for (const auto& [name, key, labels] : all) {
+        const std::string word = key.substr(0, key.size() - 1);
         for (const pack::PackCaption& caption : captions) {
             if (std::none_of(labels.begin(), labels.end(), is_in(caption.language))) {
-                notes.push_back(fmt::format("hotspots[{}] has no label in '{}', so its visitors read another "
+                notes.push_back(fmt::format("{} has no {} in '{}', so its visitors read another "
                                             "language there; write {} = "
-                                            "\"...\" under labels",
-                                            k, caption.language, caption.language));
+                                            "\"...\" under {}",
+                                            name, word, caption.language, caption.language, key));
             }
         }
         for (const pack::PackLabel& label : labels) {
@@ -42,10 +62,9 @@ std::vector<std::string> label_notes(std::span<const folder::ArtifactHotspot> ho
                 std::any_of(captions.begin(), captions.end(), is_in(label.language)) ||
                 std::find(left_out.begin(), left_out.end(), label.language) != left_out.end();
             if (!has_texts) {
-                notes.push_back(
-                    fmt::format("hotspots[{}] has the label \"{}\" in '{}', and the artifact has "
-                                "no [[texts]] in that language; write them, or take the label away",
-                                k, printable(label.text, 60), label.language));
+                notes.push_back(fmt::format("{} has the {} \"{}\" in '{}', and the artifact has "
+                                            "no [[texts]] in that language; write them, or take the {} away",
+                                            name, word, printable(label.text, 60), label.language, word));
             }
         }
     }
@@ -196,6 +215,8 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.strict = arguments.strict;
     request.texture = arguments.texture.empty() ? file.texture : arguments.texture;
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
+    request.cells = arguments.cells;
+    request.behaviours = file.behaviours;
     TRY(request.options, options_of(arguments, file));
     request.id = file.id;
     request.usual_title = file.scan.stem().string();
@@ -203,7 +224,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
                       arguments.author.empty() ? file.author : arguments.author, file.source};
     request.captions = *captions;
     const std::vector<std::string> left_out = left_out_of(file, *captions);
-    request.lost = label_notes(file.hotspots, *captions, left_out);
+    request.lost = label_notes(labelled_in(file), *captions, left_out);
     request.speech = speech_of(arguments, file, left_out, is_folder);
     return request;
 }

@@ -7,6 +7,7 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
+#include "assets_baked/folder/artifact_behaviours.h"
 #include "assets_baked/texts/speak_artifact.h"
 #include "firmware_host/base/result.h"
 
@@ -30,6 +31,7 @@ struct BakeArguments {
     bool json = false;
     bool unlit = false;
     bool no_relief = false;
+    std::string cells; ///< none, nodes; empty: nodes if something moves
     std::optional<int> size;
     std::optional<std::string> prop;
     std::optional<std::string> up;
@@ -57,6 +59,8 @@ struct BakeRequest {
     bool strict = false;
     std::filesystem::path texture;
     std::optional<double> turn_deg; ///< nothing: the best
+    std::string cells;              ///< as BakeArguments
+    std::vector<folder::ArtifactBehaviour> behaviours;
     bake::BakeOptions options;
     std::string id;                          ///< empty: from the pack's name (scan_about.h)
     std::string usual_title;                 ///< title of a caption that has none of its own

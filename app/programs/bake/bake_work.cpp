@@ -4,8 +4,10 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
+#include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/check_scan.h"
 #include "app/programs/bake/load_scan.h"
+#include "app/programs/bake/put_cells.h"
 #include "app/programs/bake/scan_about.h"
 #include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/content_hash.h"
@@ -118,23 +120,32 @@ TimeLeft time_left(const ExpectedTime& expected) {
     return {ends, expected.all_s()};
 }
 
+/// Share of the work of a bake with cells that the whole artifact is.
+constexpr double whole_share = 0.5;
+
 Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
     const double read = expected_time(written.scan).reading_share();
     const auto progress = std::exchange(options.progress, {});
     TRY(const bake::SourceMesh mesh,
         load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
-    options.progress = [&](std::string_view step, double done) {
-        progress(step, std::lerp(read, 1.0, done));
+    BakeResult result;
+    result.cells = choose_cells(written.cells, mesh, written.behaviours.size());
+    const double whole = result.cells.nodes ? whole_share : 1.0;
+    const auto begin_stages = [&](double begin, double end) {
+        options.progress = [&progress, begin, end](std::string_view step, double done) {
+            progress(step, std::lerp(begin, end, done));
+        };
     };
+    begin_stages(read, std::lerp(read, 1.0, whole));
+    result.notes = mesh.notes;
+    TRY(std::vector<pack::PackBehaviour> behaviours, movements_of(written, mesh, result.cells, result.notes));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
     const BakeRequest& request = all.request;
-    BakeResult result;
     result.file = request.output;
     result.prop = options.prop;
-    result.notes = mesh.notes;
     result.notes.insert(result.notes.end(), all.notes.begin(), all.notes.end());
     result.up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     result.up_given = !options.up.empty();
@@ -149,6 +160,12 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     result.scan = summary_of(mesh, measures);
     TRY(pack::Pack pack, at(request.scan.string(), bake::bake(mesh, options)));
     TRY_VOID(describe(pack, request));
+    if (result.cells.nodes) {
+        begin_stages(std::lerp(read, 1.0, whole), 1.0);
+        TRY(result.world,
+            at(request.scan.string(), put_cells(pack, mesh, std::move(behaviours), options, result.notes)));
+        TRY_VOID(check_losses(result.notes, request));
+    }
     result.rights = request.rights;
     result.missing = pack::missing_in(pack, request.rights);
     if (request.output.extension() != ".fspack" && !request.watched) {

@@ -4,8 +4,10 @@
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace frustumscreen::programs {
 
@@ -87,6 +89,13 @@ std::string check_lines(const CheckedScan& scan) {
     for (const ScanColumn& column : scan_columns()) {
         text += column.key == "lost" ? std::string() : line(column.heading, column.shown(scan.summary));
     }
+    for (const auto& [heading, names] : {std::pair("parts", &scan.parts), {"animations", &scan.animations}}) {
+        text += names->empty()
+                    ? std::string()
+                    : line(heading,
+                           fmt::format("{}: {}", names->size(),
+                                       printable(fmt::format("{}", fmt::join(*names, ", ")), longest_name)));
+    }
     const std::vector<std::string> lost = texts_of(scan, bake::SourceNote::Kind::Lost);
     text += lost.empty() ? line("lost", "nothing") : std::string();
     for (const std::string& each : lost) {
@@ -131,6 +140,8 @@ nlohmann::ordered_json check_json(std::span<const CheckedScan> scans) {
         }
         if (was_read(scan)) {
             one.update(json_of(scan.summary));
+            one["parts"] = scan.parts;
+            one["animations"] = scan.animations;
             one["lost"] = texts_of(scan, bake::SourceNote::Kind::Lost);
             one["guessed"] = texts_of(scan, bake::SourceNote::Kind::Guessed);
         }

@@ -1,6 +1,7 @@
 #include "app/programs/bake/check_scan.h"
 
 #include "app/programs/bake/artifact_words.h"
+#include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
 
@@ -15,6 +16,14 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
     TRY(BakeRequest request, request_of(arguments));
     TRY(const bake::SourceMesh mesh, load_scan(request));
     checked.notes = mesh.notes;
+    for (const bake::SourceNode& node : mesh.nodes) {
+        checked.parts.push_back(node.name);
+    }
+    for (const bake::SourceAnimation& animation : mesh.animations) {
+        checked.animations.push_back(animation.name);
+    }
+    TRY_VOID(without_value(movements_of(
+        request, mesh, choose_cells(request.cells, mesh, request.behaviours.size()), checked.notes)));
     TRY(const bake::ScanMeasures measures,
         at(request.scan.string(), bake::measure_scan(mesh, request.options)));
     checked.summary = summary_of(mesh, measures);

@@ -14,9 +14,11 @@
 namespace frustumscreen::programs {
 
 struct CheckedScan {
-    std::filesystem::path input; ///< a scan, or a folder with an artifact.toml
-    std::optional<Error> fault;  ///< why it cannot be baked
-    ScanSummary summary;         ///< without a format if the scan could not be read
+    std::filesystem::path input;         ///< a scan, or a folder with an artifact.toml
+    std::optional<Error> fault;          ///< why it cannot be baked
+    ScanSummary summary;                 ///< without a format if the scan could not be read
+    std::vector<std::string> parts;      ///< names of those that can be cells; empty: one that does not move
+    std::vector<std::string> animations; ///< names of those that move parts
     std::vector<bake::SourceNote> notes;
 };
 

@@ -4,6 +4,7 @@
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
+#include "app/programs/pack/world_report.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
@@ -241,8 +242,8 @@ std::string title_line(const OpenedPack& opened) {
 }
 
 bool is_passed_over(const pack::PackSection& section) {
-    constexpr std::array<std::string_view, 6> known{"attribution",   "texts",       "sounds",
-                                                    "relief_blocks", "seen_errors", "seen_reliefs"};
+    constexpr std::array<std::string_view, 8> known{"attribution", "texts",        "sounds", "relief_blocks",
+                                                    "seen_errors", "seen_reliefs", "cells",  "behaviours"};
     return std::find(known.begin(), known.end(), section.name) == known.end();
 }
 
@@ -298,7 +299,7 @@ std::string description_text(const pack::Pack& pack, double mm) {
         }
         text += speech_text(pack, caption);
     }
-    text += hotspots_text(pack, mm);
+    text += hotspots_text(pack, mm) + world_text(pack, mm);
     if (!pack.table_picture.texels.empty()) {
         text += fmt::format("  picture for the table: {} x {} texels\n", pack.table_picture.width,
                             pack.table_picture.height);
@@ -357,6 +358,8 @@ Json explain_json(const OpenedPack& opened, const settings::PropSettings& prop) 
     Json json = list_json(opened, prop);
     add_description(json, *opened.pack);
     add_placement(json, *opened.pack, prop);
+    json["cells"] = cells_json(*opened.pack, json["metres_per_box"]);
+    json["behaviours"] = behaviours_json(*opened.pack);
     return json;
 }
 

@@ -103,10 +103,6 @@ void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn
         notes.lost("the light that {} of {} own (emission)",
                    counted(glowing, "material gives", "materials give"), glowing == 1 ? "its" : "their");
     }
-    if (model.animations > 0) {
-        notes.lost("{}; it stands as the file has it before they begin",
-                   counted(model.animations, "animation", "animations"));
-    }
     if (const std::size_t targets = morph_targets(model); targets > 0) {
         notes.lost("{}; it stands in the shape that the file begins with",
                    counted(targets, "shape to change into (a morph target)",

@@ -1,7 +1,7 @@
-/// Contents of a glTF file that the exhibit does not show: normal maps, occlusion maps, emission, movement, vertex
-/// attributes.
+/// Contents of a glTF file that the exhibit does not show: normal maps, occlusion maps, emission, morph targets, vertex
+/// attributes. Lost movements are told where the others are kept (gltf_world.h).
 ///
-/// Counts   materials of the parts that are drawn; animations and morph targets of the whole file.
+/// Counts   materials of the parts that are drawn; morph targets of the whole file.
 /// Told     an attribute that is not read counts as lost only if it could change the picture: joints and weights of a
 ///          skin, and any other of three or four numbers, which may be a colour (COLOR_1, _TINT). TEXCOORD and TANGENT
 ///          serve maps, which are told themselves; fewer numbers (_FEATURE_ID_0) are no colour.

@@ -311,6 +311,14 @@ std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view n
     return extensions ? extensions->find(name) : std::nullopt;
 }
 
+std::string gltf_name_of(const JsonPlace& place) {
+    try {
+        return place.text_or("name", "");
+    } catch (const Refusal&) {
+        return {};
+    }
+}
+
 GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model) {
     GltfAttributes attributes;
     for (const std::string& name : place.keys()) {
@@ -343,7 +351,7 @@ GltfModel gltf_model_from(const JsonPlace& document) {
     read_surface(document, model);
     read_all(document, "meshes", model, model.meshes, mesh_from);
     read_nodes(document, model);
-    model.animations = document.size_of("animations");
+    read_animations(document, model);
     model.variants = variants_of(document);
     model.unknown_extensions = unknown_extensions_of(document);
     return model;

@@ -7,6 +7,8 @@
 ///          members.
 #pragma once
 
+#include "app/world/behaviour.h"
+#include "app/world/cell.h"
 #include "assets_baked/bake/loaders/json_place.h"
 #include "assets_baked/bake/source_mesh.h"
 
@@ -19,6 +21,9 @@
 #include <vector>
 
 namespace frustumscreen::bake {
+
+/// Limit of a file's nodes: more are no work of a curator, and a world has at most `world::max_cells` cells.
+inline constexpr std::size_t max_gltf_nodes = 500'000;
 
 struct GltfBuffer {
     std::optional<std::string> uri; ///< none: the GLB's binary chunk
@@ -137,10 +142,13 @@ struct GltfMesh {
 };
 
 struct GltfNode {
+    std::string name; ///< empty: none
     std::vector<std::size_t> children;
     std::optional<std::size_t> mesh;
     std::optional<std::size_t> skin;
     glm::dmat4 parent_from_node{1.0};
+    bool has_matrix = false;     ///< instead of `rest`
+    world::LocalPose rest;       ///< its translation, rotation (unit) and scale
     std::vector<double> weights; ///< empty: those of the mesh
     GltfAttributes
         instances;       ///< TRANSLATION, ROTATION, SCALE of EXT_mesh_gpu_instancing; empty: the mesh once
@@ -150,6 +158,26 @@ struct GltfNode {
 struct GltfSkin {
     std::vector<std::size_t> joints;
     std::optional<std::size_t> inverse_bind_matrices;
+};
+
+enum class GltfPath { Translation, Rotation, Scale, Weights, Unknown };
+
+struct GltfSampler {
+    std::string place; ///< animations[1].samplers[0]
+    std::size_t input = 0;
+    std::size_t output = 0;
+    world::Interpolation interpolation = world::Interpolation::Linear;
+};
+struct GltfChannel {
+    std::string place;
+    std::size_t sampler = 0;
+    std::optional<std::size_t> node; ///< none: glTF ignores the channel
+    GltfPath path = GltfPath::Unknown;
+};
+struct GltfAnimation {
+    std::string name; ///< empty: none
+    std::vector<GltfSampler> samplers;
+    std::vector<GltfChannel> channels;
 };
 
 struct GltfModel {
@@ -163,7 +191,7 @@ struct GltfModel {
     std::vector<GltfMesh> meshes;
     std::vector<GltfNode> nodes;
     std::vector<GltfSkin> skins;
-    std::size_t animations = 0;
+    std::vector<GltfAnimation> animations;
     std::vector<std::string> variants;           ///< KHR_materials_variants: their names
     std::vector<std::string> unknown_extensions; ///< used by the file, and possibly relevant for the picture
     /// Roots of the default scene, otherwise of scene 0; nothing if the file has no scenes.
@@ -176,10 +204,14 @@ struct GltfModel {
 void read_surface(const JsonPlace& document, GltfModel& model);
 /// Reads the parts about placement (gltf_nodes.cpp).
 void read_nodes(const JsonPlace& document, GltfModel& model);
+/// Reads the parts about movement (gltf_animations.cpp).
+void read_animations(const JsonPlace& document, GltfModel& model);
 
 [[nodiscard]] std::size_t size_of(ComponentType type);
 /// The extension's object at `place`.
 [[nodiscard]] std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name);
+/// The member "name"; empty without one, and where it is no text: no part is refused for its name.
+[[nodiscard]] std::string gltf_name_of(const JsonPlace& place);
 [[nodiscard]] GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model);
 
 } // namespace frustumscreen::bake

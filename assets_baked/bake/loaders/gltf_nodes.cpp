@@ -26,25 +26,32 @@ glm::dvec3 vec3_or(const JsonPlace& place, std::string_view key, double fallback
     return {values[0], values[1], values[2]};
 }
 
-glm::dmat4 transform_from(const JsonPlace& place) {
+/// Reads the node's place in its parent: a matrix, or a translation, rotation and scale.
+void read_transform(const JsonPlace& place, GltfNode& node) {
+    const bool has_parts = place.find("translation") || place.find("rotation") || place.find("scale");
     if (const auto matrix = place.find("matrix")) {
-        if (place.find("translation") || place.find("rotation") || place.find("scale")) {
+        if (has_parts) {
             refuse_contradiction(
                 "{}: has a matrix and a translation, rotation or scale; only one of the two is allowed",
                 place.path());
         }
-        return matrix_from(*matrix);
+        node.has_matrix = true;
+        node.parent_from_node = matrix_from(*matrix);
+        return;
     }
-    glm::dmat4 transform = glm::translate(glm::dmat4(1.0), vec3_or(place, "translation", 0.0));
+    node.rest.translation = vec3_or(place, "translation", 0.0);
+    node.rest.scale = vec3_or(place, "scale", 1.0);
+    node.parent_from_node = glm::translate(glm::dmat4(1.0), node.rest.translation);
     if (const auto rotation = place.find("rotation")) {
         const std::vector<double> xyzw = rotation->numbers(4);
         const glm::dquat quaternion(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
         if (glm::length(quaternion) < 1e-6) {
             refuse_contradiction("{}: is not a rotation: its length is zero", rotation->path());
         }
-        transform *= glm::mat4_cast(glm::normalize(quaternion));
+        node.rest.rotation = glm::normalize(quaternion);
+        node.parent_from_node *= glm::mat4_cast(node.rest.rotation);
     }
-    return glm::scale(transform, vec3_or(place, "scale", 1.0));
+    node.parent_from_node = glm::scale(node.parent_from_node, node.rest.scale);
 }
 
 std::vector<std::size_t> indices_from(const JsonPlace& place, std::size_t size) {
@@ -57,12 +64,13 @@ std::vector<std::size_t> indices_from(const JsonPlace& place, std::size_t size) 
 
 GltfNode node_from(const JsonPlace& place, std::size_t node_count, const GltfModel& model) {
     GltfNode node;
+    node.name = gltf_name_of(place);
     if (const auto children = place.find("children")) {
         node.children = indices_from(*children, node_count);
     }
     node.mesh = place.index_or_none("mesh", model.meshes.size());
     node.skin = place.index_or_none("skin", model.skins.size());
-    node.parent_from_node = transform_from(place);
+    read_transform(place, node);
     if (const auto weights = place.find("weights")) {
         node.weights = weights->numbers();
     }
@@ -97,6 +105,11 @@ std::optional<std::vector<std::size_t>> scene_roots_from(const JsonPlace& docume
 
 void read_nodes(const JsonPlace& document, GltfModel& model) {
     const std::size_t node_count = document.size_of("nodes");
+    if (node_count > max_gltf_nodes) {
+        refuse("mesh.gltf_too_many_nodes",
+               "it has {} nodes, at most {} are allowed; join its parts before it is exported (nodes)",
+               node_count, max_gltf_nodes);
+    }
     for (std::size_t i = 0; i < document.size_of("skins"); ++i) {
         model.skins.push_back(skin_from(document.at("skins")[i], node_count, model));
     }

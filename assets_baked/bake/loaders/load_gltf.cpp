@@ -3,6 +3,8 @@
 #include "assets_baked/bake/loaders/gltf_losses.h"
 #include "assets_baked/bake/loaders/gltf_materials.h"
 #include "assets_baked/bake/loaders/gltf_primitive.h"
+#include "assets_baked/bake/loaders/gltf_tree.h"
+#include "assets_baked/bake/loaders/gltf_world.h"
 #include "assets_baked/bake/loaders/source_about.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
@@ -87,72 +89,6 @@ nlohmann::json parse_json(std::string_view text) {
     }
 }
 
-/// Nodes without a parent. Refuses a node with two parents.
-std::vector<std::size_t> root_nodes(const GltfModel& model) {
-    std::vector<std::optional<std::size_t>> parent(model.nodes.size());
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        for (const std::size_t child : model.nodes[i].children) {
-            if (parent[child]) {
-                refuse_contradiction(
-                    "nodes[{}]: is a child of nodes[{}] and of nodes[{}]; one parent is allowed", child,
-                    *parent[child], i);
-            }
-            parent[child] = i;
-        }
-    }
-    std::vector<std::size_t> roots;
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        if (!parent[i]) {
-            roots.push_back(i);
-        }
-    }
-    return roots;
-}
-
-enum class Nodes { All, Visible };
-
-/// Every node below `roots`, parents first; for visible nodes, without hidden ones and their descendants. Since each
-/// node has at most one parent, nodes that no root reaches form a cycle.
-std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots,
-                                     Nodes nodes = Nodes::All) {
-    std::vector<bool> seen(model.nodes.size(), false);
-    std::vector<std::size_t> order;
-    const auto visit = [&](std::size_t node) {
-        if (!seen[node] && (nodes == Nodes::All || model.nodes[node].visible)) {
-            seen[node] = true;
-            order.push_back(node);
-        }
-    };
-    std::for_each(roots.begin(), roots.end(), visit);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::vector<std::size_t>& children = model.nodes[order[i]].children;
-        std::for_each(children.begin(), children.end(), visit);
-    }
-    return order;
-}
-
-std::vector<glm::dmat4> scene_from_nodes(const GltfModel& model) {
-    const std::vector<std::size_t> order = nodes_below(model, root_nodes(model));
-    if (order.size() < model.nodes.size()) {
-        std::vector<bool> reached(model.nodes.size(), false);
-        for (const std::size_t node : order) {
-            reached[node] = true;
-        }
-        const auto lost = std::find(reached.begin(), reached.end(), false) - reached.begin();
-        refuse_contradiction("nodes[{}]: is its own ancestor; the nodes' children run in a circle", lost);
-    }
-    std::vector<glm::dmat4> scene_from_node(model.nodes.size());
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        scene_from_node[i] = model.nodes[i].parent_from_node;
-    }
-    for (const std::size_t node : order) {
-        for (const std::size_t child : model.nodes[node].children) {
-            scene_from_node[child] = scene_from_node[node] * model.nodes[child].parent_from_node;
-        }
-    }
-    return scene_from_node;
-}
-
 /// scene_from_joint times mesh_from_joint's inverse, for each joint (glTF 2.0, 3.7.3.1).
 std::vector<glm::dmat4> joint_transforms(const GltfModel& model, GltfBuffers& buffers, std::size_t skin_index,
                                          const std::vector<glm::dmat4>& scene_from_node) {
@@ -185,16 +121,19 @@ public:
           primitives_(model, buffers, mesh_, [this](auto index) { return surfaces_.material(index); }) {}
 
     SourceMesh draw() {
-        const std::vector<glm::dmat4> scene_from_node = scene_from_nodes(model_);
-        const std::vector<std::size_t> roots = model_.scene_roots ? *model_.scene_roots : root_nodes(model_);
-        const std::vector<std::size_t> drawn = nodes_below(model_, roots, Nodes::Visible);
-        if (const std::size_t hidden = nodes_below(model_, roots).size() - drawn.size(); hidden > 0) {
+        const GltfTree tree(model_);
+        const std::vector<glm::dmat4> scene_from_node = tree.scene_from_nodes();
+        const std::vector<std::size_t>& roots = model_.scene_roots ? *model_.scene_roots : tree.roots();
+        const std::vector<std::size_t> drawn = tree.below(roots, GltfNodes::Visible);
+        if (const std::size_t hidden = tree.below(roots, GltfNodes::All).size() - drawn.size(); hidden > 0) {
             notes_.guessed("{} left out, since the file hides {} (KHR_node_visibility)",
                            counted(hidden, "part is", "parts are"), hidden == 1 ? "it" : "them");
         }
         check_size(drawn);
+        std::vector<DrawnNode> parts;
         for (const std::size_t node : drawn) {
             draw_node(node, scene_from_node);
+            parts.push_back({.node = node, .end = mesh_.triangle_count()});
         }
         if (model_.nodes.empty()) {
             for (const GltfMesh& mesh : model_.meshes) {
@@ -204,6 +143,7 @@ public:
         note_gltf_losses(model_, materials_, notes_);
         note_lost_attributes(lost_attributes_, notes_);
         SourceMesh mesh = mesh_.finish(has_points_);
+        add_gltf_world(model_, tree, buffers_, parts, mesh, notes_);
         mesh.is_unlit = !materials_.empty() &&
                         std::all_of(materials_.begin(), materials_.end(),
                                     [&](std::size_t each) { return model_.materials[each].unlit; });

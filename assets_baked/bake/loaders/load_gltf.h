@@ -4,8 +4,8 @@
 ///          mesh once.
 /// Follows  KHR_draco_mesh_compression, EXT_meshopt_compression, KHR_mesh_quantization,
 ///          KHR_texture_transform, EXT_texture_webp, KHR_materials_unlit, KHR_materials_pbrSpecularGlossiness
-///          (its diffuse colour). Moving parts have the pose of the nodes, skins and morph weights;
-///          animations are not played.
+///          (its diffuse colour). Moving parts have the pose of the nodes, skins and morph weights; animations that
+///          move whole parts are kept (gltf_world.h).
 /// Errors   throws Refusal.
 /// Library  nlohmann::json reads the JSON. Debian's tinygltf was considered and not used: it refuses
 ///          buffers without data, which EXT_meshopt_compression uses, and its errors do not name the place in the

@@ -52,6 +52,7 @@ public:
     }
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
+    [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
     [[nodiscard]] glm::vec2 uv(std::uint32_t vertex) const {
         return vertex < mesh_.uvs.size() ? mesh_.uvs[vertex] : glm::vec2(0.0F);

@@ -68,6 +68,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
                    "draw the picture of one eye alone, in full size, or of both in the settings' layout "
                    "(default: both where eye.stereo is on, otherwise the point between the eyes)")
         .one_of({"left", "right", "both"});
+    app.add_option("--behaviour", request.options.behaviour,
+                   "move the pack's cells by this behaviour; it begins with the first pose");
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -101,6 +103,7 @@ struct Studio {
     const settings::Settings& settings;
     show::OfflineRenderer& renderer;
     EyeChoice eye;
+    MonotonicTime begin; ///< of the first pose
 
     [[nodiscard]] std::vector<glm::dvec3> eyes_m(const tracking::TrackedState& state) const {
         return chosen_eyes(eye, state, 1e-3 * settings.eye.interocular_mm);
@@ -122,7 +125,8 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                                const tracking::TrackedState& tracked_state,
                                std::vector<simulation::VisitorFrame>& visitor_frames) {
     const std::vector<glm::dvec3> eyes_m = studio.eyes_m(tracked_state);
-    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, eyes_m);
+    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, eyes_m,
+                                                        to_seconds(tracked_state.time - studio.begin));
     const std::int64_t t_us = to_microseconds(tracked_state.time);
     if (studio.request.view == "visitor") {
         const simulation::VisitorScene scene = visitor_scene(studio, tracked_state, eyes_m.front());
@@ -181,7 +185,11 @@ Result<void> render(const Request& request) {
                          failed.message());
     }
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
-    const Studio studio{.request = request, .settings = *settings, .renderer = *renderer, .eye = eye};
+    const Studio studio{.request = request,
+                        .settings = *settings,
+                        .renderer = *renderer,
+                        .eye = eye,
+                        .begin = frames.empty() ? MonotonicTime{} : frames.front().time};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
     std::vector<simulation::VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");

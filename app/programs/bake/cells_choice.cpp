@@ -1,0 +1,43 @@
+#include "app/programs/bake/cells_choice.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace frustumscreen::programs {
+
+namespace {
+
+std::size_t moved_parts(const bake::SourceMesh& mesh) {
+    std::set<std::size_t> moved;
+    for (const bake::SourceAnimation& animation : mesh.animations) {
+        for (const world::Channel& channel : animation.channels) {
+            moved.insert(channel.cell);
+        }
+    }
+    return moved.size();
+}
+
+} // namespace
+
+CellsChoice choose_cells(const std::string& option, const bake::SourceMesh& mesh, std::size_t behaviours) {
+    if (option == "none") {
+        return {false, "--cells none says so"};
+    }
+    if (behaviours > 0) {
+        return {true, "artifact.toml has [[behaviours]]"};
+    }
+    if (!mesh.animations.empty()) {
+        return {true, fmt::format("the file's animations move {} of its {} parts", moved_parts(mesh),
+                                  mesh.nodes.size())};
+    }
+    if (mesh.nodes.empty()) {
+        return {false, "the file is one part that does not move"};
+    }
+    if (option == "nodes") {
+        return {true, "--cells nodes says so"};
+    }
+    return {false, fmt::format("none of the file's {} parts moves", mesh.nodes.size())};
+}
+
+} // namespace frustumscreen::programs

@@ -1,0 +1,136 @@
+#include "app/residency/known_world.h"
+
+#include "app/pack/pack_relief.h"
+#include "app/scene/cell_plan.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace frustumscreen::residency {
+
+namespace {
+
+/// The ways in which a quality level draws the cell, each once, best first.
+std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan) {
+    std::vector<scene::QualityLevel> ways;
+    for (const scene::QualityLevel& quality_level : plan.quality_levels) {
+        if (std::none_of(ways.begin(), ways.end(),
+                         [&](const scene::QualityLevel& way) { return way.shows_as(quality_level); })) {
+            ways.push_back(quality_level);
+        }
+    }
+    return ways;
+}
+
+Result<pack::VerifiedPack> read_cell(const std::filesystem::path& file, const KnownWorld& known,
+                                     const KnownCell& cell, std::optional<std::uint32_t> level) {
+    const pack::PackCell& of = known.world.cells[cell.cell];
+    if (!level) {
+        return pack::load_cell(file, of);
+    }
+    return pack::load_cell(
+        file, of, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            if (outline != cell.outline) {
+                return bad_input("show.cell_changed",
+                                 "the pack has changed since the exhibit was started; start it again");
+            }
+            return std::vector<std::uint32_t>{*level};
+        });
+}
+
+Result<void> prepare_cell(const std::filesystem::path& file, const KnownWorld& known, const KnownCell& cell,
+                          const std::function<bool()>& given_up, PreparedCells& cells) {
+    const scene::ScenePlan& plan = cell.plan;
+    std::size_t options = 0;
+    std::shared_ptr<const relief::BlockRelief> relief;
+    std::uint32_t relief_texels = 0;
+    for (const scene::QualityLevel& way : ways_of(plan)) {
+        if (given_up()) {
+            return bad_input("show.cells_not_wanted", "not wanted any more");
+        }
+        ++options;
+        if (!way.relief) {
+            TRY(const pack::VerifiedPack pack, read_cell(file, known, cell, way.level));
+            cells.levels.push_back(prepare_level(*pack, way.level, plan));
+            continue;
+        }
+        const auto place =
+            std::find_if(plan.reliefs.begin(), plan.reliefs.end(),
+                         [&](const pack::ReliefOutline& each) { return each.texels == way.level; });
+        if (!relief || relief_texels != way.level) { // both ways of drawing share the relief
+            TRY(const pack::VerifiedPack pack, read_cell(file, known, cell, std::nullopt));
+            TRY(relief::BlockRelief read, pack::relief_of(*pack, *place));
+            relief = std::make_shared<const relief::BlockRelief>(std::move(read));
+            relief_texels = way.level;
+        }
+        cells.levels.push_back(prepare_relief(cell.outline.description,
+                                              static_cast<std::size_t>(place - plan.reliefs.begin()), relief,
+                                              way.on_gpu, plan));
+    }
+    cells.options.push_back(options);
+    return {};
+}
+
+} // namespace
+
+Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
+                                                     const std::filesystem::path& file,
+                                                     const pack::PackDescription& pack,
+                                                     const scene::ScenePlan& whole,
+                                                     const scene::SceneRequest& request) {
+    TRY(pack::PackWorld outline, pack::world_outline_of(pack));
+    if (outline.behaviours.empty()) {
+        return nullptr;
+    }
+    auto known = std::make_shared<KnownWorld>();
+    known->world = std::move(outline);
+    std::vector<world::Cell> cells;
+    for (const pack::PackCell& cell : known->world.cells) {
+        cells.push_back(cell.cell);
+    }
+    const std::vector<world::CellPose> at_rest = world::poses_at_rest(cells);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (!cells[k].has_geometry) {
+            continue;
+        }
+        KnownCell& cell = known->drawn.emplace_back();
+        cell.cell = k;
+        TRY_VOID(without_value(
+            pack::load_cell(file, known->world.cells[k],
+                            [&](const pack::PackOutline& own) -> Result<std::vector<std::uint32_t>> {
+                                TRY(cell.plan, scene::plan_cell(settings, own, whole, at_rest[k], request));
+                                cell.outline = own;
+                                return std::vector<std::uint32_t>{};
+                            })));
+    }
+    return known;
+}
+
+scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole) {
+    scene::RenderNeeds needs = whole;
+    std::size_t relief_draws = whole.relief_draws;
+    for (const KnownCell& cell : world.drawn) {
+        needs = scene::united(needs, cell.plan.needs);
+        relief_draws += cell.plan.needs.relief_draws;
+    }
+    needs.relief_draws = relief_draws;
+    for (scene::ShaderKey key : scene::RenderNeeds(needs).draws) {
+        if (key.pass == scene::ShaderKey::Pass::Surface) {
+            key.dithered = true;
+            needs.draws.insert(key);
+        }
+    }
+    return scene::with_cells(std::move(needs));
+}
+
+Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
+                                    const std::function<bool()>& given_up) {
+    PreparedCells cells;
+    for (const KnownCell& cell : known.drawn) {
+        TRY_VOID(prepare_cell(file, known, cell, given_up, cells));
+    }
+    return cells;
+}
+
+} // namespace frustumscreen::residency

@@ -1,0 +1,53 @@
+/// The cells of an artifact that its behaviours move: how each is drawn, before any of it is loaded, and their levels, read
+/// and ready to upload.
+///
+/// Memory   before the artifact is about to be shown, only the manifests: no curves. A cell is read level by level.
+/// Threads  pure except for reading the file; any.
+/// Errors   as load_pack and plan_cell; a pack that has changed since its plan was made.
+#pragma once
+
+#include "app/pack/pack_world.h"
+#include "app/residency/run_levels.h"
+#include "app/scene/scene_plan.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace frustumscreen::residency {
+
+/// A cell with geometry.
+struct KnownCell {
+    std::size_t cell = 0; ///< index into KnownWorld::world.cells
+    pack::PackOutline outline;
+    scene::ScenePlan plan;
+};
+struct KnownWorld {
+    pack::PackWorld world; ///< without curves
+    std::vector<KnownCell> drawn;
+};
+
+/// Null: the pack has no behaviours, so nothing ever moves. `whole`: the artifact's plan; `request`: the one that it
+/// was made for.
+[[nodiscard]] Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
+                                                                   const std::filesystem::path& file,
+                                                                   const pack::PackDescription& pack,
+                                                                   const scene::ScenePlan& whole,
+                                                                   const scene::SceneRequest& request);
+
+/// The needs of a renderer for the whole artifact and all of its cells, which fade into each other.
+[[nodiscard]] scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole);
+
+/// The levels of all cells, one cell after another.
+struct PreparedCells {
+    std::vector<std::size_t> options; ///< number of levels of each of KnownWorld::drawn
+    std::vector<PreparedLevel> levels;
+};
+/// `given_up`: asked between two levels; true cancels the preparation.
+[[nodiscard]] Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
+                                                  const std::function<bool()>& given_up);
+
+} // namespace frustumscreen::residency

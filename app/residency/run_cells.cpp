@@ -1,0 +1,288 @@
+#include "app/residency/run_cells.h"
+
+#include "app/geometry/time_curves.h"
+#include "app/scene/cell_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace frustumscreen::residency {
+
+namespace {
+
+std::vector<world::Cell> cells_of(const pack::PackWorld& world) {
+    std::vector<world::Cell> cells;
+    for (const pack::PackCell& cell : world.cells) {
+        cells.push_back(cell.cell);
+    }
+    return cells;
+}
+
+std::vector<world::Behaviour> behaviours_of(const pack::PackWorld& world) {
+    std::vector<world::Behaviour> behaviours;
+    for (const pack::PackBehaviour& behaviour : world.behaviours) {
+        behaviours.push_back(behaviour.behaviour);
+    }
+    return behaviours;
+}
+
+std::uint64_t curve_bytes(const std::vector<world::Behaviour>& behaviours) {
+    std::uint64_t bytes = 0;
+    for (const world::Behaviour& behaviour : behaviours) {
+        for (const world::Channel& channel : behaviour.channels) {
+            bytes += channel.curve.times_s.size() * sizeof(float);
+            bytes += channel.curve.values.size() * sizeof(glm::vec4);
+        }
+    }
+    return bytes;
+}
+
+std::size_t indices_of(const PreparedLevel& level) {
+    return level.triangles ? level.triangles->indices.size() : 0;
+}
+
+} // namespace
+
+RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const scene::ScenePlan& whole,
+                   std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
+                   double deadline_ms)
+    : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
+      player_(cells_of(world), behaviours_of(world)), choice_(cells.options), offered_(cells.levels.size()) {
+    std::size_t indices = 0; // of all that one picture may show
+    for (const PreparedLevel& level : whole_levels) {
+        indices = std::max(indices, indices_of(level));
+    }
+    for (std::size_t k = 0; k < known.drawn.size(); ++k) {
+        const scene::ScenePlan& plan = known.drawn[k].plan;
+        Cell& cell = cells_.emplace_back();
+        cell.number = known.drawn[k].cell;
+        cell.first = options_.size();
+        std::array<std::size_t, 2> largest{};
+        for (std::size_t option = 0; option < cells.options[k]; ++option) {
+            const PreparedLevel& level = cells.levels[options_.size()];
+            uses_.push_back(level.use);
+            options_.push_back(
+                {.seen = level.seen,
+                 .placed = {.triangles = level.triangles,
+                            .box_size = level.box_size,
+                            .metres_per_box = plan.metres_per_box,
+                            .drawable = {},
+                            .samples = level.samples,
+                            .faces = plan.faces,
+                            .relief = level.data.relief,
+                            .on_gpu = level.data.on_gpu},
+                 .worst_mm =
+                     1e3 * plan.metres_per_box * static_cast<double>(scene::worst_of(level.seen).mean_box),
+                 .triangles = static_cast<double>(level.data.relief ? level.data.relief->blocks.size()
+                                                                    : indices_of(level) / 6)});
+            largest.front() = std::max(largest.front(), indices_of(level));
+            std::sort(largest.begin(), largest.end());
+        }
+        indices += largest[0] + largest[1];
+    }
+    parts_.reserve(2 * cells_.size() + 1);
+    for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
+        plans_.push_back(scene::make_plan(whole.prop, indices, 2 * cells_.size() + 1));
+    }
+}
+
+void RunCells::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
+    options_[place].placed.drawable = drawable;
+    uses_[place].gpu_bytes = store.bytes(drawable);
+}
+
+void RunCells::release(render::GpuStore& store) {
+    for (const Option& option : options_) {
+        store.release(option.placed.drawable);
+    }
+}
+
+std::uint64_t RunCells::bytes() const {
+    std::uint64_t bytes = curve_bytes(player_.behaviours());
+    for (std::size_t place = 0; place < options_.size(); ++place) {
+        const scene::PlacedLevel& placed = options_[place].placed;
+        bytes += uses_[place].planned_gpu_bytes;
+        if (!placed.relief) {
+            bytes += scene::bytes_of(*placed.triangles);
+            // In the plan of an eye's picture, as RunLevels.
+            bytes += plans_.size() * 2 * sizeof(std::uint32_t) * placed.triangles->indices.size();
+        } else if (place == 0 || options_[place - 1].placed.relief != placed.relief) {
+            bytes += relief::bytes_of(*placed.relief); // both ways of drawing share the relief
+        }
+    }
+    return bytes;
+}
+
+void RunCells::start(const scene::FrameCost& cost) {
+    const auto or_mesh = [&](const scene::QualityLevelCost& own) { // not measured: none of its kind was drawn
+        return own.fixed_ms + own.ms_per_triangle + own.ms_per_sample > 0.0 ? own : cost.mesh;
+    };
+    cost_ = {cost.mesh, or_mesh(cost.raster), or_mesh(cost.on_gpu)};
+    fixed_ms_ = std::max({cost_.mesh.fixed_ms, cost_.raster.fixed_ms, cost_.on_gpu.fixed_ms});
+}
+
+double RunCells::load() const {
+    return std::exp(log_load_);
+}
+
+bool RunCells::fades() const {
+    return leaves_ || std::any_of(cells_.begin(), cells_.end(),
+                                  [](const Cell& cell) { return cell.coming.has_value(); });
+}
+
+bool RunCells::step(MonotonicTime now, double load) {
+    poses_ = player_.step(now);
+    if (player_.moves()) {
+        if (!shows_) {
+            is_new_ = true;
+            log_load_ = load > 0.0 && std::isfinite(load) ? std::log(load) : 0.0;
+            timed_ = now;
+        }
+        shows_ = true;
+        leaves_.reset();
+    } else if (shows_ && !fades()) {
+        leaves_ = now;
+    } else if (leaves_ && to_seconds(now - *leaves_) >= level_fade_s) {
+        shows_ = false;
+        leaves_.reset();
+    }
+    return shows_;
+}
+
+scene::CellOption RunCells::option_of(const Option& option, double pixels, double all_pixels,
+                                      int samples) const {
+    const auto eyes = static_cast<double>(plans_.size());
+    const scene::QualityLevelTime time{
+        .samples = samples,
+        .work = {.triangles = eyes * option.triangles, .pixels = eyes * pixels},
+        .ms = 0.0,
+        .relief = option.placed.relief != nullptr,
+        .on_gpu = option.placed.on_gpu};
+    const double ms = cost_.ms(time) - cost_.of(time).fixed_ms;
+    return {.error_mm = option.worst_mm * (all_pixels > 0.0 ? pixels / all_pixels : 1.0),
+            .cost_us = 1e3 * ms};
+}
+
+void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& view) {
+    double all_pixels = 0.0;
+    for (Cell& cell : cells_) {
+        scene::PlacedLevel placed = options_[cell.first + cell.shown].placed;
+        scene::set_pose(placed, poses_[cell.number], metres_per_box_);
+        cell.pixels = scene::pixels_of(placed, view);
+        all_pixels += cell.pixels;
+    }
+    if (leaves_) {
+        return;
+    }
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
+        for (std::size_t option = cells_[k].first; option < end; ++option) {
+            offered_[option] = option_of(options_[option], cells_[k].pixels, all_pixels, samples);
+        }
+    }
+    const double budget_ms = scene::Governor::leave_share * deadline_ms_ / load() - fixed_ms_;
+    const std::span<const std::size_t> chosen = choice_.choose(now, offered_, 1e3 * budget_ms);
+    expected_ms_ = fixed_ms_;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        Cell& cell = cells_[k];
+        expected_ms_ += 1e-3 * offered_[cell.first + chosen[k]].cost_us;
+        if (is_new_) {
+            cell.shown = chosen[k];
+            cell.coming.reset();
+        } else if (!cell.coming && cell.shown != chosen[k]) {
+            cell.coming = chosen[k];
+            cell.fade_start = now;
+        }
+    }
+    is_new_ = false;
+}
+
+void RunCells::add_part(const Cell& cell, std::size_t option, int samples,
+                        const std::optional<scene::Dither>& dither) {
+    scene::Part& part = parts_.emplace_back(scene::Part{options_[cell.first + option].placed, dither});
+    part.level.samples = samples;
+    scene::set_pose(part.level, poses_[cell.number], metres_per_box_);
+}
+
+/// While the picture fades back to the whole, no cell fades.
+void RunCells::add_parts(MonotonicTime now, const scene::PlacedLevel& whole) {
+    parts_.clear();
+    std::optional<scene::Dither> of_all;
+    if (leaves_) {
+        const auto share = static_cast<float>(geometry::ramp(to_seconds(now - *leaves_), level_fade_s));
+        parts_.push_back({whole, scene::Dither{share, false}});
+        of_all = scene::Dither{share, true};
+    }
+    for (Cell& cell : cells_) {
+        const double share =
+            cell.coming ? geometry::ramp(to_seconds(now - cell.fade_start), level_fade_s) : 0.0;
+        if (share >= 1.0) {
+            cell.shown = *cell.coming;
+            cell.coming.reset();
+        }
+        if (cell.coming) {
+            const auto arrived = static_cast<float>(share);
+            add_part(cell, cell.shown, whole.samples, scene::Dither{arrived, true});
+            add_part(cell, *cell.coming, whole.samples, scene::Dither{arrived, false});
+        } else {
+            add_part(cell, cell.shown, whole.samples, of_all);
+        }
+    }
+}
+
+render::DrawResult RunCells::draw(MonotonicTime now, const scene::PlacedLevel& whole,
+                                  const geometry::PropShape& prop, std::span<const scene::PlanView> views,
+                                  render::Renderer& renderer, const render::RenderTarget& target,
+                                  render::Redraw redraw) {
+    assert(views.size() == plans_.size());
+    choose(now, whole.samples, views.front());
+    add_parts(now, whole);
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        scene::plan_frame(prop, parts_, views[eye], plans_[eye]);
+    }
+    const render::DrawResult result = renderer.draw(plans_, target, redraw);
+    if (result.drawn) {
+        error_ = estimate(prop, views);
+    }
+    return result;
+}
+
+std::optional<scene::ErrorEstimate> RunCells::estimate(const geometry::PropShape& prop,
+                                                       std::span<const scene::PlanView> views) const {
+    std::optional<scene::ErrorEstimate> worst;
+    for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
+        scene::ErrorEstimate sum;
+        double pixels = 0.0;
+        for (const Cell& cell : cells_) {
+            const Option& option = options_[cell.first + cell.coming.value_or(cell.shown)];
+            scene::PlacedLevel placed = option.placed;
+            scene::set_pose(placed, poses_[cell.number], metres_per_box_);
+            const auto own = scene::estimate_error(option.seen, prop, placed, views[eye], plans_[eye]);
+            if (own) {
+                sum.mean_mm += cell.pixels * own->mean_mm;
+                sum.p95_mm += cell.pixels * own->p95_mm;
+                pixels += cell.pixels;
+            }
+        }
+        if (pixels > 0.0) {
+            worst = scene::larger(worst, scene::ErrorEstimate{sum.mean_mm / pixels, sum.p95_mm / pixels});
+        }
+    }
+    return worst;
+}
+
+/// As FrameTimeModel: the load follows the logarithm of measured over expected.
+void RunCells::record_time(MonotonicTime now, double ms) {
+    if (fades() || !scene::FrameTimeModel::is_time(ms) || !(expected_ms_ > 0.0)) {
+        return;
+    }
+    const double dt_s = std::clamp(to_seconds(now - timed_), 0.0, scene::FrameTimeModel::max_dt_s);
+    timed_ = now;
+    const double share = geometry::follow_share(dt_s, scene::FrameTimeModel::time_constant_s);
+    log_load_ += share * (std::log(ms / expected_ms_) - log_load_);
+}
+
+} // namespace frustumscreen::residency

@@ -1,0 +1,124 @@
+/// The cells of one artifact on the display: their levels in memory, the choice of one for each cell in each frame, the
+/// fades between them, and the player that moves them.
+///
+/// Shown    while nothing moves, the whole artifact is drawn (run_levels.h). With a behaviour's first motion the cells take
+///          its place in one frame, at rest, where both show the same within their errors. When everything is at rest
+///          again and no cell fades, the picture fades back to the whole.
+/// Choice   CellChoice: each option's error is the worst that its eyes see, its time that of its triangles or blocks and
+///          of the cell's pixels (cell_plan.h), times the load that frames have shown.
+/// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
+///          `step`, `draw` and `record_time` allocate nothing.
+/// Errors   none.
+#pragma once
+
+#include "app/render/renderer.h"
+#include "app/residency/known_world.h"
+#include "app/residency/run_levels.h"
+#include "app/scene/cell_choice.h"
+#include "app/scene/error_estimate.h"
+#include "app/scene/frame_plan.h"
+#include "app/scene/frame_time_model.h"
+#include "app/world/player.h"
+#include "firmware_host/base/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen::residency {
+
+/// LevelState::level while cells are drawn.
+inline constexpr std::string_view level_of_cells = "cells";
+
+class RunCells {
+public:
+    /// `world`: with its curves; `whole`: the artifact's plan. Drawing requires a drawable for each level.
+    RunCells(const pack::PackWorld& world, const KnownWorld& known, const scene::ScenePlan& whole,
+             std::span<const PreparedLevel> whole_levels, const PreparedCells& cells, double deadline_ms);
+
+    /// Sets the drawable of the level with index `place`, which is in the store.
+    void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
+    /// Removes all given levels from the store; drawing is then impossible.
+    void release(render::GpuStore& store);
+    /// GPU memory and main memory, by the plan.
+    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
+
+    /// Times of frames on this GPU. Without, every cell is drawn at its best.
+    void start(const scene::FrameCost& cost);
+    /// Call when the artifact comes on show: everything returns to rest.
+    void enter(MonotonicTime now) { player_.end_all(now); }
+
+    [[nodiscard]] world::Player& player() { return player_; }
+    /// Once a frame: moves the cells. True: `draw` draws this frame, otherwise the whole artifact's own RunLevels. `load`: of
+    /// the GPU (see Governor), when the cells begin to show.
+    [[nodiscard]] bool step(MonotonicTime now, double load);
+    /// True if the latest step drew cells.
+    [[nodiscard]] bool shows() const { return shows_; }
+    /// True if a cell fades from one level to another, or the cells fade back to the whole.
+    [[nodiscard]] bool fades() const;
+
+    /// `whole`: what the artifact's RunLevels would draw; `views`: one for each eye of the scene plan.
+    [[nodiscard]] render::DrawResult draw(MonotonicTime now, const scene::PlacedLevel& whole,
+                                          const geometry::PropShape& prop,
+                                          std::span<const scene::PlanView> views, render::Renderer& renderer,
+                                          const render::RenderTarget& target, render::Redraw redraw);
+    /// The latest `draw` took `ms` until its picture was complete.
+    void record_time(MonotonicTime now, double ms);
+    [[nodiscard]] double load() const;
+
+    /// Of the last frame drawn, the mean over the cells by their pixels.
+    [[nodiscard]] const std::optional<scene::ErrorEstimate>& error() const { return error_; }
+    [[nodiscard]] std::uint64_t switches() const { return choice_.switches(); }
+    /// The plan of each eye's latest picture.
+    [[nodiscard]] std::span<const scene::FramePlan> plans() const { return plans_; }
+
+private:
+    struct Option {
+        scene::SeenLevel seen;
+        scene::PlacedLevel placed;
+        double worst_mm = 0.0;
+        double triangles = 0.0; ///< or blocks
+    };
+    struct Cell {
+        std::size_t number = 0; ///< index into the player's cells
+        std::size_t first = 0;  ///< of its options
+        double pixels = 0.0;    ///< in this frame's picture of one eye
+        std::size_t shown = 0;  ///< index into its options
+        std::optional<std::size_t> coming;
+        MonotonicTime fade_start;
+    };
+    [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
+                                              int samples) const;
+    void choose(MonotonicTime now, int samples, const scene::PlanView& view);
+    void add_parts(MonotonicTime now, const scene::PlacedLevel& whole);
+    void add_part(const Cell& cell, std::size_t option, int samples,
+                  const std::optional<scene::Dither>& dither);
+    [[nodiscard]] std::optional<scene::ErrorEstimate> estimate(const geometry::PropShape& prop,
+                                                               std::span<const scene::PlanView> views) const;
+
+    double metres_per_box_; ///< of the whole artifact
+    double deadline_ms_;
+    world::Player player_;
+    std::span<const world::CellPose> poses_; ///< of the latest step
+    std::vector<LevelUse> uses_;
+    std::vector<Option> options_;
+    std::vector<Cell> cells_;
+    scene::CellChoice choice_;
+    std::vector<scene::CellOption> offered_; ///< of each option, in this frame
+    scene::FrameCost cost_;
+    double fixed_ms_ = 0.0;
+    double expected_ms_ = 0.0; ///< of the chosen options, without load
+    double log_load_ = 0.0;
+    MonotonicTime timed_; ///< when the load was last learned
+    std::vector<scene::Part> parts_;
+    std::vector<scene::FramePlan> plans_; ///< one for each eye
+    bool shows_ = false;
+    bool is_new_ = false;                 ///< no picture of cells was drawn since they began to show
+    std::optional<MonotonicTime> leaves_; ///< since when the picture fades back to the whole
+    std::optional<scene::ErrorEstimate> error_;
+};
+
+} // namespace frustumscreen::residency

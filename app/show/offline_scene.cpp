@@ -1,0 +1,141 @@
+#include "app/show/offline_scene.h"
+
+#include "app/pack/pack_relief.h"
+#include "app/pack/pack_world.h"
+#include "app/render/renderer.h"
+#include "app/scene/cell_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen::show {
+
+namespace {
+
+std::vector<std::uint32_t> levels_to_read(const scene::ScenePlan& plan, bool whole) {
+    return plan.levels.empty() || !whole ? std::vector{plan.exposure_level} : plan.levels;
+}
+
+scene::SceneRequest request_of(const OfflineSetup& setup, const settings::Settings& settings,
+                               const pack::PackDescription& whole) {
+    const OfflineOptions& options = setup.options;
+    scene::SceneRequest request;
+    request.technique = options.technique;
+    request.live = false;
+    request.light = options.light;
+    request.samples = samples_of(options, whole);
+    request.sample_headroom = render::default_samples;
+    request.cull_kinds = options.cull_kinds;
+    if (!options.views.empty()) {
+        request.visibility = scene::visibility_of(settings, options.views);
+    }
+    return request;
+}
+
+Result<std::size_t> find_behaviour(const pack::PackWorld& world, const std::string& name) {
+    if (world.behaviours.empty()) {
+        return bad_input("render.no_behaviours",
+                         "--behaviour {}: the pack has no behaviours; leave the option out", name);
+    }
+    std::string names;
+    for (std::size_t k = 0; k < world.behaviours.size(); ++k) {
+        const std::string& each = world.behaviours[k].behaviour.name;
+        if (each == name) {
+            return k;
+        }
+        names += (k == 0 ? "" : ", ") + each;
+    }
+    return bad_input("render.no_behaviour", "--behaviour {}: the pack has no such behaviour; it has {}", name,
+                     names);
+}
+
+/// Reads the cell's level or relief.
+Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const OfflineScene& scene,
+                                      const pack::PackCell& cell, std::size_t number,
+                                      const world::CellPose& at_rest) {
+    const settings::Settings settings = sized(scene.setup);
+    scene::ScenePlan plan;
+    Result<pack::VerifiedPack> pack = pack::load_cell(
+        file, cell, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            TRY(plan, scene::plan_cell(settings, outline, scene.plan, at_rest,
+                                       request_of(scene.setup, settings, *scene.pack)));
+            return plan.levels;
+        });
+    TRY_VOID(pack);
+    OfflineCell read{.cell = number, .plan = std::move(plan), .pack = *std::move(pack), .relief = nullptr};
+    if (!read.plan.reliefs.empty()) {
+        TRY(const pack::VerifiedPack all, pack::load_cell(file, cell));
+        TRY(relief::BlockRelief relief, pack::relief_of(*all, read.plan.reliefs.front()));
+        read.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
+    }
+    return read;
+}
+
+Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const OfflineScene& scene) {
+    TRY(const pack::PackWorld world, pack::load_world(file));
+    TRY(const std::size_t behaviour, find_behaviour(world, scene.setup.options.behaviour));
+    OfflineWorld read{.cells = {}, .behaviour = world.behaviours[behaviour].behaviour, .drawn = {}};
+    for (const pack::PackCell& cell : world.cells) {
+        read.cells.push_back(cell.cell);
+    }
+    const std::vector<world::CellPose> at_rest = world::poses_at_rest(read.cells);
+    for (std::size_t k = 0; k < world.cells.size(); ++k) {
+        if (world.cells[k].cell.has_geometry) {
+            TRY(OfflineCell cell, load_offline_cell(file, scene, world.cells[k], k, at_rest[k]));
+            read.drawn.push_back(std::move(cell));
+        }
+    }
+    return read;
+}
+
+} // namespace
+
+/// The finest level is chosen where cost does not matter, so it gets the smoothest outlines too.
+int samples_of(const OfflineOptions& options, const pack::PackDescription& pack) {
+    const int usual = options.technique == "finest" ? render::finest_samples : pack.samples;
+    return options.samples > 0 ? options.samples : usual;
+}
+
+settings::Settings sized(const OfflineSetup& setup) {
+    const auto& [checked, options] = setup;
+    settings::Settings settings = *checked;
+    if (!options.both_eyes) {
+        settings.projector.stereo = settings::ProjectorStereo::Off;
+    }
+    if (options.width > 0 && options.height > 0) {
+        settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);
+    }
+    return settings;
+}
+
+Result<OfflineScene>
+load_offline(const std::filesystem::path& file,
+             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of) {
+    std::optional<OfflineSetup> setup;
+    scene::ScenePlan plan;
+    Result<pack::VerifiedPack> pack =
+        pack::load_pack(file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            TRY(OfflineSetup made, setup_of(outline));
+            const settings::Settings settings = sized(made);
+            TRY(plan, scene::plan_scene(settings, outline, request_of(made, settings, outline.description)));
+            setup = std::move(made);
+            return levels_to_read(plan, setup->options.behaviour.empty());
+        });
+    TRY_VOID(pack);
+    OfflineScene scene{.setup = *std::move(setup),
+                       .plan = std::move(plan),
+                       .pack = *std::move(pack),
+                       .relief = nullptr,
+                       .world = std::nullopt};
+    if (!scene.setup.options.behaviour.empty()) {
+        TRY(scene.world, load_offline_world(file, scene));
+    } else if (!scene.plan.reliefs.empty()) {
+        TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));
+        scene.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
+    }
+    return scene;
+}
+
+} // namespace frustumscreen::show

@@ -1,0 +1,70 @@
+/// A pack's file, of which only what its pictures need was read: the whole artifact, or for a behaviour its cells.
+///
+/// Errors   as load_pack and plan_scene; a behaviour that the pack does not have.
+/// Threads  any.
+#pragma once
+
+#include "app/pack/pack_file.h"
+#include "app/relief/block_relief.h"
+#include "app/scene/scene_plan.h"
+#include "app/settings/settings.h"
+#include "app/world/behaviour.h"
+#include "app/world/cell.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen::show {
+
+struct OfflineOptions {
+    std::string technique = "auto";
+    int width = 0; ///< of the picture; 0 = the configured projector's. The intrinsics scale with it.
+    int height = 0;
+    bool light = true;
+    bool hit_points = false; ///< of one eye's picture
+    bool both_eyes = false;  ///< in the configured layout; otherwise one eye's picture, in the full size
+    int samples = 0;         ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
+    unsigned cull_kinds = scene::AllCullKinds;
+    /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
+    std::vector<scene::KnownView> views;
+    std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn whole, at rest
+};
+
+struct OfflineSetup {
+    settings::CheckedSettings settings;
+    OfflineOptions options;
+};
+struct OfflineCell {
+    std::size_t cell = 0; ///< index into OfflineWorld::cells
+    scene::ScenePlan plan;
+    pack::VerifiedPack pack;
+    std::shared_ptr<const relief::BlockRelief> relief;
+};
+struct OfflineWorld {
+    std::vector<world::Cell> cells;
+    world::Behaviour behaviour;
+    std::vector<OfflineCell> drawn; ///< the cells with geometry
+};
+struct OfflineScene {
+    OfflineSetup setup;
+    scene::ScenePlan plan; ///< of the whole artifact
+    pack::VerifiedPack pack;
+    std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
+    std::optional<OfflineWorld> world;                 ///< drawn in place of the whole
+};
+
+/// `setup_of` returns the set-up for a pack's outline.
+[[nodiscard]] Result<OfflineScene>
+load_offline(const std::filesystem::path& file,
+             const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of);
+
+/// The settings in the size and layout of the options.
+[[nodiscard]] settings::Settings sized(const OfflineSetup& setup);
+/// Samples a pixel.
+[[nodiscard]] int samples_of(const OfflineOptions& options, const pack::PackDescription& pack);
+
+} // namespace frustumscreen::show
