@@ -345,6 +345,6 @@ TEST(HostileWorld, a_flipped_byte_with_a_right_hash_is_refused_in_one_line_or_so
     };
     EXPECT_GT(
         refused("behaviours/curves.bin", 1, [](const Pack& pack) { return without_value(world_of(pack)); }),
-        60U);
-    EXPECT_GT(refused("cells/2.fspack", 211, check_world), 20U);
+        10U) << "a flipped number may be sound, a flipped count or length is not";
+    EXPECT_GT(refused("cells/2.fspack", 211, check_world), 10U);
 }
