@@ -34,8 +34,10 @@ CaptionLimits limits_for_captions() {
 class SetArtifactTexts : public Shaping {
 protected:
     [[nodiscard]] SetArtifact set(const std::vector<pack::PackCaption>& captions,
-                                  const std::vector<std::vector<pack::PackLabel>>& labels = {}) const {
-        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, limits_for_captions(), *shaper);
+                                  const std::vector<std::vector<pack::PackLabel>>& labels = {},
+                                  const std::vector<std::vector<pack::PackLabel>>& titles = {}) const {
+        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, titles, limits_for_captions(),
+                            *shaper);
     }
 };
 
