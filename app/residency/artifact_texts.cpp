@@ -173,7 +173,11 @@ exhibit::HotspotSet lay_out_hotspots(const pack::PackDescription& pack,
     return made;
 }
 
-/// Titles are of those that a button begins: only these are shown.
+/// The key of its title, which is shown only if a button begins it; empty: it is not.
+std::string title_key(world::Trigger trigger, std::size_t behaviour) {
+    return trigger == world::Trigger::Button ? pack::behaviour_key(behaviour) : std::string();
+}
+
 Result<std::vector<exhibit::TriggeredBehaviour>> lay_out_behaviours(const pack::PackDescription& pack,
                                                                     std::span<const std::string> languages,
                                                                     std::span<const pack::SetLanguage> set,
@@ -182,13 +186,12 @@ Result<std::vector<exhibit::TriggeredBehaviour>> lay_out_behaviours(const pack::
     std::vector<exhibit::TriggeredBehaviour> made;
     for (std::size_t k = 0; k < world.behaviours.size(); ++k) {
         const world::Behaviour& behaviour = world.behaviours[k].behaviour;
-        made.push_back({.trigger = behaviour.trigger,
-                        .hotspot = behaviour.hotspot,
-                        .narration_s = behaviour.narration_s,
-                        .lasts = behaviour.repeats || behaviour.stays,
-                        .title_sizes_m = behaviour.trigger == world::Trigger::Button
-                                             ? label_sizes_m(pack::behaviour_key(k), languages, set, style)
-                                             : std::vector<glm::dvec2>(languages.size(), glm::dvec2(0.0))});
+        made.push_back(
+            {.trigger = behaviour.trigger,
+             .hotspot = behaviour.hotspot,
+             .narration_s = behaviour.narration_s,
+             .lasts = behaviour.repeats || behaviour.stays,
+             .title_sizes_m = label_sizes_m(title_key(behaviour.trigger, k), languages, set, style)});
     }
     return made;
 }
@@ -264,8 +267,7 @@ Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& ca
         TRY_VOID(drawing.add(text));
     }
     for (std::size_t k = 0; is_caption && k < behaviours.size(); ++k) {
-        const bool shown = behaviours[k].trigger == world::Trigger::Button;
-        drawing.add_label(caption.language, shown ? pack::behaviour_key(k) : std::string());
+        drawing.add_label(caption.language, title_key(behaviours[k].trigger, k));
     }
     for (std::size_t k = 0; !is_caption && k < pack.hotspots.size(); ++k) {
         drawing.add_label(caption.language, pack::label_key(k));
@@ -327,8 +329,8 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     TRY(const std::vector<pack::SetLanguage> set,
         pack::load_set_texts(source.file, std::span(&caption.language, 1)));
     Drawing drawing(style, set, given_up);
-    TRY_VOID(at(source.file.string(),
-                draw(source.pack, caption, texts.entry.behaviours, set, part, drawing)));
+    TRY_VOID(
+        at(source.file.string(), draw(source.pack, caption, texts.entry.behaviours, set, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
     const auto as_laid_out = [](const image::Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;

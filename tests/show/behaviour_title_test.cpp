@@ -165,7 +165,8 @@ TEST_F(BehaviourTitles, AreInTheVisitorsLanguage) {
     const glm::dvec2 size_m = shown.title->rectangle.size_m;
     EXPECT_NEAR(size_m.x, 6.0 * settings.exhibit.caption_height_m, 0.003) << "six squares";
     expect_only_the_title(german, without);
-    const image::Image8 french = picture_of(moving_pack(true), {Command::NextLanguage, Command::NextLanguage});
+    const image::Image8 french =
+        picture_of(moving_pack(true), {Command::NextLanguage, Command::NextLanguage});
     EXPECT_FALSE(shown.title) << "it was not set";
     EXPECT_EQ(french.texels,
               picture_of(moving_pack(false), {Command::NextLanguage, Command::NextLanguage}).texels);

@@ -140,7 +140,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     };
     begin_stages(read, std::lerp(read, 1.0, whole));
     result.notes = mesh.notes;
-    TRY(const std::vector<pack::PackBehaviour> behaviours, movements_of(written, mesh, result.cells, result.notes));
+    TRY(const std::vector<pack::PackBehaviour> behaviours,
+        movements_of(written, mesh, result.cells, result.notes));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
