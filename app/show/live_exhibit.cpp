@@ -45,6 +45,7 @@ void dim(exhibit::Presentation& presentation, double light) {
     dim_part(presentation.sign);
     dim_part(presentation.advice);
     dim_part(presentation.hotspot);
+    dim_part(presentation.title);
     dim_part(presentation.notice);
 }
 
