@@ -10,11 +10,8 @@ void Exhibit::behave(MonotonicTime now, const tracking::TrackedState& tracked_st
                      const DrawnPose& drawn, bool pressed, Presentation& presentation) {
     const Nanoseconds still = stillness_.update(now, tracked_state, pressed);
     const bool looked_at = presence_.is_there() && tracked_state.prop_known && !drawn.attracts;
-    const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     const SpeechProgress& speech = narrator_.narration();
-    BehaviourTriggers::Input input{.behaviours = entry != nullptr
-                                                     ? std::span<const TriggeredBehaviour>(entry->behaviours)
-                                                     : std::span<const TriggeredBehaviour>(),
+    BehaviourTriggers::Input input{.behaviours = catalogue_.behaviours(shown.artifact),
                                    .artifact = shown.artifact,
                                    .shown = has_artifact() && note_of(state_).artifact && !leaves_set(),
                                    .attracts = state_ == State::Attract,

@@ -58,6 +58,11 @@ const CatalogueEntry* ShownCatalogue::captioned(std::size_t artifact) const {
                                                                                : nullptr;
 }
 
+std::span<const TriggeredBehaviour> ShownCatalogue::behaviours(std::size_t artifact) const {
+    return artifact < entries_.size() ? std::span<const TriggeredBehaviour>(entries_[artifact].behaviours)
+                                      : std::span<const TriggeredBehaviour>();
+}
+
 std::span<const glm::dvec3> ShownCatalogue::hull(std::size_t artifact) const {
     return artifact < entries_.size() ? std::span<const glm::dvec3>(entries_[artifact].hull)
                                       : std::span<const glm::dvec3>();

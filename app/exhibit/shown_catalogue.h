@@ -42,6 +42,8 @@ public:
     [[nodiscard]] const CatalogueEntry* captioned(std::size_t artifact) const;
     /// Valid as long as the catalogue.
     [[nodiscard]] std::span<const glm::dvec3> hull(std::size_t artifact) const;
+    /// Also of an artifact without captions; valid as long as the catalogue.
+    [[nodiscard]] std::span<const TriggeredBehaviour> behaviours(std::size_t artifact) const;
     /// `other`: the zone of an artifact without its own.
     [[nodiscard]] const ZoneFrame& zone(std::size_t artifact, const ZoneFrame& other) const;
     /// The language of the artifact's caption; without captions, `chosen`.

@@ -95,7 +95,9 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
         cells_[k].is_relief_alone = rasterized == cells.options[k];
     }
     parts_.reserve(2 * cells_.size() + 1);
-    plans_.assign(whole.eyes, scene::make_plan(whole.prop, indices, parts_.capacity()));
+    for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
+        plans_.push_back(scene::make_plan(whole.prop, indices, 2 * cells_.size() + 1));
+    }
 }
 
 void RunCells::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {

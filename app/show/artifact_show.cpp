@@ -21,6 +21,25 @@ namespace {
 constexpr double warm_up_step_m = 0.01;
 constexpr double sample_side_m = 0.05;
 
+void play(MonotonicTime now, const exhibit::BehaviourEvents& behaviours, world::Player& player) {
+    if (behaviours.end_all) {
+        player.end_all(now);
+    }
+    for (const exhibit::BehaviourEvent& event : behaviours.events()) {
+        switch (event.kind) {
+        case exhibit::BehaviourEvent::Kind::Start:
+            player.start(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::End:
+            player.end(event.behaviour, now);
+            break;
+        case exhibit::BehaviourEvent::Kind::Toggle:
+            player.trigger(event.behaviour, now);
+            break;
+        }
+    }
+}
+
 } // namespace
 
 Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Settings& settings,
@@ -277,6 +296,25 @@ void ArtifactShow::place_hotspot(const exhibit::Presentation& presentation) {
     }
 }
 
+void ArtifactShow::place_title(const exhibit::Presentation& presentation) {
+    if (!presentation.title) {
+        return;
+    }
+    const auto& [artifact, behaviour, language] = presentation.title->title;
+    const residency::LoadedTexts* const texts =
+        set_->artifact_cache->texts(artifact, residency::TextPart::Caption, language);
+    const scene::TextureId texture =
+        texts != nullptr
+            ? texts->texture(residency::title_picture(catalogue()[artifact], language, behaviour))
+            : scene::TextureId::None;
+    if (texture != scene::TextureId::None) {
+        on_table_.add({.corners_m = residency::picture_corners(residency::on_pixels(
+                           presentation.title->rectangle, projector_, table_from_projector_)),
+                       .brightness = caption_brightness_ * presentation.title->brightness,
+                       .texture = texture});
+    }
+}
+
 void ArtifactShow::place_signs(const exhibit::Presentation& presentation) {
     if (presentation.sign) {
         const exhibit::PlacedSign& sign = *presentation.sign;
@@ -337,6 +375,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
         set_->table.place_placeholder(*presentation.placeholder, on_table_);
     }
     place_hotspot(presentation);
+    place_title(presentation);
     place_signs(presentation);
     notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
                   renderer_.store(), on_table_);
@@ -358,6 +397,9 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
             cells->enter(now);
         }
         on_ = presentation.artifact;
+    }
+    if (cells != nullptr) {
+        play(now, presentation.behaviours, cells->player());
     }
     if (cells != nullptr && cells->step(now, load_)) {
         return cells->draw(now, levels->shown(), prop_, std::span(views).first(layout_.count), renderer_,

@@ -131,7 +131,9 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
         cells_ = scene.world->cells;
         behaviour_ = scene.world->behaviour;
     }
-    plans_.assign(scene.plan.eyes, scene::make_plan(prop_, indices, std::max<std::size_t>(parts_.size(), 1)));
+    for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
+        plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
+    }
     return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/pack/container/limits.h"
 #include "assets_baked/bake/cell_mesh.h"
+#include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -30,6 +32,14 @@ bool has_inverse(const glm::dmat4& transform) {
     const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     return lengths > 0.0 && std::isfinite(lengths) &&
            std::abs(glm::determinant(linear)) >= min_independence * lengths;
+}
+
+/// Without what rounding, or a file, leaves in the last row.
+glm::dmat4 affine(glm::dmat4 transform) {
+    for (int column = 0; column < 4; ++column) {
+        transform[column].w = column == 3 ? 1.0 : 0.0;
+    }
+    return transform;
 }
 
 struct Bounds {
@@ -53,9 +63,8 @@ Bounds bounds_of(const SourceMesh& mesh) {
 
 class Cells {
 public:
-    Cells(const SourceMesh& mesh, const BoxFrame& frame, const std::vector<bool>& moves,
-          const BakeOptions& options)
-        : mesh_(mesh), frame_(frame), options_(options), moves_(moves) {}
+    Cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
+        : mesh_(mesh), frame_(frame), options_(options) {}
 
     [[nodiscard]] WorldCells bake() {
         make_tree();
@@ -66,6 +75,9 @@ public:
         CellMeshes meshes(mesh_, frame_, cell_of_triangle, made_.cells.size());
         for (std::size_t k = 0; k < made_.cells.size(); ++k) {
             weights_.push_back(meshes.triangles_of(k) == 0 ? 0.0 : 1.0);
+        }
+        if (!options_.unlit) {
+            whole_.emplace(mesh_, meshes.points());
         }
         const double all = std::max(1.0, std::accumulate(weights_.begin(), weights_.end(), 0.0));
         double done = 0.0;
@@ -88,9 +100,8 @@ private:
         holder_.resize(mesh_.nodes.size());
         for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
             const SourceNode& node = mesh_.nodes[n];
-            moves_[n] = moves_[n] || (node.parent && moves_[*node.parent]);
             const glm::dmat4 parent_from_base =
-                node.parent ? node.parent_from_base : frame_.box_from_file * node.parent_from_base;
+                affine(node.parent ? node.parent_from_base : frame_.box_from_file * node.parent_from_base);
             const glm::dmat4 above = node.parent && made_.cell_of[*node.parent]
                                          ? box_from_cell_[*made_.cell_of[*node.parent]]
                                          : glm::dmat4(1.0);
@@ -104,7 +115,6 @@ private:
             }
             made_.cell_of[n] = holder_[n] = made_.cells.size();
             box_from_cell_.push_back(box_from_cell);
-            cell_moves_.push_back(moves_[n]);
             pack::PackCell& cell = made_.cells.emplace_back();
             cell.cell.name = node.name;
             cell.cell.parent = node.parent ? made_.cell_of[*node.parent] : std::nullopt;
@@ -113,7 +123,8 @@ private:
         }
     }
 
-    [[nodiscard]] BakeOptions options_of(double longest, bool moves, double begin, double end) const {
+    [[nodiscard]] BakeOptions options_of(const Bounds& bounds, double begin, double end) const {
+        const double longest = bounds.longest();
         BakeOptions options = options_;
         options.size = std::clamp(static_cast<int>(std::ceil(options_.size * longest)), min_size,
                                   std::max(min_size, options_.size));
@@ -124,9 +135,12 @@ private:
         options.measuring = options_.measuring * std::clamp(longest, min_measuring, 1.0);
         options.hotspots.clear();
         options.table_picture = false;
-        if (moves) {
-            options.prop.zone = ViewingZone::all_around();
+        if (whole_) {
+            const glm::dvec3 middle = glm::mix(bounds.low, bounds.high, 0.5);
+            options.part = {
+                .whole = &*whole_, .origin = {middle.x, middle.y, bounds.low.z}, .scale = longest};
         }
+        options.prop.zone = ViewingZone::all_around();
         options.progress = [this, begin, end](std::string_view, double done) {
             options_.progress("parts", std::lerp(begin, end, done));
         };
@@ -140,7 +154,7 @@ private:
             flat_.push_back(cell.cell.name);
             return;
         }
-        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds.longest(), cell_moves_[k], begin, end));
+        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds, begin, end));
         if (!baked) { // has triangles, and yet no surface
             flat_.push_back(cell.cell.name);
             return;
@@ -148,8 +162,7 @@ private:
         pack::Pack pack = *std::move(baked);
         pack.title = cell.cell.name;
         cell.cell.has_geometry = true;
-        cell.cell.cell_from_geometry =
-            glm::affineInverse(pack.box_from_file * box_from_cell_[k]);
+        cell.cell.cell_from_geometry = affine(glm::inverse(pack.box_from_file * box_from_cell_[k]));
         cell.triangles = mesh.triangles.size();
         cell.low = bounds.low;
         cell.high = bounds.high;
@@ -170,20 +183,18 @@ private:
     const SourceMesh& mesh_;
     const BoxFrame& frame_;
     const BakeOptions& options_;
-    std::vector<bool> moves_; ///< of each node
+    std::optional<SourceScene> whole_; ///< shadows the cells
     WorldCells made_;
     std::vector<std::optional<std::size_t>> holder_; ///< of each node: the cell of its triangles
     std::vector<glm::dmat4> box_from_cell_;          ///< of each cell, at rest
-    std::vector<bool> cell_moves_;
-    std::vector<double> weights_; ///< of each cell's bake, for the progress
+    std::vector<double> weights_;                    ///< of each cell's bake, for the progress
     std::vector<std::string> flat_;
 };
 
 } // namespace
 
-WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const std::vector<bool>& moves,
-                      const BakeOptions& options) {
-    return Cells(mesh, frame, moves, options).bake();
+WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options) {
+    return Cells(mesh, frame, options).bake();
 }
 
 } // namespace frustumscreen::bake

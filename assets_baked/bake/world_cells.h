@@ -2,7 +2,8 @@
 ///
 /// Frames   cells hang in the whole artifact's box; at rest each lies where the whole has it.
 /// Size     a cell has texels as large as the whole's, so fewer of them; `measuring` shrinks with it.
-/// Sides    a cell that moves keeps the sides that no visitor sees while it rests.
+/// Light    at rest a cell has the whole's, with the shadows of the other cells (part_light.h).
+/// Sides    a cell keeps those that no visitor sees at rest: it moves, or what hides it does.
 /// Told     a part in a frame that is pressed flat is no cell: its triangles stay with the part that it hangs from, and it
 ///          does not move. A cell without a surface has no geometry.
 /// Threads  uses all cores; `progress` is called on the caller's thread.
@@ -26,9 +27,8 @@ struct WorldCells {
     std::vector<SourceNote> notes;
 };
 
-/// The mesh has nodes. `frame`: of the whole, as `options` make it. `moves`: one for each node, true if something moves
-/// it; what hangs from it moves too.
+/// The mesh has nodes. `frame`: of the whole, as `options` make it.
 [[nodiscard]] WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame,
-                                    const std::vector<bool>& moves, const BakeOptions& options);
+                                    const BakeOptions& options);
 
 } // namespace frustumscreen::bake

@@ -3,7 +3,7 @@
 ///
 /// Halves   left: the projector's picture; right: the view from the visitor's eye.
 /// Input    drag = slide the prop; wheel or right drag = turn it; middle drag = move the eye; keys 1 to 5 =
-///          buttons 0 to 4; H = help over the window; Esc, or closing the window, raises SIGTERM.
+///          buttons 0 to 5; H = help over the window; Esc, or closing the window, raises SIGTERM.
 /// Frame    table T.
 /// Threads  one: the display, the tracker and the panel share it and the window.
 /// Errors   no desktop, or no OpenGL ES 3 on it.

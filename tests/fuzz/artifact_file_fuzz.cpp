@@ -48,5 +48,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require(fuzz::is_finite(hotspot.point_file) && !hotspot.labels.empty(),
                       "a hotspot has a place and a label");
     }
+    for (const folder::ArtifactBehaviour& behaviour : file->behaviours) {
+        require_clean(behaviour.name, pack::TextShape::Line);
+        fuzz::require(behaviour.animation.empty() != behaviour.cell.empty(),
+                      "a behaviour moves by an animation, or a part by itself");
+    }
     return 0;
 }

@@ -8,6 +8,34 @@
 
 namespace frustumscreen::fuzz {
 
+/// Nodes and animations.
+inline void require_sound_world(const bake::SourceMesh& mesh) {
+    require(mesh.nodes.empty() ? mesh.triangle_nodes.empty() && mesh.animations.empty()
+                               : mesh.triangle_nodes.size() == mesh.triangles.size(),
+            "a triangle has a node if there are nodes");
+    require(mesh.nodes.size() <= world::max_cells && mesh.animations.size() <= world::max_behaviours,
+            "nodes and animations are few");
+    for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+        require(!mesh.nodes[k].parent || *mesh.nodes[k].parent < k, "a parent comes first");
+    }
+    for (const std::uint32_t node : mesh.triangle_nodes) {
+        require(node < mesh.nodes.size(), "every triangle's node is there");
+    }
+    for (const bake::SourceAnimation& animation : mesh.animations) {
+        for (const world::Channel& channel : animation.channels) {
+            const world::Curve& curve = channel.curve;
+            const std::size_t each = curve.interpolation == world::Interpolation::CubicSpline ? 3 : 1;
+            require(channel.cell < mesh.nodes.size(), "every channel's node is there");
+            require(!curve.times_s.empty() && curve.values.size() == each * curve.times_s.size(),
+                    "a key has its values");
+            require(std::is_sorted(curve.times_s.begin(), curve.times_s.end()), "times rise");
+            for (const glm::vec4& value : curve.values) {
+                require(is_finite(value) && std::isfinite(value.w), "a value is finite");
+            }
+        }
+    }
+}
+
 inline void require_sound(const bake::SourceMesh& mesh) {
     const std::size_t vertices = mesh.positions.size();
     require(!mesh.triangles.empty() && !mesh.materials.empty(), "a mesh has triangles and a material");
@@ -38,6 +66,7 @@ inline void require_sound(const bake::SourceMesh& mesh) {
         require(material.texture < 0 || mesh.textures[static_cast<std::size_t>(material.texture)].image,
                 "every texture has a picture");
     }
+    require_sound_world(mesh);
 }
 
 /// Loads the bytes as a file without other files next to it.

@@ -60,6 +60,17 @@ def gltf():
     return document
 
 
+def still_after(stiffness, damping):
+    """Seconds until a thousandth of the way is left for good, by small steps."""
+    x, v, step, last = 0.0, 0.0, 1e-4, 0.0
+    for k in range(200000):
+        v += (stiffness * (1 - x) - damping * v) * step
+        x += v * step
+        if abs(x - 1) > 1e-3:
+            last = k * step
+    return last
+
+
 class BakeCells(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -121,6 +132,14 @@ class BakeCells(unittest.TestCase):
         self.assertEqual([cell["name"] for cell in report["cells"]["cells"]], ["chest", "lid"])
         self.assertEqual(report["cells"]["behaviours"], [])
 
+    def test_a_word_that_is_no_way_to_cut_is_refused(self):
+        self.assertIn("--cells", self.bake("--cells", "auto", status=2))
+
+    def test_a_check_lists_parts_and_animations(self):
+        done = subprocess.run([PROGRAM, "--check", "chest.gltf", "--json"], cwd=self.folder, capture_output=True, text=True, check=True)
+        scan = json.loads(done.stdout)["scans"][0]
+        self.assertEqual((scan["parts"], scan["animations"]), (["chest", "lid"], ["open"]))
+
     def test_artifact_toml_says_what_moves_the_parts(self):
         lines = ['scan = "chest.gltf"', "[[texts]]", 'language = "en"', 'title = "Chest"',
                  "[[behaviours]]", 'name = "turn the lid"', 'animation = "open"', 'trigger = "arrival"', 'titles = { en = "Turn the lid" }',
@@ -136,6 +155,8 @@ class BakeCells(unittest.TestCase):
         spring = behaviours[1]["springs"][0]
         self.assertEqual((spring["cell"], spring["axis"], spring["turns"]), (1, [0, 0, 1], False))
         self.assertAlmostEqual(spring["reach"], 0.5, msg="50 mm in a frame that is scaled by 0.1")
+        still_s = still_after(50, 5)
+        self.assertTrue(still_s <= behaviours[1]["seconds"] <= 2 * still_s, (still_s, behaviours[1]["seconds"]))
         self.assertEqual(behaviours[2]["seconds"], 3)
         self.assertTrue(behaviours[2]["stays"])
         for wrong, words in (('animation = "opne"', "the model has no animation 'opne' that moves parts; it has open"),
@@ -144,6 +165,33 @@ class BakeCells(unittest.TestCase):
             said = self.bake(given=".", status=1)
             self.assertIn("artifact.toml:6: behaviours[0].name: " + words, said)
             self.assertEqual(said.count("\n"), 1)
+
+
+    def test_titles_are_set_in_each_language_for_the_behaviours_that_the_pack_has(self):
+        titles = {"en": "Turn the lid", "ar": "أدر الغطاء", "th": "หมุนฝา", "de": "Den Deckel drehen"}
+        flat = gltf()  # a part of no height, whose light nobody would see
+        flat["nodes"].append({"name": "flat", "mesh": 1, "scale": [1, 0, 1]})
+        flat["nodes"][0]["children"].append(2)
+        (self.folder / "chest.gltf").write_text(json.dumps(flat))
+        lines = ['scan = "chest.gltf"']
+        for language in titles:
+            lines += ["[[texts]]", f'language = "{language}"', 'title = "1"']
+        told = ", ".join(f'{language} = "{text}"' for language, text in titles.items())
+        lines += ["[[behaviours]]", 'name = "glow"', 'cell = "flat"', "light = [2, 2, 2]", "titles = { en = \"Glow\" }",
+                  "[[behaviours]]", 'name = "lid"', 'animation = "open"', f"titles = {{ {told} }}"]
+        (self.folder / "artifact.toml").write_text("\n".join(lines), encoding="utf-8")
+        report = self.bake(given=".")
+        self.assertEqual([each["name"] for each in report["cells"]["behaviours"]], ["lid"])
+        there = {each["language"] for each in self.sections()["texts"]["data"]["languages"]}
+        missing = [language for language in titles if any(f"texts in '{language}'" in lost for lost in report["lost"])]
+        self.assertEqual(there, set(titles) - set(missing), report["lost"])
+        with zipfile.ZipFile(self.folder / "chest.fspack") as pack:
+            for language in there:
+                runs = pack.read(f"texts/{language}/glyphs.bin")
+                self.assertEqual((runs.count(b"behaviour.0"), runs.count(b"behaviour.")), (1, 1), language)
+        self.bake("--cells", "none", given=".")
+        with zipfile.ZipFile(self.folder / "chest.fspack") as pack:
+            self.assertNotIn(b"behaviour.", pack.read("texts/en/glyphs.bin"))
 
 
 if __name__ == "__main__":

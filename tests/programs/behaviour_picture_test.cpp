@@ -190,6 +190,7 @@ world::Behaviour opening() {
     behaviour.name = "open";
     behaviour.seconds = seconds;
     behaviour.stays = true;
+    behaviour.trigger = world::Trigger::Arrival;
     world::Channel lid{.cell = 1, .path = world::Path::Rotation, .curve = {}};
     // Short arcs, so that the turn from key to key is even.
     for (const double t : {0.0, 0.5 * seconds, seconds}) {
@@ -295,7 +296,8 @@ protected:
                         "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
                         width, height, focal_px, lens_m.z, prop_file()));
         put("poses.csv", pose_file(poses_));
-        put_pack("chest.fspack", chest());
+        static const pack::Pack pack = chest(); // a bake takes seconds
+        put_pack("chest.fspack", pack);
     }
     void put_pack(const std::string& name, const pack::Pack& pack) const {
         const Result<Bytes> bytes = pack::write_pack(pack);
@@ -309,8 +311,9 @@ protected:
                         "--no-light {}",
                         pack, more));
     }
-    /// Compares the written hit points with rays.
-    void compare(double close_m, double outline_px) const {
+    /// Compares the written hit points with rays: `share` of the pixels that both hit are within `close_m`; as many pixels
+    /// differ as an outline of `outline_px` pixels has.
+    void compare(double share, double close_m, double outline_px) const {
         const std::vector<HalfSpace> prop = planes_of(text_of(prop_file()));
         const PlacedInProp in_prop(prop);
         for (std::size_t k = 0; k < poses_.size(); ++k) {
@@ -318,17 +321,18 @@ protected:
             const std::vector<glm::vec3> points =
                 read_points(text(fmt::format("out/frame_{:05}.pfm", k)), {width, height});
             const glm::dquat to_prop = glm::conjugate(pose.rotation);
-            const Agreement seen =
+            const auto ray = [&](double x, double y) {
+                return to_prop * glm::dvec3((x + 0.5 - 0.5 * width) / focal_px,
+                                            (0.5 * height - y - 0.5) / focal_px, -1.0);
+            };
+            Agreement seen =
                 agreement(points, prop, in_prop.at(pose.t), to_prop * (pose.eye_m - pose.place_m),
-                          to_prop * (lens_m - pose.place_m),
-                          [&](double x, double y) {
-                              return to_prop * glm::dvec3((x + 0.5 - 0.5 * width) / focal_px,
-                                                          (0.5 * height - y - 0.5) / focal_px, -1.0);
-                          },
-                          {width, height});
-            EXPECT_GT(seen.hits, 500) << k;
+                          to_prop * (lens_m - pose.place_m), ray, {width, height});
+            ASSERT_GT(seen.hits, 500) << k;
             EXPECT_LE(seen.other, outline_px * 8.0 * std::sqrt(seen.hits)) << k;
-            EXPECT_LE(seen.worst_m, close_m) << k;
+            std::sort(seen.off_m.begin(), seen.off_m.end());
+            const auto last = static_cast<std::size_t>(share * static_cast<double>(seen.off_m.size() - 1));
+            EXPECT_LE(seen.off_m[last], close_m) << k;
         }
     }
 
@@ -338,15 +342,15 @@ protected:
 TEST_F(BehaviourPicture, ShowsTheMovedCellsWhereRaysSeeThem) {
     ASSERT_EQ(render("--technique finest --aov --behaviour open"), 0) << text("err.txt");
     EXPECT_EQ(text("err.txt"), "");
-    compare(1e-4, 0.1);
+    compare(1.0, 1e-4, 0.1);
 }
 
-/// A box's faces are exact in a relief but for its texels; the outline moves by up to half a texel.
+/// A relief's texel is about a pixel here, and where an edge hides another box, such a pixel shows what is behind it.
 TEST_F(BehaviourPicture, ShowsReliefsAndPolygonsWhereRaysSeeThem) {
     for (const char* technique : {"relief", "relief-gpu"}) {
         ASSERT_EQ(render(fmt::format("--technique {} --aov --behaviour open", technique)), 0)
             << text("err.txt");
-        compare(2e-3, 1.0);
+        compare(0.95, 1e-3, 1.0);
     }
 }
 
@@ -358,6 +362,23 @@ TEST_F(BehaviourPicture, IsTheWholeArtifactsWithoutTheOption) {
     ASSERT_EQ(render("--technique finest --aov"), 0) << text("err.txt");
     EXPECT_EQ(text("out/frame_00003.png"), picture);
     EXPECT_EQ(text("out/frame_00003.pfm"), points);
+}
+
+TEST_F(BehaviourPicture, RunsInTheExhibitWhenTheArtifactArrives) {
+    put("kiosk.toml", text("kiosk.toml") + "[tracker]\nkind = \"replay\"\nposes = \"walk.csv\"\n"
+                                           "[exhibit]\npacks = [\"chest.fspack\"]\n");
+    std::string walk = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+    for (int k = 0; k < 80; ++k) { // a visitor slides the prop
+        const double x_m = 0.03 * std::sin(0.2 * k);
+        walk += fmt::format("{0},1,{1},0,0.05,1,0,0,0,1\n{0},2,0.1,-0.4,0.6,1,0,0,0,1\n", 100000 * k, x_m);
+    }
+    put("walk.csv", walk);
+    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --seconds 8 --out run"), 0)
+        << text("err.txt");
+    const std::string frames = text("run/frames.csv");
+    const std::size_t first = frames.find(",cells,");
+    ASSERT_NE(first, std::string::npos) << frames.substr(frames.size() - 400);
+    EXPECT_NE(frames.substr(0, first).find(",level"), std::string::npos) << "first it is drawn whole";
 }
 
 TEST_F(BehaviourPicture, RefusesABehaviourThatThereIsNotInOneLine) {

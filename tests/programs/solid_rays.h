@@ -128,6 +128,7 @@ struct Agreement {
     int other = 0; ///< pixels that are hit in one alone
     /// Between two hits of a pixel; where a surface is grazed, at its best within a rasterizer's step.
     double worst_m = 0.0;
+    std::vector<double> off_m{}; ///< of each pixel that both hit
 };
 /// llvmpipe places corners in steps of 1/256 of a pixel.
 inline constexpr double raster_step_px = 1.0 / 256.0;
@@ -165,7 +166,8 @@ Agreement agreement(const std::vector<glm::vec3>& points, const std::vector<Half
             if (truth.has_value() == std::isnan(drawn.x)) {
                 ++seen.other;
             } else if (truth) {
-                seen.worst_m = std::fmax(seen.worst_m, off_m(x, y, *truth, glm::dvec3(drawn)));
+                seen.off_m.push_back(off_m(x, y, *truth, glm::dvec3(drawn)));
+                seen.worst_m = std::fmax(seen.worst_m, seen.off_m.back());
             }
         }
     }

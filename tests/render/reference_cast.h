@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace frustumscreen::synthetic {
@@ -48,21 +49,30 @@ public:
         return hit;
     }
 
-    /// The hit shown by `pixel`, in the prop frame.
-    [[nodiscard]] Hit through_pixel(const TestTable& table, const glm::dvec2& pixel) const {
+    /// The eye's ray that `pixel` serves: from the eye to the place on the prop that it lights, prop frame; nullopt if the
+    /// eye does not see that face.
+    struct Ray {
+        glm::dvec3 eye{0.0}, lit{0.0};
+    };
+    [[nodiscard]] static std::optional<Ray> ray_of(const TestTable& table, const glm::dvec2& pixel) {
         const geometry::RigidTransform prop_from_projector =
             table.table_from_prop.inverse() * table.table_from_projector;
         const glm::dvec3 ray = prop_from_projector.direction(table.projector.ray(pixel));
         geometry::PropHit lit;
         if (!geometry::intersect(table.prop, prop_from_projector.translation, ray, lit)) {
-            return {};
+            return std::nullopt;
         }
         const glm::dvec3 eye = table.table_from_prop.inverse().point(table.eye_m);
         if (!(table.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
-            return {};
+            return std::nullopt;
         }
-        const glm::dvec3 s = prop_from_projector.translation + lit.t * ray;
-        return first_hit(eye, s - eye);
+        return Ray{eye, prop_from_projector.translation + lit.t * ray};
+    }
+
+    /// The hit shown by `pixel`, in the prop frame.
+    [[nodiscard]] Hit through_pixel(const TestTable& table, const glm::dvec2& pixel) const {
+        const std::optional<Ray> ray = ray_of(table, pixel);
+        return ray ? first_hit(ray->eye, ray->lit - ray->eye) : Hit{};
     }
 
 private:

@@ -66,21 +66,18 @@ inline std::vector<pack::PackCluster> cluster(const std::vector<glm::vec3>& poin
     return clusters;
 }
 
-/// Three linked rings: concave, in several parts, occluding each other.
-inline pack::Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
-    Soup soup;
-    const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
-    const glm::dmat3 sideways(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
-    add_torus(soup, {0.0, 0.0, 0.12}, glm::dmat3(1.0), 0.38, 0.12, around, across);
-    add_torus(soup, {0.05, 0.0, 0.45}, upright, 0.27, 0.08, around, across);
-    add_torus(soup, {0.0, 0.05, 0.70}, sideways, 0.22, 0.06, around, across);
-
-    glm::dvec3 low(1e9);
-    glm::dvec3 high(-1e9);
+/// The box around a soup's points.
+inline geometry::Box box_around(const Soup& soup) {
+    geometry::Box box{glm::dvec3(1e9), glm::dvec3(-1e9)};
     for (const glm::dvec3& p : soup.points) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
     }
+    return box;
+}
+
+/// A pack with one level, and a texture that tells places apart.
+inline pack::Pack pack_of(const Soup& soup) {
+    const auto [low, high] = box_around(soup);
     const glm::dvec3 extent = high - low;
     const double longest = std::max(extent.x, std::max(extent.y, extent.z));
     pack::Pack pack;
@@ -110,6 +107,17 @@ inline pack::Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
     }
     pack.textures.push_back(texture);
     return pack;
+}
+
+/// Three linked rings: concave, in several parts, occluding each other.
+inline pack::Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
+    Soup soup;
+    const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
+    const glm::dmat3 sideways(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
+    add_torus(soup, {0.0, 0.0, 0.12}, glm::dmat3(1.0), 0.38, 0.12, around, across);
+    add_torus(soup, {0.05, 0.0, 0.45}, upright, 0.27, 0.08, around, across);
+    add_torus(soup, {0.0, 0.05, 0.70}, sideways, 0.22, 0.06, around, across);
+    return pack_of(soup);
 }
 
 /// The scale at which the box's corners stay inside the default prop.

@@ -11,22 +11,6 @@ namespace frustumscreen::programs {
 
 namespace {
 
-std::vector<bool> moved_by(const std::vector<pack::PackBehaviour>& behaviours, std::size_t nodes) {
-    std::vector<bool> moves(nodes, false);
-    for (const pack::PackBehaviour& each : behaviours) {
-        for (const world::Channel& channel : each.behaviour.channels) {
-            moves[channel.cell] = moves[channel.cell] || channel.path != world::Path::Light;
-        }
-        for (const world::Spring& spring : each.behaviour.springs) {
-            moves[spring.cell] = true;
-        }
-        for (const world::Pendulum& pendulum : each.behaviour.pendulums) {
-            moves[pendulum.cell] = true;
-        }
-    }
-    return moves;
-}
-
 /// Keeps what moves a cell, with the cell's index in place of the node's.
 template <typename Motion>
 void keep_with_cell(std::vector<Motion>& motions, const std::vector<std::optional<std::size_t>>& cell_of) {
@@ -57,7 +41,7 @@ Result<pack::PackWorld> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh
                                   const bake::BakeOptions& options, std::vector<bake::SourceNote>& notes) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {up, options.turn_deg, options.lift}));
-    bake::WorldCells cells = bake::bake_cells(mesh, frame, moved_by(behaviours, mesh.nodes.size()), options);
+    bake::WorldCells cells = bake::bake_cells(mesh, frame, options);
     notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
     for (std::size_t k = 0; k < cells.cells.size(); ++k) {
         pack::PackProvenance provenance = pack.provenance;
