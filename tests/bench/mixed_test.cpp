@@ -94,7 +94,7 @@ pack::Pack small_pack(bake::SourceMesh& mesh) {
     pack.provenance.source_name = "three pieces";
     pack.provenance.source_triangles = mesh.triangles.size();
     const bake::BoxFrame frame = bake::make_box_frame(mesh, {"y", 0.0, 0.0}).value();
-    bake::WorldCells cells = bake::bake_cells(mesh, frame, std::vector<bool>(3, true), options);
+    bake::WorldCells cells = bake::bake_cells(mesh, frame, options);
     for (pack::Pack& geometry : cells.geometry) {
         geometry.provenance = pack.provenance;
     }

@@ -51,8 +51,7 @@ Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::Sour
     options.progress = [&](std::string_view, double done) {
         progress.show("the game board's pack", 0.3 + 0.7 * done);
     };
-    bake::WorldCells cells =
-        bake::bake_cells(mesh, frame, std::vector<bool>(mesh.nodes.size(), true), options);
+    bake::WorldCells cells = bake::bake_cells(mesh, frame, options);
     for (std::size_t k = 0; k < cells.cells.size(); ++k) {
         cells.geometry[k].provenance = pack.provenance;
         cells.geometry[k].provenance.source_triangles = cells.cells[k].triangles;
