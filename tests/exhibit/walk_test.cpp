@@ -53,10 +53,28 @@ ExhibitPlace walked_place() {
     return place;
 }
 
+/// The first has a behaviour for each trigger, the third two for the button.
+std::vector<TriggeredBehaviour> behaviours_of(std::size_t artifact) {
+    using enum world::Trigger;
+    const std::vector<glm::dvec2> titles(languages.size(), {0.08, 0.01});
+    std::vector<TriggeredBehaviour> behaviours;
+    for (const world::Trigger trigger : {Button, Dwell, Hotspot, Narration, Arrival}) {
+        if (artifact == 0) {
+            behaviours.push_back({.trigger = trigger, .lasts = true, .title_sizes_m = titles});
+        } else if (artifact == 2 && behaviours.size() < 2) {
+            behaviours.push_back({.trigger = Button, .title_sizes_m = titles});
+        }
+    }
+    return behaviours;
+}
+
 /// The first has a description and hotspots, the second a description, the third hotspots, the last nothing to tell.
 Catalogue walked_catalogue() {
     CatalogueEntry entry{languages, {languages.size(), {{0.14, 0.04}}}};
     Catalogue catalogue(artifacts, entry);
+    for (std::size_t k = 0; k < artifacts; ++k) {
+        catalogue[k].behaviours = behaviours_of(k);
+    }
     const std::vector<std::vector<glm::dvec2>> portions{{{0.14, 0.03}}, {{0.12, 0.04}}, {{0.13, 0.02}}};
     for (std::size_t k = 0; k < 3; ++k) {
         Tellable tellable;
@@ -138,7 +156,7 @@ public:
         const double dice = random_.between(0.0, 1.0);
         if (dice < 0.02) {
             commands_.push_back(
-                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 4.999))));
+                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 5.999))));
         } else if (dice < 0.022) {
             commands_.push_back(settings::Command::StaffMode);
         } else if (dice < 0.03) {
@@ -179,6 +197,9 @@ public:
     long described = 0;
     long pointed_out = 0;
     long chosen = 0;
+    long toggled = 0;
+    long begun_or_ended = 0;
+    long titled = 0;
 
 private:
     Nanoseconds time_to_pass() {
@@ -260,7 +281,24 @@ private:
         check_description(watched);
         check_packs(watched);
         check_sound(watched);
+        check_behaviours();
         check_picture(watched);
+    }
+
+    /// Behaviours are those of an artifact on show, and a press is the only thing that toggles one.
+    void check_behaviours() {
+        const std::vector<TriggeredBehaviour>& of_artifact = behaviours_.at(shown_.artifact);
+        for (const BehaviourEvent& event : shown_.behaviours.events()) {
+            ASSERT_LT(event.behaviour, of_artifact.size());
+            EXPECT_TRUE(note_of(shown_.state).artifact) << name_of(shown_.state);
+            const bool toggles = event.kind == BehaviourEvent::Kind::Toggle;
+            EXPECT_EQ(toggles, of_artifact[event.behaviour].trigger == world::Trigger::Button);
+            EXPECT_TRUE(!toggles ||
+                        std::count(commands_.begin(), commands_.end(), settings::Command::Behaviour) == 1);
+            ++(toggles ? toggled : begun_or_ended);
+        }
+        EXPECT_TRUE(!shown_.title || a_share(shown_.title->brightness));
+        titled += shown_.title ? 1 : 0;
     }
 
     /// Spoken sentences are visible as words; when the words go, the speech ends.
@@ -315,8 +353,12 @@ private:
         EXPECT_TRUE(!fault || offered() == 0);
         EXPECT_TRUE(!fault || !shown_.tells);
         note_since(fault_since_, fault && !moved_, watched);
+        // In another language they fade out and in again, dark for a moment between.
+        const bool said = shown_.advice && keys[shown_.advice->word.text] == "fault.no_artifact";
+        note_since(unsaid_since_, fault && !said && !moved_, watched);
+        EXPECT_TRUE(!unsaid_since_ || now_ - *unsaid_since_ < milliseconds(500))
+            << "a fault without its words";
         if (fault_since_ && now_ - *fault_since_ > seconds(2)) {
-            EXPECT_TRUE(shown_.advice && keys[shown_.advice->word.text] == "fault.no_artifact");
             EXPECT_LT(shown_.brightness, 0.05);
             EXPECT_FALSE(shown_.caption);
             EXPECT_FALSE(shown_.hotspot);
@@ -350,6 +392,8 @@ private:
 
     ExhibitPlace walked_ = walked_place();
     Exhibit exhibit_ = walked_exhibit();
+    std::array<std::vector<TriggeredBehaviour>, artifacts> behaviours_{behaviours_of(0), behaviours_of(1),
+                                                                       behaviours_of(2), behaviours_of(3)};
     bench::Seeded random_;
     tracking::TrackedState tracked_state_;
     MonotonicTime now_ = sample::start;
@@ -361,7 +405,7 @@ private:
     bool moved_ = false;
     std::array<ArtifactState, artifacts> packs_{};
     Narrator narrator_;
-    Since dark_since_, mute_since_, left_out_since_, fault_since_, unread_since_, told_since_,
+    Since dark_since_, mute_since_, left_out_since_, fault_since_, unsaid_since_, unread_since_, told_since_,
         elsewhere_since_;
 };
 
@@ -384,6 +428,35 @@ TEST(Walk, EventsFindNothingThatMustNotBe) {
     EXPECT_GT(walk.chosen, 100);
     EXPECT_GT(walk.described, 100);
     EXPECT_GT(walk.pointed_out, 100);
+    EXPECT_GT(walk.toggled, 100);
+    EXPECT_GT(walk.begun_or_ended, 100);
+    EXPECT_GT(walk.titled, 100);
+}
+
+/// Frames that fall anywhere in the fades find the words, or one frame between the two languages does not.
+TEST(Walk, AFaultsWordsAreDarkForAMomentWhileTheirLanguageChanges) {
+    Exhibit exhibit = walked_exhibit();
+    exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Unusable, ArtifactState::Unusable,
+                            ArtifactState::Unusable});
+    MonotonicTime now = sample::start;
+    int dark = 0;
+    std::size_t language = 0;
+    for (int k = 0; k < 300; ++k) {
+        now += milliseconds(17);
+        std::vector<settings::Command> commands;
+        if (k == 150) {
+            commands.push_back(settings::Command::NextLanguage);
+        }
+        const Presentation shown = exhibit.step(now, commands, sample::tracked_state(now));
+        if (k < 50) {
+            continue; // the words come
+        }
+        ASSERT_EQ(shown.state, State::Fault);
+        dark += shown.advice ? 0 : 1;
+        language = shown.advice ? shown.advice->word.language : language;
+    }
+    EXPECT_EQ(dark, 1);
+    EXPECT_EQ(language, 1U);
 }
 
 } // namespace
