@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -147,8 +146,6 @@ TEST(CellsLight, AtRestIsThatOfTheWholeWhereverSomebodySeesIt) {
     EXPECT_LT(std::sqrt(squares / compared), 2.0) << "codes";
     EXPECT_LT(far_off, compared / 200);
     EXPECT_LT(darkest, 120) << "the lid's shadow is looked at";
-    std::printf("compared %d apart %d rmse %.3f far %d darkest %d\n", compared, apart,
-                std::sqrt(squares / compared), far_off, darkest);
 }
 
 /// Colours along the chest's floor and on the rim, from above, in the pack of the chest alone.
@@ -189,7 +186,6 @@ TEST(CellsLight, WhatTheWholeHidesAtRestHasTheLightOfItsPartAlone) {
     }
     ASSERT_GT(compared, 6000);
     EXPECT_LT(std::sqrt(squares / compared), 2.0);
-    std::printf("inside %d rmse %.3f\n", compared, std::sqrt(squares / compared));
 }
 
 } // namespace
