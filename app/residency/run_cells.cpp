@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace frustumscreen::residency {
@@ -40,6 +41,18 @@ std::uint64_t curve_bytes(const std::vector<world::Behaviour>& behaviours) {
     return bytes;
 }
 
+/// True if the plan counts this way of drawing as good enough.
+bool is_enough(const scene::ScenePlan& plan, const PreparedLevel& level) {
+    const scene::QualityLevel shown{.level = level.use.level,
+                                    .samples = 1,
+                                    .enough = false,
+                                    .relief = level.data.relief != nullptr,
+                                    .on_gpu = level.data.on_gpu};
+    return std::any_of(
+        plan.quality_levels.begin(), plan.quality_levels.end(),
+        [&](const scene::QualityLevel& each) { return each.enough && each.shows_as(shown); });
+}
+
 std::size_t indices_of(const PreparedLevel& level) {
     return level.triangles ? level.triangles->indices.size() : 0;
 }
@@ -50,6 +63,7 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
+      drawn_at_rest_(known.world.drawn_at_rest),
       player_(cells_of(world), behaviours_of(world)), choice_(cells.options), offered_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show
     for (const PreparedLevel& level : whole_levels) {
@@ -77,7 +91,8 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                  .worst_mm =
                      1e3 * plan.metres_per_box * static_cast<double>(scene::worst_of(level.seen).mean_box),
                  .triangles = static_cast<double>(level.data.relief ? level.data.relief->blocks.size()
-                                                                    : indices_of(level) / 6)});
+                                                                    : indices_of(level) / 6),
+                 .is_enough = is_enough(plan, level)});
             largest.front() = std::max(largest.front(), indices_of(level));
             std::sort(largest.begin(), largest.end());
         }
@@ -135,7 +150,7 @@ bool RunCells::fades() const {
 
 bool RunCells::step(MonotonicTime now, double load) {
     poses_ = player_.step(now);
-    if (player_.moves()) {
+    if (player_.moves() || drawn_at_rest_) {
         if (!shows_) {
             is_new_ = true;
             log_load_ = load > 0.0 && std::isfinite(load) ? std::log(load) : 0.0;
@@ -166,6 +181,24 @@ scene::CellOption RunCells::option_of(const Option& option, double pixels, doubl
             .cost_us = 1e3 * ms};
 }
 
+void RunCells::offer_enough(std::size_t begin, std::size_t end) {
+    constexpr double as_quick = 1.1; // so that times that are almost equal do not change places at every pose
+    std::size_t best = end;
+    for (std::size_t option = begin; option < end; ++option) {
+        const bool is_first = best == end || offered_[option].cost_us < offered_[best].cost_us;
+        best = options_[option].is_enough && is_first ? option : best;
+    }
+    for (std::size_t option = begin; best < end && option < end; ++option) {
+        const scene::CellOption& offer = offered_[option];
+        const double best_us = offered_[best].cost_us;
+        const bool saves_time = offer.cost_us < best_us && offer.error_mm > offered_[best].error_mm;
+        const bool is_as_quick = options_[option].is_enough && offer.cost_us <= as_quick * best_us;
+        if (!saves_time && !is_as_quick) {
+            offered_[option].cost_us = std::numeric_limits<double>::infinity();
+        }
+    }
+}
+
 void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& view) {
     double all_pixels = 0.0;
     for (Cell& cell : cells_) {
@@ -181,6 +214,9 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
         for (std::size_t option = cells_[k].first; option < end; ++option) {
             offered_[option] = option_of(options_[option], cells_[k].pixels, all_pixels, samples);
+        }
+        if (drawn_at_rest_) {
+            offer_enough(cells_[k].first, end);
         }
     }
     const double budget_ms = scene::Governor::leave_share * deadline_ms_ / load() - fixed_ms_;
