@@ -188,9 +188,8 @@ const PackSection* find_section(const PackDescription& pack, std::string_view na
 Result<PackWorld> read_world_sections(const PackDescription& pack) {
     std::vector<CellRecord> records;
     PackWorld world;
-    TRY_VOID(read_section(cells_section, pack, [&](JsonReader& fields) {
-        cells_fields(fields, records, world.drawn_at_rest);
-    }));
+    TRY_VOID(read_section(cells_section, pack,
+                          [&](JsonReader& fields) { cells_fields(fields, records, world.drawn_at_rest); }));
     std::transform(records.begin(), records.end(), std::back_inserter(world.cells), cell_of);
     TRY_VOID(read_section(behaviours_section, pack,
                           [&](JsonReader& fields) { behaviours_fields(fields, world.behaviours); }));

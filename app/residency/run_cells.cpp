@@ -48,9 +48,8 @@ bool is_enough(const scene::ScenePlan& plan, const PreparedLevel& level) {
                                     .enough = false,
                                     .relief = level.data.relief != nullptr,
                                     .on_gpu = level.data.on_gpu};
-    return std::any_of(
-        plan.quality_levels.begin(), plan.quality_levels.end(),
-        [&](const scene::QualityLevel& each) { return each.enough && each.shows_as(shown); });
+    return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
+                       [&](const scene::QualityLevel& each) { return each.enough && each.shows_as(shown); });
 }
 
 std::size_t indices_of(const PreparedLevel& level) {
@@ -63,8 +62,8 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
-      drawn_at_rest_(known.world.drawn_at_rest),
-      player_(cells_of(world), behaviours_of(world)), choice_(cells.options), offered_(cells.levels.size()) {
+      drawn_at_rest_(known.world.drawn_at_rest), player_(cells_of(world), behaviours_of(world)),
+      choice_(cells.options), offered_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show
     for (const PreparedLevel& level : whole_levels) {
         indices = std::max(indices, indices_of(level));

@@ -47,7 +47,7 @@ struct OfflineCell {
 };
 struct OfflineWorld {
     std::vector<world::Cell> cells;
-    world::Behaviour behaviour; ///< moves nothing: the cells are drawn at rest
+    world::Behaviour behaviour;     ///< moves nothing: the cells are drawn at rest
     std::vector<OfflineCell> drawn; ///< the cells with geometry
 };
 struct OfflineScene {

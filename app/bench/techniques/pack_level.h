@@ -7,8 +7,10 @@
 #include "app/bench/techniques/technique.h"
 #include "app/pack/pack_file.h"
 #include "app/render/renderer.h"
+#include "app/scene/light.h"
 
 #include <memory>
+#include <optional>
 
 namespace frustumscreen::bench {
 
@@ -25,6 +27,14 @@ struct PictureOptions {
     /// otherwise every picture is drawn whole.
     bool only_changes = false;
 };
+
+/// The exhibit's corrections of the colours; as made, none.
+struct PictureLight {
+    std::optional<scene::LightCompensation> compensation;
+    double exposure = 1.0;
+};
+/// As visitors see the artifact.
+[[nodiscard]] Result<PictureLight> shown_light(const Kiosk& kiosk, const pack::Pack& pack);
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,
                                                                  std::uint32_t level,

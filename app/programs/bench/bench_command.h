@@ -136,6 +136,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand setup_command(CommandLine& app);
 /// The cost of two eyes' pictures over that of one.
 [[nodiscard]] BenchCommand stereo_command(CommandLine& app);
+/// A pack's cells at rest against the whole.
+[[nodiscard]] BenchCommand cells_command(CommandLine& app);
 /// The benefit of advice for visitors.
 [[nodiscard]] BenchCommand guidance_command(CommandLine& app);
 /// The benefit of the recovery ladder over years of faults.
