@@ -61,7 +61,7 @@ Result<std::vector<DrawnCell>> read_cells(const Kiosk& kiosk, const std::filesys
 
 class PackCellsTechnique final : public Technique {
 public:
-    PackCellsTechnique(const Kiosk& kiosk, PictureLight light, std::vector<scene::Part> parts,
+    PackCellsTechnique(const Kiosk& kiosk, std::optional<PictureLight> light, std::vector<scene::Part> parts,
                        std::string name, render::Renderer renderer, render::HitPointRenderer hit_points)
         : kiosk_(kiosk), light_(std::move(light)), parts_(std::move(parts)), name_(std::move(name)),
           renderer_(std::move(renderer)), hit_points_(std::move(hit_points)) {
@@ -85,17 +85,21 @@ public:
 private:
     void plan(const BenchPose& pose) {
         const settings::ProjectorSettings& projector = kiosk_.settings.projector;
-        const scene::PlanView view{.projector = projector.pinhole,
-                                   .table_from_projector = projector.table_from_projector,
-                                   .table_from_prop = pose.table_from_prop,
-                                   .eyes_m = {&pose.eye_m, 1},
-                                   .light = light_.compensation,
-                                   .brightness = light_.exposure};
+        scene::PlanView view{.projector = projector.pinhole,
+                             .table_from_projector = projector.table_from_projector,
+                             .table_from_prop = pose.table_from_prop,
+                             .eyes_m = {&pose.eye_m, 1},
+                             .light = {},
+                             .brightness = 1.0};
+        if (light_) {
+            view.light = light_->compensation;
+            view.brightness = light_->exposure;
+        }
         scene::plan_frame(kiosk_.prop, parts_, view, plans_.front());
     }
 
     const Kiosk& kiosk_;
-    PictureLight light_;
+    std::optional<PictureLight> light_;
     std::vector<scene::Part> parts_;
     std::string name_;
     render::Renderer renderer_;
@@ -123,8 +127,7 @@ scene::RenderNeeds needs_of(const std::vector<DrawnCell>& cells, int samples) {
 
 Result<scene::PlacedLevel> upload(const DrawnCell& cell, render::GpuStore& store) {
     if (cell.relief) {
-        TRY(const scene::Drawable drawable, store.keep(cell.relief));
-        return scene::placed(*cell.pack, cell.relief, cell.metres_per_box, drawable);
+        return scene::placed(*cell.pack, cell.relief, cell.metres_per_box, store.keep(cell.relief));
     }
     const scene::SceneLevel level = scene::whole_level(*cell.pack, cell.way.way.level);
     TRY(const scene::Drawable drawable, store.upload(level, cell.pack->textures[level.mesh.texture]));
@@ -150,7 +153,7 @@ Result<PackCells> make_pack_cells(const Kiosk& kiosk, const std::filesystem::pat
     const double metres_per_box = pack::place(whole, kiosk.prop).metres_per_box;
     TRY(const std::vector<DrawnCell> cells, read_cells(kiosk, file, world, poses, metres_per_box));
     const int samples = options.samples > 0 ? options.samples : whole.samples;
-    PictureLight light;
+    std::optional<PictureLight> light;
     if (options.lit || options.timed_lit) {
         TRY(light, shown_light(kiosk, whole));
     }

@@ -24,7 +24,9 @@ struct Parts {
     render::HitPointRenderer hit_points;
 };
 
-struct Light : PictureLight {
+struct Light {
+    std::optional<scene::LightCompensation> compensation;
+    double exposure = 1.0;
     bool feathered = true;
 };
 struct Lights {
@@ -32,8 +34,8 @@ struct Lights {
 };
 
 Result<Lights> lights_of(const Kiosk& kiosk, const PictureOptions& options, const pack::Pack& pack) {
-    TRY(PictureLight light, shown_light(kiosk, pack));
-    const Light shown{std::move(light), options.feathered};
+    TRY(const PictureLight light, shown_light(kiosk, pack));
+    const Light shown{light.compensation, light.exposure, options.feathered};
     return Lights{.measured = options.lit ? shown : Light{},
                   .timed = options.lit || options.timed_lit ? shown : Light{},
                   .shown = shown};

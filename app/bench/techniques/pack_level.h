@@ -10,7 +10,6 @@
 #include "app/scene/light.h"
 
 #include <memory>
-#include <optional>
 
 namespace frustumscreen::bench {
 
@@ -28,9 +27,9 @@ struct PictureOptions {
     bool only_changes = false;
 };
 
-/// The exhibit's corrections of the colours; as made, none.
+/// The exhibit's corrections of the colours.
 struct PictureLight {
-    std::optional<scene::LightCompensation> compensation;
+    scene::LightCompensation compensation;
     double exposure = 1.0;
 };
 /// As visitors see the artifact.
