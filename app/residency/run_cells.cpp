@@ -97,6 +97,18 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
         }
         indices += largest[0] + largest[1];
     }
+    in_reliefs_ =
+        drawn_at_rest_ && std::all_of(cells_.begin(), cells_.end(), [&](const Cell& cell) {
+            const std::size_t end =
+                cell.first + cells.options[static_cast<std::size_t>(&cell - cells_.data())];
+            return std::any_of(options_.begin() + static_cast<std::ptrdiff_t>(cell.first),
+                               options_.begin() + static_cast<std::ptrdiff_t>(end), [](const Option& option) {
+                                   return option.is_enough && option.placed.relief != nullptr;
+                               });
+        });
+    for (Option& option : options_) {
+        option.is_enough = option.is_enough && (!in_reliefs_ || option.placed.relief != nullptr);
+    }
     parts_.reserve(2 * cells_.size() + 1);
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
         plans_.push_back(scene::make_plan(whole.prop, indices, 2 * cells_.size() + 1));

@@ -109,6 +109,8 @@ private:
     double metres_per_box_; ///< of the whole artifact
     double deadline_ms_;
     bool drawn_at_rest_;
+    bool in_reliefs_ =
+        false; ///< every cell has a relief within the tolerance: at rest meshes do not mix with them
     world::Player player_;
     std::span<const world::CellPose> poses_; ///< of the latest step
     std::vector<LevelUse> uses_;

@@ -3,44 +3,67 @@
 #include "app/pack/pack_relief.h"
 #include "app/scene/error_estimate.h"
 
-#include <algorithm>
-#include <vector>
+#include <utility>
 
 namespace frustumscreen::scene {
 
-Result<PartWay> quickest_way(const pack::PackOutline& part, double mm_per_box, double tolerance_mm,
-                             const PartCosts& costs) {
+namespace {
+
+enum class Kinds { Meshes, Reliefs, Both };
+
+std::optional<PartFrame> frame_of(std::span<const PartWays> parts, Kinds kinds, const PartCosts& costs) {
+    PartFrame frame{.cost = kinds == Kinds::Reliefs  ? costs.relief_picture
+                            : kinds == Kinds::Meshes ? costs.mesh_picture
+                                                     : costs.mesh_picture + costs.relief_picture,
+                    .ways = {}};
+    for (const PartWays& part : parts) {
+        if (kinds == Kinds::Reliefs && !part.relief) {
+            return std::nullopt;
+        }
+        const bool relief = kinds == Kinds::Reliefs ||
+                            (kinds == Kinds::Both && part.relief && part.relief->cost < part.mesh.cost);
+        const PartWay& way = relief ? *part.relief : part.mesh;
+        frame.cost += way.cost + (frame.ways.empty() ? 0.0 : costs.per_part);
+        frame.ways.push_back(way);
+    }
+    return frame;
+}
+
+} // namespace
+
+Result<PartWays> good_ways(const pack::PackOutline& part, double mm_per_box, double tolerance_mm,
+                           const PartCosts& costs) {
     TRY(const SeenByEyes seen, seen_by_eyes(part));
     TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(part.description));
-    PartWay best;
-    const auto offer = [&](const PartWay& way) {
-        const bool is_better = way.way.enough && (!best.way.enough || way.cost < best.cost);
-        best = is_better ? way : best;
-    };
+    PartWays ways;
     for (std::size_t level = 0; level < part.levels.size(); ++level) {
         const pack::LevelOutline& outline = part.levels[level];
         const bool enough =
             within_tolerance(outline.error, worst_of(seen.levels[level]), mm_per_box, tolerance_mm);
-        const PartWay way{{.level = static_cast<std::uint32_t>(level), .enough = enough},
-                          costs.per_triangle * static_cast<double>(outline.triangles)};
-        best = level + 1 == part.levels.size() && !best.way.enough ? way : best;
-        offer(way);
+        const double cost = costs.per_triangle * static_cast<double>(outline.triangles);
+        if (!ways.mesh.way.enough || (enough && cost < ways.mesh.cost)) {
+            ways.mesh = {{.level = static_cast<std::uint32_t>(level), .enough = enough}, cost};
+        }
     }
     for (std::size_t k = 0; k < reliefs.size(); ++k) {
-        const bool enough =
-            within_tolerance(reliefs[k].error, worst_of(seen.reliefs[k]), mm_per_box, tolerance_mm);
-        offer({{.level = reliefs[k].texels, .enough = enough, .relief = true},
-               costs.per_block * static_cast<double>(reliefs[k].blocks)});
+        const double cost = costs.per_block * static_cast<double>(reliefs[k].blocks);
+        if (within_tolerance(reliefs[k].error, worst_of(seen.reliefs[k]), mm_per_box, tolerance_mm) &&
+            (!ways.relief || cost < ways.relief->cost)) {
+            ways.relief = PartWay{{.level = reliefs[k].texels, .enough = true, .relief = true}, cost};
+        }
     }
-    return best;
+    return ways;
 }
 
-double frame_cost(std::span<const PartWay> parts, const PartCosts& costs) {
-    double sum = costs.picture;
-    for (const PartWay& part : parts) {
-        sum += part.cost;
+PartFrame quickest_frame(std::span<const PartWays> parts, const PartCosts& costs) {
+    PartFrame best = frame_of(parts, Kinds::Meshes, costs).value();
+    for (const Kinds kinds : {Kinds::Reliefs, Kinds::Both}) {
+        if (std::optional<PartFrame> frame = frame_of(parts, kinds, costs);
+            frame && frame->cost < best.cost) {
+            best = *std::move(frame);
+        }
     }
-    return sum + costs.per_part * static_cast<double>(std::max<std::size_t>(parts.size(), 1) - 1);
+    return best;
 }
 
 bool cells_pay(double whole, double in_cells) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <utility>
@@ -28,6 +29,15 @@ struct DrawnCell {
     std::shared_ptr<const relief::BlockRelief> relief; ///< null: a level
 };
 
+Result<std::shared_ptr<const relief::BlockRelief>> relief_of(const pack::Pack& pack, std::uint32_t texels) {
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(pack));
+    const auto found =
+        std::find_if(reliefs.begin(), reliefs.end(),
+                     [texels](const pack::ReliefOutline& each) { return each.texels == texels; });
+    TRY(relief::BlockRelief read, pack::relief_of(pack, *found));
+    return std::make_shared<const relief::BlockRelief>(std::move(read));
+}
+
 Result<std::vector<DrawnCell>> read_cells(const Kiosk& kiosk, const std::filesystem::path& file,
                                           const pack::PackWorld& world,
                                           std::span<const world::CellPose> poses, double metres_per_box) {
@@ -36,25 +46,22 @@ Result<std::vector<DrawnCell>> read_cells(const Kiosk& kiosk, const std::filesys
         1e3 * kiosk.settings.render.error_tolerance_px *
         scene::pixel_on_prop_m(kiosk.prop, projector.pinhole, projector.table_from_projector.inverse());
     std::vector<DrawnCell> drawn;
+    std::vector<scene::PartWays> ways;
     for (std::size_t k = 0; k < world.cells.size(); ++k) {
-        if (!world.cells[k].cell.has_geometry) {
-            continue;
+        if (world.cells[k].cell.has_geometry) {
+            TRY(pack::VerifiedPack pack, pack::load_cell(file, world.cells[k]));
+            const double own = scene::metres_per_box_of(poses[k], metres_per_box);
+            TRY(scene::PartWays way, scene::good_ways(pack::outline_of(*pack), 1e3 * own, tolerance_mm));
+            ways.push_back(std::move(way));
+            drawn.push_back({k, std::move(pack), own, {}, nullptr});
         }
-        TRY(pack::VerifiedPack pack, pack::load_cell(file, world.cells[k]));
-        const double own = scene::metres_per_box_of(poses[k], metres_per_box);
-        const pack::PackOutline outline = pack::outline_of(*pack);
-        TRY(const scene::PartWay way, scene::quickest_way(outline, 1e3 * own, tolerance_mm));
-        std::shared_ptr<const relief::BlockRelief> relief;
-        if (way.way.relief) {
-            TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(*pack));
-            for (const pack::ReliefOutline& each : reliefs) {
-                if (each.texels == way.way.level) {
-                    TRY(relief::BlockRelief read, pack::relief_of(*pack, each));
-                    relief = std::make_shared<const relief::BlockRelief>(std::move(read));
-                }
-            }
+    }
+    const scene::PartFrame frame = scene::quickest_frame(ways);
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+        drawn[k].way = frame.ways[k];
+        if (drawn[k].way.way.relief) {
+            TRY(drawn[k].relief, relief_of(*drawn[k].pack, drawn[k].way.way.level));
         }
-        drawn.push_back({k, std::move(pack), own, way, std::move(relief)});
     }
     return drawn;
 }

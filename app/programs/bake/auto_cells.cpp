@@ -31,17 +31,21 @@ double length_of(const pack::PackCell& cell) {
     return std::max({size.x, size.y, size.z});
 }
 
-Result<std::vector<scene::PartWay>> ways_of(const bake::WorldCells& cells, double mm_per_box) {
-    std::vector<scene::PartWay> ways;
+Result<scene::PartFrame> frame_in(const bake::WorldCells& cells, double mm_per_box) {
+    std::vector<scene::PartWays> parts;
     for (std::size_t k = 0; k < cells.cells.size(); ++k) {
-        if (cells.cells[k].cell.has_geometry) {
-            TRY(const scene::PartWay way,
-                scene::quickest_way(pack::outline_of(cells.geometry[k]),
-                                    mm_per_box * length_of(cells.cells[k]), scene::near_tolerance_mm));
-            ways.push_back(way);
-        }
+        TRY(scene::PartWays ways,
+            scene::good_ways(pack::outline_of(cells.geometry[k]), mm_per_box * length_of(cells.cells[k]),
+                             scene::near_tolerance_mm));
+        parts.push_back(std::move(ways));
     }
-    return ways;
+    return scene::quickest_frame(parts);
+}
+
+/// False: a cell errs more than the whole may.
+bool all_enough(const scene::PartFrame& frame) {
+    return std::all_of(frame.ways.begin(), frame.ways.end(),
+                       [](const scene::PartWay& way) { return way.way.enough; });
 }
 
 /// Cells without geometry move nothing at rest.
@@ -61,32 +65,33 @@ Result<AutoCells> put_auto_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     const double mm_per_box = mm_per_box_of(pack, options.prop);
-    TRY(const scene::PartWay whole_way,
-        scene::quickest_way(pack::outline_of(pack), mm_per_box, scene::near_tolerance_mm));
-    const double whole = scene::frame_cost({&whole_way, 1});
+    TRY(const scene::PartWays whole_ways,
+        scene::good_ways(pack::outline_of(pack), mm_per_box, scene::near_tolerance_mm));
+    const scene::PartFrame whole = scene::quickest_frame({&whole_ways, 1});
     const scene::PartCosts& costs = scene::usual_part_costs;
-    if (!scene::cells_pay(whole, costs.picture + costs.per_part)) {
-        return AutoCells{{},
-                         fmt::format("one cell: {:.1f} floors whole, at least {:.1f} in cells", whole,
-                                     costs.picture + costs.per_part)};
+    const double least = std::min(costs.mesh_picture, costs.relief_picture) + costs.per_part;
+    if (!scene::cells_pay(whole.cost, least)) {
+        return AutoCells{
+            {}, fmt::format("one cell: {:.1f} floors whole, at least {:.1f} in cells", whole.cost, least)};
     }
     // A part saves at most its share of the whole's time.
-    const bake::SurfaceParts parts = bake::find_parts(mesh, costs.per_part / whole_way.cost, max_parts);
+    const bake::SurfaceParts parts =
+        bake::find_parts(mesh, costs.per_part / (whole.cost - costs.relief_picture), max_parts);
     if (parts.count < 2) {
         return AutoCells{
             {},
             fmt::format("one cell: {:.1f} floors whole, and no part of it could save more than its own cost",
-                        whole)};
+                        whole.cost)};
     }
     const bake::SourceMesh in_parts = bake::with_parts(mesh, parts, frame, options.prop.zone);
     bake::WorldCells cells = bake::bake_cells(in_parts, frame, options, bake::CellSides::SeenAtRest);
     drop_empty(cells);
-    TRY(const std::vector<scene::PartWay> ways, ways_of(cells, mm_per_box));
-    const double in_cells = scene::frame_cost(ways);
-    if (ways.size() < 2 || !scene::cells_pay(whole, in_cells)) {
-        return AutoCells{
-            {},
-            fmt::format("one cell: {:.1f} floors whole, {:.1f} in {} cells", whole, in_cells, ways.size())};
+    TRY(const scene::PartFrame in_cells, frame_in(cells, mm_per_box));
+    if (cells.cells.size() < 2 || !all_enough(in_cells) || !scene::cells_pay(whole.cost, in_cells.cost)) {
+        return AutoCells{{},
+                         fmt::format("one cell: {:.1f} floors whole, {:.1f} in {} cells{}", whole.cost,
+                                     in_cells.cost, cells.cells.size(),
+                                     all_enough(in_cells) ? "" : ", of which some would err more")};
     }
     for (std::size_t k = 0; k < cells.cells.size(); ++k) {
         cells.geometry[k].provenance = pack.provenance;
@@ -94,8 +99,8 @@ Result<AutoCells> put_auto_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
     }
     pack::PackWorld world{.cells = std::move(cells.cells), .behaviours = {}, .drawn_at_rest = true};
     TRY_VOID(pack::put_world(pack, world, cells.geometry));
-    return AutoCells{std::move(world),
-                     fmt::format("{} cells: {:.1f} floors, {:.1f} whole", ways.size(), in_cells, whole)};
+    return AutoCells{std::move(world), fmt::format("{} cells: {:.1f} floors, {:.1f} whole",
+                                                   in_cells.ways.size(), in_cells.cost, whole.cost)};
 }
 
 } // namespace frustumscreen::programs
