@@ -138,7 +138,7 @@ public:
         const double dice = random_.between(0.0, 1.0);
         if (dice < 0.02) {
             commands_.push_back(
-                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 5.999))));
+                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 4.999))));
         } else if (dice < 0.022) {
             commands_.push_back(settings::Command::StaffMode);
         } else if (dice < 0.03) {

@@ -113,11 +113,14 @@ TEST_F(Behaviours, AreDrawnAtEqualStepsOfTheirTime) {
 }
 
 TEST_F(Behaviours, AreOnThePageOfABake) {
-    ASSERT_EQ(run("frustumscreen-bake box -o box.fspack --preview box.html"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-bake box -o box.fspack --preview box.html --while-watched"), 0)
+        << text("err.txt");
     const std::string page = text("box.html");
     EXPECT_NE(page.find("<b>jump</b>, 2.0 s, begins by the button for it"), std::string::npos);
     EXPECT_EQ(count("box.html", "class=\"behaviour\""), 1U);
-    ASSERT_EQ(run("frustumscreen-bake box -o box.fspack --force --cells none --preview box.html"), 0)
+    ASSERT_EQ(
+        run("frustumscreen-bake box -o box.fspack --force --cells none --preview box.html --while-watched"),
+        0)
         << text("err.txt");
     EXPECT_EQ(count("box.html", "class=\"behaviour\""), 0U);
     EXPECT_EQ(text("box.html").find("What moves"), std::string::npos);

@@ -64,7 +64,7 @@ protected:
         request.light = false;
         request.cull_kinds = scene::AllCullKinds & ~static_cast<unsigned>(scene::UnseenTriangles);
         const settings::Settings settings = settings::steep_table();
-        known_ = {.file = file_, .outline = pack::outline_of(pack), .plan = {}};
+        known_ = {.file = file_, .outline = pack::outline_of(*pack::load_pack(file_).value()), .plan = {}};
         known_.plan = scene::plan_scene(settings, known_.outline, request).value();
         known_.world =
             residency::open_world(settings, file_, known_.outline.description, known_.plan, request).value();
@@ -206,7 +206,9 @@ TEST_F(CellsOnShow, AreDrawnMoreCoarselyWhereTimeIsShort) {
     }
     upload();
     const auto triangles_drawn = [&](double ms_per_triangle) {
-        cells().start({.mesh = {.ms_per_triangle = ms_per_triangle}});
+        scene::FrameCost cost;
+        cost.mesh.ms_per_triangle = ms_per_triangle;
+        cells().start(cost);
         cells().player().start(0, now_);
         for (int frame = 0; frame < 100; ++frame) {
             draw();
