@@ -156,9 +156,9 @@ TEST(SurfaceParts, EveryRayMeetsTheSameSurfaceInCellsAsInTheWhole) {
     const SourceScene drawn(cells, cells.positions, Sides::Front);
     constexpr float step = 2e-3F; // between rays that must agree: no outline lies between them
     std::size_t compared = 0;
-    for (int turn = 0; turn < 12; ++turn) {
-        const float azimuth = 0.5236F * static_cast<float>(turn) + 0.1F;
-        const float height = 0.3F + 0.15F * static_cast<float>(turn);
+    for (int turn = 0; turn < 6; ++turn) {
+        const float azimuth = 1.0472F * static_cast<float>(turn) + 0.1F;
+        const float height = 0.3F + 0.3F * static_cast<float>(turn);
         const glm::vec3 eye(3.0F * std::cos(azimuth), 3.0F * std::sin(azimuth), height);
         const glm::vec3 across(-std::sin(azimuth), std::cos(azimuth), 0.0F);
         for (int ray = 0; ray < 60 * 60; ++ray) {
@@ -180,7 +180,7 @@ TEST(SurfaceParts, EveryRayMeetsTheSameSurfaceInCellsAsInTheWhole) {
             }
         }
     }
-    EXPECT_GT(compared, 10'000U);
+    EXPECT_GT(compared, 5'000U);
 }
 
 } // namespace

@@ -69,14 +69,16 @@ Result<AutoCells> put_auto_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
         scene::good_ways(pack::outline_of(pack), mm_per_box, scene::near_tolerance_mm));
     const scene::PartFrame whole = scene::quickest_frame({&whole_ways, 1});
     const scene::PartCosts& costs = scene::usual_part_costs;
-    const double least = std::min(costs.mesh_picture, costs.relief_picture) + costs.per_part;
+    const double picture =
+        options.relief ? std::min(costs.mesh_picture, costs.relief_picture) : costs.mesh_picture;
+    const double least = picture + costs.per_part;
     if (!scene::cells_pay(whole.cost, least)) {
         return AutoCells{
             {}, fmt::format("one cell: {:.1f} floors whole, at least {:.1f} in cells", whole.cost, least)};
     }
     // A part saves at most its share of the whole's time.
     const bake::SurfaceParts parts =
-        bake::find_parts(mesh, costs.per_part / (whole.cost - costs.relief_picture), max_parts);
+        bake::find_parts(mesh, costs.per_part / (whole.cost - picture), max_parts);
     if (parts.count < 2) {
         return AutoCells{
             {},
