@@ -60,6 +60,17 @@ Result<void> check_parts(const PackWorld& world, const PackDescription& pack) {
     return {};
 }
 
+/// What is drawn at rest must show something.
+Result<void> check_rest(const PackWorld& world) {
+    const bool has_geometry = std::any_of(world.cells.begin(), world.cells.end(),
+                                          [](const PackCell& cell) { return cell.cell.has_geometry; });
+    if (world.drawn_at_rest && !has_geometry) {
+        return bad_input("world.nothing_at_rest",
+                         "the cells are to be drawn at rest, and none has geometry; bake the pack again");
+    }
+    return {};
+}
+
 /// Gives each channel the next curve.
 Result<void> add_curves(const std::string& part, std::span<const std::byte> bytes, PackWorld& world) {
     TRY(std::vector<StoredCurve> curves, at(part, decode_curves(bytes)));
@@ -186,6 +197,7 @@ Result<PackWorld> world_outline_of(const PackDescription& pack) {
     TRY(PackWorld world, read_world_sections(pack));
     TRY_VOID(check_parts(world, pack));
     TRY_VOID(check_cells(world.cells, pack));
+    TRY_VOID(check_rest(world));
     TRY_VOID(check_behaviours(world, pack, Curves::NotRead));
     return world;
 }
@@ -237,6 +249,7 @@ Result<void> put_world(Pack& pack, PackWorld world, std::span<const Pack> geomet
     assert(geometry.size() == world.cells.size());
     assert(find_section(pack, cells_section) == nullptr && find_section(pack, behaviours_section) == nullptr);
     TRY_VOID(check_cells(world.cells, pack));
+    TRY_VOID(check_rest(world));
     TRY_VOID(check_behaviours(world, pack, Curves::Read));
     PackSection cells{std::string(cells_section), {}, {}};
     PackSection behaviours{std::string(behaviours_section), {}, {}};
@@ -245,7 +258,7 @@ Result<void> put_world(Pack& pack, PackWorld world, std::span<const Pack> geomet
         behaviours.parts.emplace_back(curves_name);
         pack.section_parts[std::string(curves_name)] = curves_of(world);
     }
-    cells.data = write_cells(world.cells);
+    cells.data = write_cells(world);
     behaviours.data = write_behaviours(world.behaviours);
     if (!world.cells.empty()) {
         pack.sections.push_back(std::move(cells));

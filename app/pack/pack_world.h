@@ -2,7 +2,8 @@
 ///
 /// Geometry   the pack itself holds the whole artifact at rest, as before. Each cell's geometry is a pack of its own
 ///            inside this one, a part `cells/N.fspack`: its levels, reliefs and measured errors, in the cell's own box.
-///            So a reader that does not know cells shows the artifact at rest.
+///            So a reader that does not know cells shows the artifact at rest. Cells that are quicker to draw than the
+///            whole are drawn at rest, too.
 /// Curves     of all behaviours are in one binary part, `behaviours/curves.bin`.
 /// Units      box, as pack.h; seconds.
 /// Errors     one line: data that FORMAT.md does not allow. Messages of `load_...` begin with the file's name. A pack
@@ -44,6 +45,8 @@ struct PackBehaviour {
 struct PackWorld {
     std::vector<PackCell> cells;
     std::vector<PackBehaviour> behaviours;
+    /// The cells together are quicker to draw than the whole at the same error: they are drawn while nothing moves, too.
+    bool drawn_at_rest = false;
 
     [[nodiscard]] bool operator==(const PackWorld&) const = default;
 };

@@ -102,8 +102,9 @@ void cell_fields(auto& fields, auto& cell) {
     vector_field(fields, "high", cell.high);
 }
 
-void cells_fields(auto& fields, auto& cells) {
+void cells_fields(auto& fields, auto& cells, auto& drawn_at_rest) {
     fields.objects("cells", cells, world::max_cells, [](auto& item, auto& cell) { cell_fields(item, cell); });
+    fields.flag_or("drawn_at_rest", drawn_at_rest, false);
 }
 
 void target_field(auto& fields, auto& mover) {
@@ -186,19 +187,20 @@ const PackSection* find_section(const PackDescription& pack, std::string_view na
 
 Result<PackWorld> read_world_sections(const PackDescription& pack) {
     std::vector<CellRecord> records;
-    TRY_VOID(read_section(cells_section, pack, [&](JsonReader& fields) { cells_fields(fields, records); }));
     PackWorld world;
+    TRY_VOID(read_section(cells_section, pack,
+                          [&](JsonReader& fields) { cells_fields(fields, records, world.drawn_at_rest); }));
     std::transform(records.begin(), records.end(), std::back_inserter(world.cells), cell_of);
     TRY_VOID(read_section(behaviours_section, pack,
                           [&](JsonReader& fields) { behaviours_fields(fields, world.behaviours); }));
     return world;
 }
 
-std::string write_cells(const std::vector<PackCell>& cells) {
+std::string write_cells(const PackWorld& world) {
     std::vector<CellRecord> records;
-    std::transform(cells.begin(), cells.end(), std::back_inserter(records), record_of);
+    std::transform(world.cells.begin(), world.cells.end(), std::back_inserter(records), record_of);
     JsonWriter fields;
-    cells_fields(fields, std::as_const(records));
+    cells_fields(fields, std::as_const(records), world.drawn_at_rest);
     return text_of(fields);
 }
 

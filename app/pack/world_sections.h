@@ -25,7 +25,7 @@ inline constexpr std::array<std::string_view, 4> path_names{"translation", "rota
 
 /// Empty without the sections; the curves are empty.
 [[nodiscard]] Result<PackWorld> read_world_sections(const PackDescription& pack);
-[[nodiscard]] std::string write_cells(const std::vector<PackCell>& cells);
+[[nodiscard]] std::string write_cells(const PackWorld& world);
 [[nodiscard]] std::string write_behaviours(const std::vector<PackBehaviour>& behaviours);
 
 } // namespace frustumscreen::pack

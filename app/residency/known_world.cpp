@@ -80,7 +80,8 @@ Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& s
                                                      const scene::ScenePlan& whole,
                                                      const scene::SceneRequest& request) {
     TRY(pack::PackWorld outline, pack::world_outline_of(pack));
-    if (outline.behaviours.empty()) {
+    outline.drawn_at_rest = outline.drawn_at_rest && request.technique == "auto";
+    if (outline.behaviours.empty() && !outline.drawn_at_rest) {
         return nullptr;
     }
     return open_cells(settings, file, std::move(outline), whole, request);

@@ -1,4 +1,4 @@
-/// The cells of an artifact that its behaviours move: how each is drawn, before any of it is loaded, and their levels, read
+/// The cells of an artifact that its behaviours move, or that are drawn at rest, too: how each is drawn, before any of it is loaded, and their levels, read
 /// and ready to upload.
 ///
 /// Memory   before the artifact is about to be shown, only the manifests: no curves. A cell is read level by level.
@@ -30,8 +30,8 @@ struct KnownWorld {
     std::vector<KnownCell> drawn;
 };
 
-/// Null: the pack has no behaviours, so nothing ever moves. `whole`: the artifact's plan; `request`: the one that it
-/// was made for.
+/// Null: no cell is ever drawn, since the pack has no behaviours and its cells are not for rest, or a technique is asked for
+/// that is not `auto`. `whole`: the artifact's plan; `request`: the one that it was made for.
 [[nodiscard]] Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
                                                                    const std::filesystem::path& file,
                                                                    const pack::PackDescription& pack,

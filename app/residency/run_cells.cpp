@@ -14,6 +14,9 @@ namespace frustumscreen::residency {
 
 namespace {
 
+/// The time of an option that is not offered.
+constexpr double never = std::numeric_limits<double>::infinity();
+
 std::vector<world::Cell> cells_of(const pack::PackWorld& world) {
     std::vector<world::Cell> cells;
     for (const pack::PackCell& cell : world.cells) {
@@ -41,6 +44,17 @@ std::uint64_t curve_bytes(const std::vector<world::Behaviour>& behaviours) {
     return bytes;
 }
 
+/// True if the plan counts this way of drawing as good enough.
+bool is_enough(const scene::ScenePlan& plan, const PreparedLevel& level) {
+    const scene::QualityLevel shown{.level = level.use.level,
+                                    .samples = 1,
+                                    .enough = false,
+                                    .relief = level.data.relief != nullptr,
+                                    .on_gpu = level.data.on_gpu};
+    return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
+                       [&](const scene::QualityLevel& each) { return each.enough && each.shows_as(shown); });
+}
+
 std::size_t indices_of(const PreparedLevel& level) {
     return level.triangles ? level.triangles->indices.size() : 0;
 }
@@ -51,8 +65,9 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
-      player_(cells_of(world), behaviours_of(world)), choice_(cells.options),
-      rasterized_choice_(cells.options), offered_(cells.levels.size()), rasterized_(cells.levels.size()) {
+      drawn_at_rest_(known.world.drawn_at_rest), player_(cells_of(world), behaviours_of(world)),
+      choice_(cells.options), rasterized_choice_(cells.options), offered_(cells.levels.size()),
+      rasterized_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show
     for (const PreparedLevel& level : whole_levels) {
         indices = std::max(indices, indices_of(level));
@@ -79,7 +94,8 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                  .worst_mm =
                      1e3 * plan.metres_per_box * static_cast<double>(scene::worst_of(level.seen).mean_box),
                  .triangles = static_cast<double>(level.data.relief ? level.data.relief->blocks.size()
-                                                                    : indices_of(level) / 6)});
+                                                                    : indices_of(level) / 6),
+                 .is_enough = is_enough(plan, level)});
             largest.front() = std::max(largest.front(), indices_of(level));
             std::sort(largest.begin(), largest.end());
         }
@@ -88,10 +104,12 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
     can_rasterize_all_ = true;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         std::size_t rasterized = 0;
+        bool enough = false;
         for (std::size_t option = cells_[k].first; option < cells_[k].first + cells.options[k]; ++option) {
             rasterized += is_rasterized(option) ? 1 : 0;
+            enough = enough || (is_rasterized(option) && options_[option].is_enough);
         }
-        can_rasterize_all_ = can_rasterize_all_ && rasterized > 0;
+        can_rasterize_all_ = can_rasterize_all_ && (drawn_at_rest_ ? enough : rasterized > 0);
         cells_[k].is_relief_alone = rasterized == cells.options[k];
     }
     parts_.reserve(2 * cells_.size() + 1);
@@ -146,7 +164,7 @@ bool RunCells::fades() const {
 
 bool RunCells::step(MonotonicTime now, double load) {
     poses_ = player_.step(now);
-    if (player_.moves()) {
+    if (player_.moves() || drawn_at_rest_) {
         if (!shows_) {
             is_new_ = true;
             log_load_ = load > 0.0 && std::isfinite(load) ? std::log(load) : 0.0;
@@ -177,6 +195,25 @@ scene::CellOption RunCells::option_of(const Option& option, double pixels, doubl
             .cost_us = 1e3 * ms};
 }
 
+void RunCells::offer_enough(std::size_t begin, std::size_t end,
+                            std::vector<scene::CellOption>& offered) const {
+    constexpr double as_quick = 1.1; // so that times that are almost equal do not change places at every pose
+    std::size_t best = end;
+    for (std::size_t option = begin; option < end; ++option) {
+        const bool is_first = best == end || offered[option].cost_us < offered[best].cost_us;
+        best = options_[option].is_enough && is_first ? option : best;
+    }
+    for (std::size_t option = begin; best < end && option < end; ++option) {
+        const scene::CellOption& offer = offered[option];
+        const double best_us = offered[best].cost_us;
+        const bool saves_time = offer.cost_us < best_us && offer.error_mm > offered[best].error_mm;
+        const bool is_as_quick = options_[option].is_enough && offer.cost_us <= as_quick * best_us;
+        if (!saves_time && !is_as_quick) {
+            offered[option].cost_us = never;
+        }
+    }
+}
+
 void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& view) {
     double all_pixels = 0.0;
     for (Cell& cell : cells_) {
@@ -188,7 +225,6 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
     if (leaves_) {
         return;
     }
-    constexpr double never = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
         for (std::size_t option = cells_[k].first; option < end; ++option) {
@@ -199,6 +235,10 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
             } else if (!cells_[k].is_relief_alone) {
                 offered_[option].cost_us = never;
             }
+        }
+        if (drawn_at_rest_) {
+            offer_enough(cells_[k].first, end, offered_);
+            offer_enough(cells_[k].first, end, rasterized_);
         }
     }
     const double budget_us = 1e3 * (scene::Governor::leave_share * deadline_ms_ / load() - fixed_ms_);
@@ -240,10 +280,10 @@ scene::CellOption RunCells::sum(std::span<const std::size_t> chosen,
 /// As CellChoice: a kind is left for a clearly better one, and at once if it breaks the budget.
 void RunCells::choose_kind(MonotonicTime now, const scene::CellOption& mixed,
                            const scene::CellOption& rasterized, double budget_us) {
-    const auto is_better = [budget_us](const scene::CellOption& a, const scene::CellOption& b,
-                                       double clearly) {
-        if (b.cost_us > budget_us) {
-            return a.cost_us <= budget_us || a.cost_us < clearly * b.cost_us;
+    const auto is_better = [this, budget_us](const scene::CellOption& a, const scene::CellOption& b,
+                                             double clearly) {
+        if (drawn_at_rest_ || b.cost_us > budget_us) {
+            return (b.cost_us > budget_us && a.cost_us <= budget_us) || a.cost_us < clearly * b.cost_us;
         }
         return a.cost_us <= clearly * budget_us && a.error_mm < clearly * b.error_mm;
     };

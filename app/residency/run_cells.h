@@ -3,12 +3,15 @@
 ///
 /// Shown    while nothing moves, the whole artifact is drawn (run_levels.h). With a behaviour's first motion the cells take
 ///          its place in one frame, at rest, where both show the same within their errors. When everything is at rest
-///          again and no cell fades, the picture fades back to the whole.
+///          again and no cell fades, the picture fades back to the whole. Cells that the bake found quicker than the whole
+///          (PackWorld::drawn_at_rest) are drawn always.
 /// Choice   CellChoice: each option's error is the worst that its eyes see, its time that of its triangles or blocks and
 ///          of the cell's pixels (cell_plan.h), times the load that frames have shown. A rasterized
 ///          relief among polygons is drawn once more by the GPU, in each sample: on the software driver 10 ms of relief and
 ///          20 ms of polygons cost 40 ms together. So two choices are made, one of rasterized reliefs alone and one of all else,
-///          and the better one is taken; only fades, and cells that have nothing else, mix them.
+///          and the better one is taken; only fades, and cells that have nothing else, mix them. Cells that are drawn at rest follow the
+///          governor's first rule: a cell that has levels within the tolerance is drawn as the quickest of these, or, where
+///          time is short, as a quicker one that errs more.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -84,6 +87,7 @@ private:
         scene::PlacedLevel placed;
         double worst_mm = 0.0;
         double triangles = 0.0; ///< or blocks
+        bool is_enough = false; ///< within the tolerance
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
@@ -96,6 +100,9 @@ private:
     };
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
+    /// Makes infinite the time of those options from `begin` to `end`, one cell's, that are neither as quick as its quickest
+    /// one within the tolerance nor save time by a larger error.
+    void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
     void choose(MonotonicTime now, int samples, const scene::PlanView& view);
     /// The sums over all cells.
     [[nodiscard]] scene::CellOption sum(std::span<const std::size_t> chosen,
@@ -114,6 +121,7 @@ private:
 
     double metres_per_box_; ///< of the whole artifact
     double deadline_ms_;
+    bool drawn_at_rest_;
     world::Player player_;
     std::span<const world::CellPose> poses_; ///< of the latest step
     std::vector<LevelUse> uses_;

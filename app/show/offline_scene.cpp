@@ -75,8 +75,11 @@ Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const O
 
 Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const OfflineScene& scene) {
     TRY(const pack::PackWorld world, pack::load_world(file));
-    TRY(const std::size_t behaviour, find_behaviour(world, scene.setup.options.behaviour));
-    OfflineWorld read{.cells = {}, .behaviour = world.behaviours[behaviour].behaviour, .drawn = {}};
+    OfflineWorld read;
+    if (const std::string& name = scene.setup.options.behaviour; !name.empty()) {
+        TRY(const std::size_t behaviour, find_behaviour(world, name));
+        read.behaviour = world.behaviours[behaviour].behaviour;
+    }
     for (const pack::PackCell& cell : world.cells) {
         read.cells.push_back(cell.cell);
     }
@@ -88,6 +91,15 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
         }
     }
     return read;
+}
+
+/// A behaviour is drawn with the cells, and so is a pack whose cells are quicker than the whole.
+Result<bool> draws_cells(const OfflineOptions& options, const pack::PackDescription& pack) {
+    if (!options.behaviour.empty()) {
+        return true;
+    }
+    TRY(const pack::PackWorld world, pack::world_outline_of(pack));
+    return world.drawn_at_rest && options.technique == "auto";
 }
 
 } // namespace
@@ -115,13 +127,15 @@ load_offline(const std::filesystem::path& file,
              const std::function<Result<OfflineSetup>(const pack::PackOutline&)>& setup_of) {
     std::optional<OfflineSetup> setup;
     scene::ScenePlan plan;
+    bool cells = false;
     Result<pack::VerifiedPack> pack =
         pack::load_pack(file, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
             TRY(OfflineSetup made, setup_of(outline));
             const settings::Settings settings = sized(made);
             TRY(plan, scene::plan_scene(settings, outline, request_of(made, settings, outline.description)));
+            TRY(cells, draws_cells(made.options, outline.description));
             setup = std::move(made);
-            return levels_to_read(plan, setup->options.behaviour.empty());
+            return levels_to_read(plan, !cells);
         });
     TRY_VOID(pack);
     OfflineScene scene{.setup = *std::move(setup),
@@ -129,7 +143,7 @@ load_offline(const std::filesystem::path& file,
                        .pack = *std::move(pack),
                        .relief = nullptr,
                        .world = std::nullopt};
-    if (!scene.setup.options.behaviour.empty()) {
+    if (cells) {
         TRY(scene.world, load_offline_world(file, scene));
     } else if (!scene.plan.reliefs.empty()) {
         TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));

@@ -1,4 +1,5 @@
-/// A pack's file, of which only what its pictures need was read: the whole artifact, or for a behaviour its cells.
+/// A pack's file, of which only what its pictures need was read: the whole artifact, or its cells for a
+/// behaviour and where they are quicker.
 ///
 /// Errors   as load_pack and plan_scene; a behaviour that the pack does not have.
 /// Threads  any.
@@ -31,7 +32,7 @@ struct OfflineOptions {
     unsigned cull_kinds = scene::AllCullKinds;
     /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
     std::vector<scene::KnownView> views;
-    std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn whole, at rest
+    std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn at rest
 };
 
 struct OfflineSetup {
@@ -46,7 +47,7 @@ struct OfflineCell {
 };
 struct OfflineWorld {
     std::vector<world::Cell> cells;
-    world::Behaviour behaviour;
+    world::Behaviour behaviour;     ///< moves nothing: the cells are drawn at rest
     std::vector<OfflineCell> drawn; ///< the cells with geometry
 };
 struct OfflineScene {

@@ -1,8 +1,8 @@
 #include "assets_baked/bake/last_look.h"
 
 #include "assets_baked/bake/colour_looks.h"
-#include "assets_baked/bake/connected_parts.h"
 #include "assets_baked/bake/coordinate_looks.h"
+#include "assets_baked/bake/surface_parts.h"
 #include "assets_baked/bake/winding.h"
 
 #include <fmt/format.h>
@@ -35,22 +35,6 @@ struct Bounds {
     }
 };
 
-/// The part of each triangle, numbered from 0, by union-find over equal positions.
-std::vector<std::uint32_t> parts_of(const SourceMesh& mesh, std::size_t& count) {
-    const std::vector<std::uint32_t> same = numbers_of_places(mesh);
-    const std::vector<std::uint32_t> root = connected_parts(mesh, same, mesh.positions.size());
-    std::vector<std::uint32_t> number(mesh.positions.size(), std::numeric_limits<std::uint32_t>::max());
-    std::vector<std::uint32_t> parts;
-    parts.reserve(mesh.triangles.size());
-    count = 0;
-    for (const auto& triangle : mesh.triangles) {
-        std::uint32_t& part = number[root[same[triangle[0]]]];
-        part = part == std::numeric_limits<std::uint32_t>::max() ? static_cast<std::uint32_t>(count++) : part;
-        parts.push_back(part);
-    }
-    return parts;
-}
-
 struct Part {
     Bounds bounds;
     std::size_t triangles = 0;
@@ -65,8 +49,7 @@ double reach_beyond(const Bounds& part, const Bounds& rest) {
 } // namespace
 
 Scraps find_scraps(const SourceMesh& mesh) {
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> part_of = parts_of(mesh, count);
+    const auto [part_of, count] = connected_surfaces(mesh);
     std::vector<Part> parts(count);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Part& part = parts[part_of[t]];

@@ -151,9 +151,9 @@ TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sid
     return result;
 }
 
-} // namespace
-
-TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, const ViewingZone& zone) {
+/// Of each triangle.
+std::vector<std::uint8_t> all_sides_seen(const TriangleMesh& mesh, const SourceScene& scene,
+                                         const ViewingZone& zone) {
     glm::vec3 low(1e30F);
     glm::vec3 high(-1e30F);
     for (const glm::vec3& p : mesh.positions) {
@@ -167,7 +167,22 @@ TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, c
             sides[t] = sides_seen(mesh, static_cast<std::uint32_t>(t), scene, eyes);
         }
     });
-    return kept(mesh, grown(mesh, grown(mesh, sides, front), back));
+    return grown(mesh, grown(mesh, sides, front), back);
+}
+
+} // namespace
+
+TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, const ViewingZone& zone) {
+    return kept(mesh, all_sides_seen(mesh, scene, zone));
+}
+
+std::vector<bool> visible_triangles(const TriangleMesh& mesh, const SourceScene& scene,
+                                    const ViewingZone& zone) {
+    std::vector<bool> visible;
+    for (const std::uint8_t sides : all_sides_seen(mesh, scene, zone)) {
+        visible.push_back(sides != none);
+    }
+    return visible;
 }
 
 TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,

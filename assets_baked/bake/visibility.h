@@ -34,6 +34,10 @@ struct ViewingZone {
 [[nodiscard]] TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene,
                                          const ViewingZone& zone);
 
+/// For each triangle, whether one of its sides is visible.
+[[nodiscard]] std::vector<bool> visible_triangles(const TriangleMesh& mesh, const SourceScene& scene,
+                                                  const ViewingZone& zone);
+
 /// The triangles of a coarser `mesh` (with flipped copies) on sides that are kept in `finer`.
 [[nodiscard]] TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
                                               const SourceScene& finer_scene, float tolerance_box);

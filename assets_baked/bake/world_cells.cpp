@@ -63,8 +63,8 @@ Bounds bounds_of(const SourceMesh& mesh) {
 
 class Cells {
 public:
-    Cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
-        : mesh_(mesh), frame_(frame), options_(options) {}
+    Cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options, CellSides sides)
+        : mesh_(mesh), frame_(frame), options_(options), sides_(sides) {}
 
     [[nodiscard]] WorldCells bake() {
         make_tree();
@@ -140,7 +140,9 @@ private:
             options.part = {
                 .whole = &*whole_, .origin = {middle.x, middle.y, bounds.low.z}, .scale = longest};
         }
-        options.prop.zone = ViewingZone::all_around();
+        if (sides_ == CellSides::All) {
+            options.prop.zone = ViewingZone::all_around();
+        }
         options.progress = [this, begin, end](std::string_view, double done) {
             options_.progress("parts", std::lerp(begin, end, done));
         };
@@ -184,6 +186,7 @@ private:
     const BoxFrame& frame_;
     const BakeOptions& options_;
     std::optional<SourceScene> whole_; ///< shadows the cells
+    CellSides sides_;
     WorldCells made_;
     std::vector<std::optional<std::size_t>> holder_; ///< of each node: the cell of its triangles
     std::vector<glm::dmat4> box_from_cell_;          ///< of each cell, at rest
@@ -193,8 +196,9 @@ private:
 
 } // namespace
 
-WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options) {
-    return Cells(mesh, frame, options).bake();
+WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options,
+                      CellSides sides) {
+    return Cells(mesh, frame, options, sides).bake();
 }
 
 } // namespace frustumscreen::bake

@@ -3,7 +3,7 @@
 /// Frames   cells hang in the whole artifact's box; at rest each lies where the whole has it.
 /// Size     a cell has texels as large as the whole's, so fewer of them; `measuring` shrinks with it.
 /// Light    at rest a cell has the whole's, with the shadows of the other cells (part_light.h).
-/// Sides    a cell keeps those that no visitor sees at rest: it moves, or what hides it does.
+/// Sides    a cell that moves, or from which something moves away, keeps those that no visitor sees at rest.
 /// Told     a part in a frame that is pressed flat is no cell: its triangles stay with the part that it hangs from, and it
 ///          does not move. A cell without a surface has no geometry.
 /// Threads  uses all cores; `progress` is called on the caller's thread.
@@ -27,8 +27,9 @@ struct WorldCells {
     std::vector<SourceNote> notes;
 };
 
+enum class CellSides { All, SeenAtRest };
 /// The mesh has nodes. `frame`: of the whole, as `options` make it.
-[[nodiscard]] WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame,
-                                    const BakeOptions& options);
+[[nodiscard]] WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options,
+                                    CellSides sides = CellSides::All);
 
 } // namespace frustumscreen::bake

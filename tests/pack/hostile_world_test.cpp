@@ -226,6 +226,7 @@ TEST(HostileWorld, altered_sections_are_refused) {
     expect_told(refusal_of_data("cells", cell(0, "cell_from_geometry", {1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0})),
                 "[world.nested_box]");
     expect_told(refusal_of_data("cells", [](Json& data) { data["cells"] = Json::array(); }), "[world.parts]");
+    expect_told(refusal_of_data("cells", [](Json& data) { data["drawn_at_rest"] = 1; }), "drawn_at_rest");
     expect_told(refusal_of_data("cells",
                                 [](Json& data) {
                                     const Json one = data["cells"][1];

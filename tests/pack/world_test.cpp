@@ -95,6 +95,22 @@ TEST_F(WorldFile, a_cell_is_read_alone) {
     EXPECT_FALSE(load_cell("world.fspack", world.cells[0])) << "its hash is wrong";
 }
 
+TEST_F(WorldFile, keeps_that_its_cells_are_drawn_at_rest) {
+    PackWorld world = samples::world();
+    world.drawn_at_rest = true;
+    Pack pack = samples::full_pack();
+    ASSERT_TRUE(put_world(pack, world, samples::cell_packs()));
+    put(samples::bytes_of(pack));
+    EXPECT_EQ(load_world("world.fspack").value(), world);
+    PackWorld empty;
+    empty.drawn_at_rest = true;
+    Pack other = samples::full_pack();
+    const Result<void> refused = put_world(other, empty, {});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("world.nothing_at_rest"), std::string::npos)
+        << refused.error().message;
+}
+
 TEST(World, without_cells_is_empty) {
     EXPECT_EQ(world_of(samples::full_pack()).value(), PackWorld());
     EXPECT_TRUE(check_world(samples::full_pack()));
@@ -191,7 +207,9 @@ TEST(World, as_many_cells_as_allowed_fit_with_the_longest_numbers_and_names) {
                       glm::dvec3(longest)};
     cell.low = cell.high = glm::dvec3(longest);
     cell.triangles = std::numeric_limits<std::uint64_t>::max();
-    EXPECT_LT(write_cells(std::vector(world::max_cells, cell)).size(), max_section_data_bytes * 3 / 4);
+    PackWorld most;
+    most.cells = std::vector(world::max_cells, cell);
+    EXPECT_LT(write_cells(most).size(), max_section_data_bytes * 3 / 4);
     // A chain of as many is read.
     PackWorld chain;
     for (std::size_t k = 0; k < world::max_cells; ++k) {

@@ -132,8 +132,19 @@ class BakeCells(unittest.TestCase):
         self.assertEqual([cell["name"] for cell in report["cells"]["cells"]], ["chest", "lid"])
         self.assertEqual(report["cells"]["behaviours"], [])
 
+    def test_cells_are_found_only_where_they_pay(self):
+        report = self.bake("--cells", "auto")
+        self.assertEqual(report["cells"]["taken"], "nodes", "its animation needs them")
+        still = gltf()
+        del still["animations"]
+        (self.folder / "chest.gltf").write_text(json.dumps(still))
+        report = self.bake("--cells", "auto")
+        self.assertEqual((report["cells"]["taken"], report["cells"]["cells"]), ("none", []))
+        self.assertRegex(report["cells"]["why"], r"^one cell: \d+\.\d floors whole, at least \d+\.\d in cells$")
+        self.assertNotIn("cells", self.sections())
+
     def test_a_word_that_is_no_way_to_cut_is_refused(self):
-        self.assertIn("--cells", self.bake("--cells", "auto", status=2))
+        self.assertIn("--cells", self.bake("--cells", "some", status=2))
 
     def test_a_check_lists_parts_and_animations(self):
         done = subprocess.run([PROGRAM, "--check", "chest.gltf", "--json"], cwd=self.folder, capture_output=True, text=True, check=True)

@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <vector>
@@ -34,9 +35,11 @@ world::Behaviour slide(bool stays) {
 }
 
 /// Rings whose cells are rings in the same place: `cells` of them, so that one cell shows what the whole shows.
-pack::Pack pack_of_cells(std::size_t cells, const std::vector<world::Behaviour>& behaviours) {
+pack::Pack pack_of_cells(std::size_t cells, const std::vector<world::Behaviour>& behaviours,
+                         bool drawn_at_rest = false) {
     pack::Pack whole = numbered_pack(0);
     pack::PackWorld world;
+    world.drawn_at_rest = drawn_at_rest;
     std::vector<pack::Pack> geometry;
     for (std::size_t k = 0; k < cells; ++k) {
         geometry.push_back(numbered_pack(0));
@@ -141,6 +144,29 @@ TEST_F(CellsOnShow, TakeTheWholesPlaceWhileTheyMoveAndGiveItBackAtRest) {
     EXPECT_FALSE(cells().shows());
     ASSERT_TRUE(cells().error());
     EXPECT_GT(cells().error()->mean_mm, 0.0);
+}
+
+TEST_F(CellsOnShow, AreDrawnAtRestIfThePackSaysSo) {
+    load(pack_of_cells(1, {}, true), "auto");
+    ASSERT_NE(known_.world, nullptr);
+    upload();
+    const image::Image8 first = picture();
+    EXPECT_TRUE(cells().shows());
+    EXPECT_FALSE(cells().fades());
+    ASSERT_TRUE(cells().error());
+    EXPECT_TRUE(std::any_of(first.texels.begin(), first.texels.end(),
+                            [](const glm::u8vec4& texel) { return texel.r > 0; }));
+    for (int frame = 0; frame < 50; ++frame) {
+        EXPECT_FALSE(draw().drawn) << "nothing moves";
+        EXPECT_TRUE(cells().shows());
+    }
+}
+
+TEST_F(CellsOnShow, AtRestGiveWayToATechniqueThatIsAskedFor) {
+    load(pack_of_cells(1, {}, true), "level1");
+    EXPECT_EQ(known_.world, nullptr);
+    load(pack_of_cells(1, {}), "auto");
+    EXPECT_EQ(known_.world, nullptr) << "nothing moves, and the whole is quicker";
 }
 
 TEST_F(CellsOnShow, AreRedrawnOnlyWhileTheyMove) {

@@ -2,6 +2,7 @@
 
 #include "app/bench/techniques/floor.h"
 #include "app/bench/techniques/level_of_detail.h"
+#include "app/bench/techniques/pack_cells.h"
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
 #include "app/bench/techniques/relief_raster.h"
@@ -22,11 +23,12 @@ namespace frustumscreen::bench {
 namespace {
 
 /// Covers every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 12> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 13> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
     {TechniqueKind::PackRelief, "pack relief"},
     {TechniqueKind::Auto, "auto"},
+    {TechniqueKind::Cells, "cells"},
     {TechniqueKind::FullMesh, "full mesh"},
     {TechniqueKind::TwoPass, "two-pass"},
     {TechniqueKind::RayCast, "ray cast"},
@@ -142,6 +144,15 @@ Result<void> TechniqueSet::add_auto(const pack::Pack& pack, const PictureOptions
     raster.samples = relief->samples;
     return add_pack_reliefs(pack, TechniqueKind::Auto, raster,
                             [&](std::uint32_t texels) { return texels == relief->level; });
+}
+
+Result<std::string> TechniqueSet::add_cells(const std::filesystem::path& file, const pack::Pack& pack,
+                                            const PictureOptions& options) {
+    TRY(PackCells cells, make_pack_cells(kiosk_, file, pack, options, "cells"));
+    TechniqueResult result = described(TechniqueKind::Cells, -1, cells.triangles + cells.blocks);
+    result.samples = options.samples > 0 ? options.samples : pack.samples;
+    TRY_VOID(add(std::move(cells.technique), std::move(result)));
+    return cells.ways;
 }
 
 Result<void> TechniqueSet::add_auto_mesh(const pack::Pack& pack, const scene::QualityLevel& quality_level,

@@ -13,6 +13,7 @@
 #include "app/scene/governor.h"
 #include "firmware_host/display/display.h"
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,6 +34,7 @@ enum class TechniqueKind {
     PackLevel,
     PackRelief, ///< the pack's layered relief at one resolution; `triangles` counts blocks
     Auto,       ///< the level that the exhibit's governor chooses in this set-up while frames are in time
+    Cells,      ///< the pack's cells at rest, each as the exhibit draws it; `triangles` counts blocks, too
     FullMesh,
     TwoPass,
     RayCast, ///< the method that computes the truth, as a peer
@@ -99,6 +101,10 @@ public:
     /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
     [[nodiscard]] Result<void> add_relief_rasters(const pack::Pack& pack, const std::vector<int>& texels,
                                                   const PictureOptions& options);
+
+    /// The pack's cells at rest; `file`: the pack's. Returns how each is drawn, a line each.
+    [[nodiscard]] Result<std::string> add_cells(const std::filesystem::path& file, const pack::Pack& pack,
+                                                const PictureOptions& options);
 
     /// The picture that technique `k` (of `results()`) draws for a pose: sRGB codes.
     [[nodiscard]] image::Image8 picture(std::size_t k, const BenchPose& pose);

@@ -24,7 +24,6 @@ struct Parts {
     render::HitPointRenderer hit_points;
 };
 
-/// The exhibit's corrections of the colours.
 struct Light {
     std::optional<scene::LightCompensation> compensation;
     double exposure = 1.0;
@@ -34,17 +33,9 @@ struct Lights {
     Light measured, timed, shown;
 };
 
-/// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
-/// quality level of its scene plan.) As in the exhibit, the picture dims by what is seen of the artifact.
 Result<Lights> lights_of(const Kiosk& kiosk, const PictureOptions& options, const pack::Pack& pack) {
-    const pack::PackLevel& level = pack.levels[pack.default_level];
-    scene::LightCompensation compensation = scene::light_compensation(kiosk.settings);
-    TRY(std::vector<glm::dvec3> hull, pack::hull_in(pack, kiosk.prop, scene::max_corners_in_frame));
-    compensation.hull = std::make_shared<const std::vector<glm::dvec3>>(std::move(hull));
-    const Light shown{std::move(compensation),
-                      scene::exposure_of(level, pack.box_size, pack.textures[level.texture],
-                                         kiosk.settings.render.highlight_code),
-                      options.feathered};
+    TRY(const PictureLight light, shown_light(kiosk, pack));
+    const Light shown{light.compensation, light.exposure, options.feathered};
     return Lights{.measured = options.lit ? shown : Light{},
                   .timed = options.lit || options.timed_lit ? shown : Light{},
                   .shown = shown};
@@ -205,6 +196,18 @@ private:
 };
 
 } // namespace
+
+/// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
+/// quality level of its scene plan.) As in the exhibit, the picture dims by what is seen of the artifact.
+Result<PictureLight> shown_light(const Kiosk& kiosk, const pack::Pack& pack) {
+    const pack::PackLevel& level = pack.levels[pack.default_level];
+    scene::LightCompensation compensation = scene::light_compensation(kiosk.settings);
+    TRY(std::vector<glm::dvec3> hull, pack::hull_in(pack, kiosk.prop, scene::max_corners_in_frame));
+    compensation.hull = std::make_shared<const std::vector<glm::dvec3>>(std::move(hull));
+    return PictureLight{std::move(compensation),
+                        scene::exposure_of(level, pack.box_size, pack.textures[level.texture],
+                                           kiosk.settings.render.highlight_code)};
+}
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,
                                                    std::uint32_t level, const PictureOptions& options,

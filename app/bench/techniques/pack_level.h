@@ -7,6 +7,7 @@
 #include "app/bench/techniques/technique.h"
 #include "app/pack/pack_file.h"
 #include "app/render/renderer.h"
+#include "app/scene/light.h"
 
 #include <memory>
 
@@ -25,6 +26,14 @@ struct PictureOptions {
     /// otherwise every picture is drawn whole.
     bool only_changes = false;
 };
+
+/// The exhibit's corrections of the colours.
+struct PictureLight {
+    scene::LightCompensation compensation;
+    double exposure = 1.0;
+};
+/// As visitors see the artifact.
+[[nodiscard]] Result<PictureLight> shown_light(const Kiosk& kiosk, const pack::Pack& pack);
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,
                                                                  std::uint32_t level,

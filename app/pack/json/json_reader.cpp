@@ -136,6 +136,14 @@ void JsonReader::flag(const char* key, bool& value) {
     value = read->get<bool>();
 }
 
+void JsonReader::flag_or(const char* key, bool& value, bool left_out) {
+    known_.insert(key);
+    value = left_out;
+    if (!refusal_->error && object_ != nullptr && object_->contains(key)) {
+        flag(key, value);
+    }
+}
+
 std::uint64_t JsonReader::whole_of(const char* key, std::uint64_t most) {
     const Json* read = take(key);
     if (read == nullptr) {

@@ -37,6 +37,8 @@ public:
     void text(const char* key, std::string& value);
     void texts(const char* key, std::vector<std::string>& values, std::size_t most);
     void flag(const char* key, bool& value);
+    /// An optional field.
+    void flag_or(const char* key, bool& value, bool left_out);
     template <typename Whole> void whole(const char* key, Whole& value, std::uint64_t most) {
         value = static_cast<Whole>(whole_of(key, most));
     }

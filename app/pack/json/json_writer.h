@@ -34,6 +34,11 @@ public:
         object_[key] = values;
     }
     void flag(const char* key, bool value) { object_[key] = value; }
+    void flag_or(const char* key, bool value, bool left_out) {
+        if (value != left_out) {
+            object_[key] = value;
+        }
+    }
     void whole(const char* key, auto value, std::uint64_t /*most*/) { object_[key] = value; }
     void whole_or_null(const char* key, const auto& value, std::uint64_t /*most*/) {
         object_[key] = value ? Json(*value) : Json(nullptr);

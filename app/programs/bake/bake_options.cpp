@@ -17,8 +17,9 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
     app.add_option(
            "--cells", arguments.cells,
            "parts of the model that can move by themselves: nodes of a glTF file, or none (default: nodes "
-           "if an animation or artifact.toml moves them)")
-        .one_of({"none", "nodes"});
+           "if an animation or artifact.toml moves them); auto: where nothing moves, parts that are quicker "
+           "to draw one by one, if there are any")
+        .one_of({"none", "nodes", "auto"});
     app.add_option(
         "--prop", arguments.prop,
         "prop that the artifact is baked for: frustum, cube, or a prop file, *.obj, of a prop in the hand "

@@ -154,10 +154,15 @@ std::string_view trigger_name(const world::Behaviour& behaviour) {
     return world::trigger_names.at(static_cast<std::size_t>(behaviour.trigger));
 }
 
+std::string_view taken_cells(const BakeResult& result) {
+    return result.cells.nodes ? "nodes" : result.world.cells.empty() ? "none" : "found";
+}
+
 /// Whether it has cells and why, and what moves them.
 std::string cells_text(const BakeResult& result) {
-    std::string text = fmt::format("  {:<8}{}, since {}\n", "cells", result.cells.nodes ? "nodes" : "none",
-                                   result.cells.why);
+    std::string text = result.cells.found ? fmt::format("  {:<8}auto: {}\n", "cells", result.cells.why)
+                                          : fmt::format("  {:<8}{}, since {}\n", "cells", taken_cells(result),
+                                                        result.cells.why);
     for (const pack::PackBehaviour& each : result.world.behaviours) {
         text += fmt::format("  {:<8}'{}', {:.2g} s, by {}\n", "moves", each.behaviour.name,
                             each.behaviour.seconds, trigger_name(each.behaviour));
@@ -176,7 +181,7 @@ Json cells_json(const BakeResult& result) {
                               {"seconds", each.behaviour.seconds},
                               {"trigger", trigger_name(each.behaviour)}});
     }
-    return {{"taken", result.cells.nodes ? "nodes" : "none"},
+    return {{"taken", taken_cells(result)},
             {"why", result.cells.why},
             {"cells", std::move(cells)},
             {"behaviours", std::move(behaviours)}};

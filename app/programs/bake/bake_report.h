@@ -53,7 +53,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], cells: {taken, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
+/// guessed: [], taken: [], missing: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen::programs

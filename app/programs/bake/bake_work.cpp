@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
+#include "app/programs/bake/auto_cells.h"
 #include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/check_scan.h"
 #include "app/programs/bake/load_scan.h"
@@ -132,7 +133,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
     BakeResult result;
     result.cells = choose_cells(written.cells, mesh, written.behaviours.size());
-    const double whole = result.cells.nodes ? whole_share : 1.0;
+    const double whole = result.cells.nodes || result.cells.found ? whole_share : 1.0;
     const auto begin_stages = [&](double begin, double end) {
         options.progress = [&progress, begin, end](std::string_view step, double done) {
             progress(step, std::lerp(begin, end, done));
@@ -168,6 +169,12 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
             at(request.scan.string(), put_cells(pack, mesh, behaviours, options, result.notes)));
         number_titles(behaviours, result.world.behaviours, words.set);
         TRY_VOID(check_losses(result.notes, request));
+    }
+    if (result.cells.found) {
+        begin_stages(std::lerp(read, 1.0, whole), 1.0);
+        TRY(AutoCells found, at(request.scan.string(), put_auto_cells(pack, mesh, options)));
+        result.cells.why = std::move(found.why);
+        result.world = std::move(found.world);
     }
     result.rights = request.rights;
     result.missing = pack::missing_in(pack, request.rights);

@@ -22,22 +22,26 @@ std::size_t moved_parts(const bake::SourceMesh& mesh) {
 
 CellsChoice choose_cells(const std::string& option, const bake::SourceMesh& mesh, std::size_t behaviours) {
     if (option == "none") {
-        return {false, "--cells none says so"};
+        return {.why = "--cells none says so"};
     }
     if (behaviours > 0) {
-        return {true, "artifact.toml has [[behaviours]]"};
+        return {.nodes = true, .why = "artifact.toml has [[behaviours]]"};
     }
     if (!mesh.animations.empty()) {
-        return {true, fmt::format("the file's animations move {} of its {} parts", moved_parts(mesh),
-                                  mesh.nodes.size())};
+        return {.nodes = true,
+                .why = fmt::format("the file's animations move {} of its {} parts", moved_parts(mesh),
+                                   mesh.nodes.size())};
+    }
+    if (option == "auto") {
+        return {.found = true, .why = ""};
     }
     if (mesh.nodes.empty()) {
-        return {false, "the file is one part that does not move"};
+        return {.why = "the file is one part that does not move"};
     }
     if (option == "nodes") {
-        return {true, "--cells nodes says so"};
+        return {.nodes = true, .why = "--cells nodes says so"};
     }
-    return {false, fmt::format("none of the file's {} parts moves", mesh.nodes.size())};
+    return {.why = fmt::format("none of the file's {} parts moves", mesh.nodes.size())};
 }
 
 } // namespace frustumscreen::programs

@@ -12,7 +12,8 @@ namespace frustumscreen::programs {
 
 struct CellsChoice {
     bool nodes = false;
-    std::string why; ///< "its animations move 2 of its 5 parts"
+    bool found = false; ///< parts of the surface are tried as cells (auto_cells.h)
+    std::string why;    ///< "its animations move 2 of its 5 parts"
 };
 
 /// `option`: of --cells; empty: nodes if something moves. `behaviours`: how many the folder's file has.
