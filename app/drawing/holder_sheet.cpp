@@ -103,9 +103,9 @@ void draw_corners(SvgSheet& sheet, const Holder& holder) {
     sheet.text({225.0, 166.0}, "The pocket's corners: x, y from the red dot", heading);
     for (std::size_t k = 0; k < holder.pocket.size(); ++k) {
         const glm::dvec2& corner = holder.pocket[k];
-        sheet.text(
-            {225.0 + 55.0 * static_cast<double>(k / rows), 174.0 + 5.0 * static_cast<double>(k % rows)},
-            fmt::format("{}: {}, {}", k + 1, mm_words(corner.x), mm_words(corner.y)), {3.0});
+        const std::size_t column = k / rows;
+        sheet.text({225.0 + 55.0 * static_cast<double>(column), 174.0 + 5.0 * static_cast<double>(k % rows)},
+                   fmt::format("{}: {}, {}", k + 1, mm_words(corner.x), mm_words(corner.y)), {3.0});
     }
 }
 

@@ -31,6 +31,9 @@ constexpr double arc_head_m = 0.018;
 constexpr double arc_low_m = -arc_radius_m - arc_head_m;
 const double arc_high_m = -arc_radius_m * std::cos(arc_half_angle) + 1.6 * arc_head_m;
 const double arc_half_m = arc_radius_m * std::sin(arc_half_angle) + 1.6 * arc_head_m;
+/// A smaller arc stands beside the prop, and is no smaller than an arrow.
+constexpr double usual_arc_scale = 1.0;
+constexpr double min_arc_scale = 0.6;
 
 double segment_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 along = b - a;
@@ -207,11 +210,12 @@ std::optional<SignPose> place_arrow(const glm::dvec2& prop, const glm::dvec2& ah
     return std::nullopt;
 }
 
+/// True if the corners keep the margin to the picture's edges.
 bool inside(std::span<const glm::dvec2> area, const std::array<glm::dvec2, 4>& corners) {
     for (std::size_t k = 0; k < area.size(); ++k) {
-        const glm::dvec2 edge = area[(k + 1) % area.size()] - area[k];
+        const glm::dvec2 edge = glm::normalize(area[(k + 1) % area.size()] - area[k]);
         for (const glm::dvec2& corner : corners) {
-            if (edge.x * (corner.y - area[k].y) - edge.y * (corner.x - area[k].x) < 0.0) {
+            if (glm::dot(corner - area[k], glm::dvec2(-edge.y, edge.x)) < border_m) {
                 return false;
             }
         }
@@ -219,7 +223,22 @@ bool inside(std::span<const glm::dvec2> area, const std::array<glm::dvec2, 4>& c
     return true;
 }
 
-/// The place of an arc around the shadow, on the reader's side if there is space.
+/// An arc on one side of the prop, at one moment of its swing of -1 to 1: around the prop if it is large enough for the
+/// shadow there, otherwise beside the shadow.
+SignPose arc_at(const glm::dvec2& prop, bool counter_clockwise, double angle, double scale, double swing,
+                const typography::TablePolygon& shadow) {
+    const glm::dvec2 ahead(std::sin(angle), -std::cos(angle));
+    const double beside_m = reach(shadow.corners(), prop, ahead) + gap_m + scale * arc_high_m;
+    const double turned = (counter_clockwise ? 0.5 : -0.5) * swing_rad * swing;
+    const glm::dvec2 turned_ahead(std::sin(angle + turned), -std::cos(angle + turned));
+    return {.origin_m = prop + turned_ahead * std::fmax(0.0, beside_m),
+            .angle = angle + turned,
+            .scale = scale,
+            .mirrored = !counter_clockwise};
+}
+
+/// The place of an arc around the shadow, on the reader's side if there is space; a smaller one has more places. It has
+/// space for its whole swing.
 std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise, double phase,
                                   const typography::TablePolygon& shadow, std::span<const glm::dvec2> area,
                                   double readers_angle) {
@@ -227,14 +246,18 @@ std::optional<SignPose> place_arc(const glm::dvec2& prop, bool counter_clockwise
     for (const glm::dvec2& corner : shadow.corners()) {
         radius = std::fmax(radius, glm::distance(corner, prop));
     }
-    const double scale = (radius + gap_m) / (arc_radius_m * std::cos(arc_half_angle) - 1.6 * arc_head_m);
-    for (const double side : {0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, pi}) {
-        SignPose pose{
-            .origin_m = prop, .angle = readers_angle + side, .scale = scale, .mirrored = !counter_clockwise};
-        pose.angle += (counter_clockwise ? swing_rad : -swing_rad) * (phase - 0.5);
-        const auto corners = corners_of(Sign::Turn, pose);
-        if (inside(area, corners) && clear_of(shadow, corners)) {
-            return pose;
+    const double around = (radius + gap_m) / -arc_high_m;
+    for (const double scale : {around, std::fmin(around, usual_arc_scale), min_arc_scale}) {
+        for (const int sixths : {0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6}) {
+            const double angle = readers_angle + pi / 6.0 * sixths;
+            const auto has_space = [&](double swing) {
+                const auto corners =
+                    corners_of(Sign::Turn, arc_at(prop, counter_clockwise, angle, scale, swing, shadow));
+                return inside(area, corners) && clear_of(shadow, corners);
+            };
+            if (has_space(0.0) && has_space(-1.0) && has_space(1.0)) {
+                return arc_at(prop, counter_clockwise, angle, scale, 2.0 * phase - 1.0, shadow);
+            }
         }
     }
     return std::nullopt;

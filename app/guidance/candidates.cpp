@@ -13,8 +13,10 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double down_within_m = 0.012;
 
 constexpr std::array<double, 4> coarse_ways_m{0.05, 0.12, 0.25, 0.50};
-constexpr std::array<double, 10> fine_turns_deg{8, 12, 17, 23, 30, 38, 48, 60, 75, 90};
-constexpr std::array<double, 3> coarse_turns_deg{20, 45, 90};
+/// The turns beyond a quarter are for props that a quarter turn changes.
+constexpr double quarter_deg = 90.0;
+constexpr std::array<double, 13> fine_turns_deg{8, 12, 17, 23, 30, 38, 48, 60, 75, 90, 110, 135, 160};
+constexpr std::array<double, 4> coarse_turns_deg{20, 45, 90, 135};
 constexpr std::array<double, 5> fine_heights_m{0.03, 0.06, 0.12, 0.20, 0.30};
 constexpr std::array<double, 2> coarse_heights_m{0.08, 0.25};
 
@@ -78,8 +80,12 @@ void add_places(const GuidanceSetup& setup, const GuidedState& tracked_state, Ca
     });
 }
 
-void add_turns(std::span<const double> turns_deg, Candidates& candidates) {
+void add_turns(std::span<const double> turns_deg, const GuidanceSetup& setup, Candidates& candidates) {
+    const double longest_deg = geometry::quarters_to_same(setup.prop) == 1 ? quarter_deg : turns_deg.back();
     for (const double turn_deg : turns_deg) {
+        if (turn_deg > longest_deg) {
+            break;
+        }
         for (const double sign : {1.0, -1.0}) {
             Move move{Action::Turn};
             move.turn_rad = sign * turn_deg * degree;
@@ -160,7 +166,7 @@ Candidates candidates(const GuidanceSetup& setup, const GuidedState& tracked_sta
     if (fine) {
         add_places(setup, tracked_state, candidates);
     }
-    add_turns(fine ? std::span<const double>(fine_turns_deg) : coarse_turns_deg, candidates);
+    add_turns(fine ? std::span<const double>(fine_turns_deg) : coarse_turns_deg, setup, candidates);
     if (setup.in_hand) {
         add_heights(fine ? std::span<const double>(fine_heights_m) : coarse_heights_m, setup, tracked_state,
                     candidates);

@@ -83,7 +83,8 @@ void RowShrinker::add_share(std::span<const glm::u8vec4> row, float share,
         const Covered& column = columns[x];
         glm::vec4 sum = sums[x];
         for (int i = 0; i < column.count; ++i) {
-            const glm::u8vec4& texel = row[static_cast<std::size_t>(column.first + i)];
+            const glm::u8vec4& texel =
+                row[static_cast<std::size_t>(column.first) + static_cast<std::size_t>(i)];
             sum += share * column.share[static_cast<std::size_t>(i)] *
                    glm::vec4(linear[texel.r], linear[texel.g], linear[texel.b], static_cast<float>(texel.a));
         }

@@ -184,6 +184,14 @@ Result<void> check_sound(const std::string& name, const Bytes& bytes) {
 
 } // namespace
 
+std::string label_key(std::size_t hotspot) {
+    return fmt::format("label.{}", hotspot);
+}
+
+std::string behaviour_key(std::size_t behaviour) {
+    return fmt::format("behaviour.{}", behaviour);
+}
+
 void put_sounds(Pack& pack, std::span<const SpokenLanguage> languages) {
     std::vector<SpokenEntry> entries;
     for (const SpokenLanguage& language : languages) {

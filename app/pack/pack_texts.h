@@ -3,8 +3,8 @@
 ///
 /// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit`
 ///          in its place); `description.0` ... for the description's portions (text_portions.h); `label.0` ... for
-///          the hotspots in their order. A text that is empty, or that could not be set, is missing. The sound of
-///          the description has the key `description`.
+///          the hotspots and `behaviour.0` ... for the titles of the behaviours, in their order. A text that is
+///          empty, or that could not be set, is missing. The sound of the description has the key `description`.
 /// Errors   one line: data that FORMAT.md does not allow; a part that contradicts the manifest. Messages of
 ///          `load_...` begin with the file's name. A pack without the sections is no error.
 /// Threads  pure; any.
@@ -15,6 +15,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -23,6 +24,9 @@
 #include <vector>
 
 namespace frustumscreen::pack {
+
+[[nodiscard]] std::string label_key(std::size_t hotspot);
+[[nodiscard]] std::string behaviour_key(std::size_t behaviour);
 
 struct SetLanguage {
     std::string language; ///< BCP 47

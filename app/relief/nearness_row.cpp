@@ -12,38 +12,27 @@ namespace frustumscreen::relief {
 
 namespace {
 
-/// The samples of a pixel, the nearest to its centre first.
+/// The samples of a pixel in pairs, the nearest to its centre first. The two of a pair lie on opposite sides of it
+/// (rasterize_blocks.cpp, sample_place).
 struct Order {
     std::array<std::size_t, RasterSamples::most> samples{};
     std::size_t count = 0;
 
     explicit Order(std::span<const glm::vec2> places) : count(places.size()) {
-        const auto off = [&](std::size_t k) { return glm::distance(places[k], glm::vec2(0.5F)); };
-        std::iota(samples.begin(), samples.end(), std::size_t{0});
-        std::sort(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count),
-                  [&](std::size_t a, std::size_t b) { return off(a) < off(b); });
+        std::array<std::size_t, RasterSamples::most / 2> first{};
+        const std::size_t pairs = count / 2;
+        std::iota(first.begin(), first.end(), std::size_t{0});
+        std::sort(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(pairs),
+                  [&](std::size_t a, std::size_t b) {
+                      return glm::distance(places[a], glm::vec2(0.5F)) <
+                             glm::distance(places[b], glm::vec2(0.5F));
+                  });
+        for (std::size_t k = 0; k < pairs; ++k) {
+            samples[2 * k] = first[k];
+            samples[2 * k + 1] = count - 1 - first[k];
+        }
     }
 };
-
-/// The hits of eight pixels, with their places in the picture.
-struct Hits {
-    Floats nearness{};
-    PixelLanes at{};
-};
-
-FRUSTUMSCREEN_INLINE Hits hits_at(const RasterSamples& samples, const Order& order, int x, int y) {
-    Hits hits;
-    const Floats left = __builtin_convertvector(lane_numbers + x, Floats);
-    for (std::size_t k = 0; k < order.count; ++k) {
-        const Floats met = load(&samples.nearness[samples.at(x, y, order.samples[k])]);
-        const Ints taken = (met > 0.0F) & (hits.nearness <= 0.0F);
-        const glm::vec2& place = samples.places()[order.samples[k]];
-        hits.nearness = taken ? met : hits.nearness;
-        hits.at.x = taken ? left + place.x : hits.at.x;
-        hits.at.y = taken ? all(static_cast<float>(y) + place.y) : hits.at.y;
-    }
-    return hits;
-}
 
 FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes& at) {
     return linear.x * at.x + linear.y * at.y + linear.z;
@@ -67,14 +56,38 @@ FRUSTUMSCREEN_INLINE Floats slant_at(const NearnessView& view, const PixelLanes&
     return slant;
 }
 
+/// Of sample `k` of eight pixels.
+FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const NearnessView& view, int x, int y,
+                                        std::size_t k) {
+    const Floats met = load(&samples.nearness[samples.at(x, y, k)]);
+    const glm::vec2& place = samples.places()[k];
+    PixelLanes at{__builtin_convertvector(lane_numbers + x, Floats) + place.x,
+                  all(static_cast<float>(y) + place.y)};
+    at = view.lens.bends ? unbent(view.lens, at) : at;
+    return met > 0.0F ? met / slant_at(view, at) : Floats{};
+}
+
+/// Of two samples on opposite sides of the centre: of one surface, what is between them; otherwise the nearer one.
+FRUSTUMSCREEN_INLINE Floats between(Floats a, Floats b) {
+    constexpr float one_surface = 31.0F / 32.0F;
+    const Floats near = most(a, b);
+    const Floats far = least(a, b);
+    return far > one_surface * near ? 0.5F * (near + far) : near;
+}
+
 FRUSTUMSCREEN_INLINE void find_nearness(const RasterSamples& samples, const NearnessView& view, int y,
                                         int first, std::span<float> nearness) {
     const Order order(samples.places());
     for (std::size_t begin = 0; begin < nearness.size(); begin += lanes) {
-        const Hits hits = hits_at(samples, order, first + static_cast<int>(begin), y);
-        const PixelLanes at = view.lens.bends ? unbent(view.lens, hits.at) : hits.at;
-        const Floats even = hits.nearness > 0.0F ? hits.nearness / slant_at(view, at) : Floats{};
-        std::memcpy(&nearness[begin], &even,
+        const int x = first + static_cast<int>(begin);
+        Floats shown{};
+        for (std::size_t k = 0; k < order.count && any(shown <= 0.0F); k += 2) {
+            const Floats one = nearness_at(samples, view, x, y, order.samples[k]);
+            const Floats pair =
+                order.count > 1 ? between(one, nearness_at(samples, view, x, y, order.samples[k + 1])) : one;
+            shown = shown > 0.0F ? shown : pair;
+        }
+        std::memcpy(&nearness[begin], &shown,
                     sizeof(float) * std::min<std::size_t>(lanes, nearness.size() - begin));
     }
 }

@@ -1,15 +1,15 @@
 /// How near to the eye is what a row of pixels shows, in one measure for all faces of the prop.
 ///
 /// Units    1 / s of the point E + s (S - E), where E is the eye and S the place on the prop that the pixel lights; 0
-///          without a hit. Of a pixel's hits the one nearest to its centre counts.
+///          without a hit. At the pixel's centre, between the hits on both sides of it that are nearest to it.
 /// Threads  pure; any.
 /// SIMD     as rasterize_blocks.h.
 #pragma once
 
 #include "app/relief/instructions.h"
 #include "app/relief/pixel_lens.h"
-#include "app/relief/rasterize_blocks.h"
 #include "app/relief/raster_view.h"
+#include "app/relief/rasterize_blocks.h"
 
 #include <span>
 #include <vector>

@@ -23,9 +23,9 @@
 namespace frustumscreen::relief {
 
 struct RasterFace {
-    int face = 0;                            ///< index into the prop's faces
-    glm::dmat3 direction{1.0};               ///< of the eye's ray, from (x, y, 1); box, not unit
-    glm::dvec3 slant{0.0};                   ///< FaceRays::slant: an affine map of the box changes neither it nor t
+    int face = 0;              ///< index into the prop's faces
+    glm::dmat3 direction{1.0}; ///< of the eye's ray, from (x, y, 1); box, not unit
+    glm::dvec3 slant{0.0};     ///< FaceRays::slant: an affine map of the box changes neither it nor t
     geometry::PerCorner<glm::dvec3> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
     glm::mat<4, 3, double> pixel_from_box{1.0};

@@ -24,8 +24,7 @@ struct ReadyItem {
     CornerMap map;
     float outward;        ///< sign of the picture area of a cell that faces the eye
     std::uint32_t number; ///< of the block, in the samples
-    const Dither* dither; ///< null: every pixel
-    bool every_pixel;     ///< neither the face's edges nor the dither leave out a pixel
+    const Dither* dither; ///< used if the rasterization dithers
 };
 
 FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView& view,
@@ -46,8 +45,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
             .map = corner_map(block, grid),
             .outward = turn > 0.0F ? -1.0F : 1.0F,
             .number = share.first_block + item.block,
-            .dither = share.dither ? &*share.dither : nullptr,
-            .every_pixel = item.inside && !share.dither};
+            .dither = share.dither ? &*share.dither : nullptr};
 }
 
 /// True if the surface exists at this position of the block.
@@ -196,6 +194,7 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
 }
 
 /// Rasterizes eight cells of a row into the samples of the pixels within `limits`.
+template <bool dithers>
 FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fragments,
                                           const ReadyItem& ready, const CellCorners& corners, Ints cells,
                                           int row, const PixelSpan& limits) {
@@ -215,14 +214,12 @@ FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fra
         const Ints first =
             ((pixels.top - all_pixels.y) * count + k) * all_pixels.width + (pixels.left - all_pixels.x);
         const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
-            if (!ready.every_pixel) {
-                if (!ready.item.inside) {
-                    in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
-                                          __builtin_convertvector(pixels.top + y, Floats) + sample.y});
-                }
-                if (ready.dither != nullptr) {
-                    in &= taken_by(*ready.dither, pixels.left + x, pixels.top + y);
-                }
+            if (!ready.item.inside) {
+                in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
+                                      __builtin_convertvector(pixels.top + y, Floats) + sample.y});
+            }
+            if constexpr (dithers) {
+                in &= taken_by(*ready.dither, pixels.left + x, pixels.top + y);
             }
             fragments.add(fragment_at(at, corners, weights), in, row,
                           first + (y * count * all_pixels.width + x));
@@ -259,6 +256,7 @@ FRUSTUMSCREEN_INLINE bool is_hidden(const RasterSamples& samples, const PixelSpa
     return true;
 }
 
+template <bool dithers>
 FRUSTUMSCREEN_INLINE void rasterize_item(RasterSamples& samples, const ReadyItem& ready,
                                          const PixelSpan& limits, Fragments& fragments) {
     if (is_hidden(samples, limits, ready.item.nearest)) {
@@ -268,7 +266,7 @@ FRUSTUMSCREEN_INLINE void rasterize_item(RasterSamples& samples, const ReadyItem
         samples.widen(y, {limits.left, limits.right});
     }
     const auto meet = [&](const CellCorners& corners, Ints cells, int row) FRUSTUMSCREEN_INLINED {
-        rasterize_cells(samples, fragments, ready, corners, cells, row, limits);
+        rasterize_cells<dithers>(samples, fragments, ready, corners, cells, row, limits);
     };
     for_each_row(ready, meet);
     fragments.take(samples, ready);
@@ -285,6 +283,7 @@ std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
                           items.first_of_band[band + 1] - items.first_of_band[band]);
 }
 
+template <bool dithers>
 FRUSTUMSCREEN_INLINE void rasterize_all(RasterSamples& samples, const BlockRelief& relief,
                                         const RasterView& view, const BlockItems& items,
                                         const RasterShare& share) {
@@ -293,8 +292,8 @@ FRUSTUMSCREEN_INLINE void rasterize_all(RasterSamples& samples, const BlockRelie
     for (int k = pixels.y / rows_of_band; k * rows_of_band < pixels.y + pixels.height; ++k) {
         for (const std::uint32_t place : items_of(items, k)) {
             const BlockItem& item = items.sorted[place];
-            rasterize_item(samples, ready(relief, view, items, item, share), within(item.area, pixels, k),
-                           fragments);
+            rasterize_item<dithers>(samples, ready(relief, view, items, item, share),
+                                    within(item.area, pixels, k), fragments);
         }
     }
 }
@@ -338,7 +337,11 @@ void RasterSamples::begin(const PixelRectangle& pixels, int count) {
 
 void rasterize(RasterSamples& samples, const BlockRelief& relief, const RasterView& view,
                const BlockItems& items, const RasterShare& share, Instructions instructions) {
-    run_with<rasterize_all>(instructions, samples, relief, view, items, share);
+    if (share.dither) {
+        run_with<rasterize_all<true>>(instructions, samples, relief, view, items, share);
+    } else {
+        run_with<rasterize_all<false>>(instructions, samples, relief, view, items, share);
+    }
 }
 
 namespace {

@@ -68,7 +68,7 @@ private:
 
 /// How a relief takes part in its samples.
 struct RasterShare {
-    std::uint32_t first_block = 0; ///< number of its first block in `RasterSamples::block`
+    std::uint32_t first_block = 0;               ///< number of its first block in `RasterSamples::block`
     std::optional<Dither> dither = std::nullopt; ///< nullopt: it takes every pixel
 };
 

@@ -59,11 +59,10 @@ PixelRectangle depth_part(const PixelRectangle& painted, std::span<const PixelRe
     for (const PixelRectangle& part : parts) {
         around = united(around, intersected(painted, part));
     }
-    return around.empty() ? around
-                          : PixelRectangle{.x = around.x,
-                                           .y = painted.y,
-                                           .width = around.width,
-                                           .height = painted.height};
+    return around.empty()
+               ? around
+               : PixelRectangle{
+                     .x = around.x, .y = painted.y, .width = around.width, .height = painted.height};
 }
 
 ReliefPainter::ReliefPainter(int threads) : samples_(static_cast<std::size_t>(threads)), workers_(threads) {}
@@ -105,7 +104,8 @@ void ReliefPainter::list_blocks_of_all() {
         Listed& listed = listed_[of];
         list_part(listed.items, *listed.seen.relief, *listed.seen.view, part);
     });
-    workers_.share(static_cast<int>(count_), [&](int k, int) { end_list(listed_[static_cast<std::size_t>(k)].items); });
+    workers_.share(static_cast<int>(count_),
+                   [&](int k, int) { end_list(listed_[static_cast<std::size_t>(k)].items); });
 }
 
 PixelRectangle ReliefPainter::lit_part(const RasterSamples& samples, int top, int bottom) {
@@ -146,7 +146,8 @@ void ReliefPainter::resolve(const RasterSamples& samples, const PixelRectangle& 
         resolve_columns(samples, y, {extent.first, left}, Outline::OverBlack, picture);
         resolve_columns(samples, y, {left, right}, Outline::Coverage, picture);
         resolve_columns(samples, y, {right, extent.end}, Outline::OverBlack, picture);
-        const std::span<float> nearness(&picture.depth.nearness.at(deep.x, y), static_cast<std::size_t>(deep.width));
+        const std::span<float> nearness(&picture.depth.nearness.at(deep.x, y),
+                                        static_cast<std::size_t>(deep.width));
         nearness_row(samples, nearness_, y, deep.x, nearness);
     }
 }

@@ -109,9 +109,9 @@ private:
     void resolve_columns(const RasterSamples& samples, int y, const RasterSamples::Extent& columns,
                          Outline outline, const Picture& picture) const;
 
-    std::vector<Listed> listed_;         ///< the first `count_` are of this picture
+    std::vector<Listed> listed_; ///< the first `count_` are of this picture
     std::size_t count_ = 0;
-    std::vector<std::size_t> order_;     ///< of these, roughly front to back
+    std::vector<std::size_t> order_; ///< of these, roughly front to back
     BlockPages pages_;
     NearnessView nearness_;
     std::vector<RasterSamples> samples_; ///< one per thread, each for one band at a time

@@ -73,8 +73,7 @@ private:
                 power[lane] = light.code[channel];
             }
             const auto shift = static_cast<unsigned>(8 * channel);
-            const Floats code =
-                __builtin_convertvector(std::bit_cast<Ints>(codes >> shift & 255U), Floats);
+            const Floats code = __builtin_convertvector(std::bit_cast<Ints>(codes >> shift & 255U), Floats);
             const Floats shown = relief::most(linear * code, (code + offset) * power - offset);
             lit |= std::bit_cast<Words>(__builtin_convertvector(shown + 0.5F, Ints)) << shift;
         }
@@ -187,24 +186,34 @@ public:
             const Words codes = colours_at(reliefs, {there & shown.block, there & shown.place});
             std::memcpy(static_cast<void*>(&colour_[k]), &codes, sizeof codes);
         }
-        std::size_t first = 0;
-        for (std::size_t pixel = 0; pixel < pixels_; ++pixel) {
-            glm::uvec3 sum(0);
-            const auto hits = static_cast<unsigned>(end_[pixel] - first);
-            for (; first < end_[pixel]; ++first) {
-                sum += light.light(colour_[first]);
-            }
-            if (outline == Outline::OverBlack) {
-                *code_[pixel] = light.mean(sum, count);
-            } else {
-                *code_[pixel] = light.mean(sum, hits);
-                code_[pixel]->a = static_cast<std::uint8_t>(255 * hits / count);
-            }
+        if (outline == Outline::OverBlack) {
+            for_each_sum(light, [&](std::size_t pixel, const glm::uvec3& sum, unsigned /*hits*/)
+                                    FRUSTUMSCREEN_INLINED { *code_[pixel] = light.mean(sum, count); });
+        } else {
+            for_each_sum(light,
+                         [&](std::size_t pixel, const glm::uvec3& sum, unsigned hits) FRUSTUMSCREEN_INLINED {
+                             *code_[pixel] = light.mean(sum, hits);
+                             code_[pixel]->a = static_cast<std::uint8_t>(255 * hits / count);
+                         });
         }
         pixels_ = shown_ = 0;
     }
 
 private:
+    /// Calls write(pixel, the light of its hits, their number) for all added pixels.
+    template <typename Write>
+    FRUSTUMSCREEN_INLINE void for_each_sum(const SampleLight& light, const Write& write) {
+        std::size_t first = 0;
+        for (std::size_t pixel = 0; pixel < pixels_; ++pixel) {
+            glm::uvec3 sum(0);
+            const std::size_t begin = first;
+            for (; first < end_[pixel]; ++first) {
+                sum += light.light(colour_[first]);
+            }
+            write(pixel, sum, static_cast<unsigned>(first - begin));
+        }
+    }
+
     static constexpr std::size_t max_pixels = 64;
     static constexpr std::size_t max_shown =
         max_pixels * count + lanes; ///< eights are read and written whole

@@ -58,6 +58,11 @@ int mip_of(const scene::Draw& draw, const GpuStore::Texture& texture, const Rast
     return std::max(mip - texture.finest_mip, 0);
 }
 
+/// Several samples a pixel are drawn in all colours, because only their mean is written in those of the eye.
+glm::bvec3 channels_of(const scene::FramePlan& plan, const Raster& raster) {
+    return raster.fragments == glm::ivec2(1) ? plan.picture.channels : glm::bvec3(true);
+}
+
 int outline_calls(const scene::FramePlan& plan) {
     std::size_t quads = 0;
     for (const scene::FacePlan& face : plan.faces) {
@@ -171,7 +176,7 @@ void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, c
         draw_outline(plan.faces[k].corners_clip, outline);
     }
     glDepthMask(GL_TRUE);
-    set_channels(plan.picture.channels);
+    set_channels(channels_of(plan, raster));
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 

@@ -78,7 +78,8 @@ void HitPointRenderer::add_rasters(const scene::FramePlan& plan, const GpuStore&
         for (std::size_t k = 0; k < points.texels.size(); ++k) {
             glm::vec3& nearest = points.texels[k];
             const glm::dvec3 point = in_prop(met.texels[k]);
-            if (std::isnan(nearest.x) || glm::distance(point, eye) < glm::distance(glm::dvec3(nearest), eye)) {
+            if (std::isnan(nearest.x) ||
+                glm::distance(point, eye) < glm::distance(glm::dvec3(nearest), eye)) {
                 nearest = point;
             }
         }

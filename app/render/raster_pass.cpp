@@ -108,7 +108,8 @@ void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& stor
     seen_.clear();
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         const scene::ReliefDraw& planned = plan.relief_draws[k];
-        const relief::BlockRelief* const relief = planned.on_gpu ? nullptr : store.find_relief(planned.relief);
+        const relief::BlockRelief* const relief =
+            planned.on_gpu ? nullptr : store.find_relief(planned.relief);
         if (relief != nullptr) {
             seen_.push_back({.relief = relief,
                              .view = &planned.view,
@@ -219,7 +220,8 @@ int RasterPass::show_in_depth(const scene::FramePlan& plan, const ShaderCache& s
     }
     shader->use();
     const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
-    glUniform4i(shader->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x, corner.y);
+    glUniform4i(shader->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x,
+                corner.y);
     const glm::vec4 ray = ray_from_fragment(plan.projector, raster);
     glUniform4fv(shader->location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
     glActiveTexture(GL_TEXTURE3);
@@ -265,9 +267,7 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
 }
 
 std::uint64_t RasterPass::bytes() const {
-    return painter_ ? bytes_of_texture(colour_texels_) +
-                          (nearness_.texels.empty() ? 0 : bytes_of_texture(nearness_texels_))
-                    : 0;
+    return bytes_of_texture(colour_texels_) + bytes_of_texture(nearness_texels_);
 }
 
 } // namespace frustumscreen::render

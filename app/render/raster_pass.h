@@ -51,7 +51,8 @@ private:
         const void* texels = nullptr;
         int bytes_of_texel = 0, width = 0; ///< in main memory
     };
-    static void upload(const Upload& from, std::span<const PixelRectangle> parts, const PixelRectangle& viewport);
+    static void upload(const Upload& from, std::span<const PixelRectangle> parts,
+                       const PixelRectangle& viewport);
     [[nodiscard]] Upload colours() const;
     [[nodiscard]] Upload depths() const;
 
@@ -62,9 +63,9 @@ private:
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
     scene::RasterLight light_;
-    image::Image8 memory_;           ///< main memory that the reliefs are rasterized in
-    image::Image<float> nearness_;   ///< as large if there is depth, otherwise empty
-    gl::GlTexture colour_texels_;    ///< valid in the rectangles that are drawn; the rest is from earlier frames
+    image::Image8 memory_;         ///< main memory that the reliefs are rasterized in
+    image::Image<float> nearness_; ///< as large if there is depth, otherwise empty
+    gl::GlTexture colour_texels_; ///< valid in the rectangles that are drawn; the rest is from earlier frames
     gl::GlTexture nearness_texels_;
     std::vector<relief::SeenRelief> seen_;
     std::vector<PixelRectangle> meeting_; ///< where the GPU draws something at other depths

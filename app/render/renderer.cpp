@@ -98,20 +98,41 @@ Renderer::Repaint Renderer::to_redraw(const scene::FramePlan& plan, std::size_t 
                                       const RenderTarget& target, Redraw redraw) const {
     const auto age = static_cast<std::size_t>(std::max(target.buffer_age, 0));
     if (redraw == Redraw::Everything || age == 0 || age > pictures_) {
-        return {{0, 0, plan.projector.width, plan.projector.height}, true};
+        return {.part = {0, 0, plan.projector.width, plan.projector.height}, .prop = true, .whole = true};
     }
     const Picture& held = history_[age - 1][eye];
-    Repaint repaint{{}, held.prop_hash != picture.prop_hash};
+    Repaint repaint{.part = {}, .prop = held.prop_hash != picture.prop_hash};
     if (held.hash == picture.hash) {
-        return {{}, false}; // the buffer already holds this picture
+        return {.part = {}, .prop = false}; // the buffer already holds this picture
     }
     held.add_changes(picture, repaint.part);
     picture.add_changes(held, repaint.part);
     repaint.part = repaint.prop ? united(repaint.part, held.prop_bounds) : repaint.part;
     if (repaint.prop || !intersected(repaint.part, picture.prop_bounds).empty()) {
-        repaint = {united(repaint.part, picture.prop_bounds), true};
+        repaint = {.part = united(repaint.part, picture.prop_bounds), .prop = true};
     }
     return repaint;
+}
+
+void Renderer::share_clears(std::span<const scene::FramePlan> plans, const EyePictures& pictures,
+                            std::array<Repaint, max_eyes>& repaints) const {
+    const bool overlaid = plans.size() > 1 && plans[0].picture.viewport == plans[1].picture.viewport;
+    if (overlaid && !repaints[0].whole) {
+        Repaint both{.part = united(repaints[0].part, repaints[1].part),
+                     .prop = repaints[0].prop || repaints[1].prop};
+        const PixelRectangle prop = united(pictures[0].prop_bounds, pictures[1].prop_bounds);
+        if (both.prop || !intersected(both.part, prop).empty()) {
+            both = {.part = united(both.part, prop), .prop = true};
+        }
+        repaints = {both, both};
+    }
+    for (std::size_t eye = 0; eye < plans.size(); ++eye) {
+        repaints[eye].clear = in_display(repaints[eye].part, plans[eye]);
+    }
+    if (plans.size() > 1 && (overlaid || repaints[0].whole)) {
+        repaints[0].clear = overlaid ? repaints[0].clear : PixelRectangle{0, 0, width_, height_};
+        repaints[1].clear = {};
+    }
 }
 
 bool Renderer::shows(std::span<const scene::FramePlan> plans) const {
@@ -130,10 +151,15 @@ DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderT
     }
     DrawResult result{.drawn = true, .redrawn = {}, .lit = {}, .draw_calls = 0};
     EyePictures pictures;
+    std::array<Repaint, max_eyes> repaints;
+    for (std::size_t eye = 0; eye < plans.size(); ++eye) {
+        pictures[eye] = picture_of(plans[eye]);
+        repaints[eye] = to_redraw(plans[eye], eye, pictures[eye], target, redraw);
+    }
+    share_clears(plans, pictures, repaints);
     for (std::size_t eye = 0; eye < plans.size(); ++eye) {
         const scene::FramePlan& plan = plans[eye];
-        pictures[eye] = picture_of(plan);
-        const Repaint repaint = to_redraw(plan, eye, pictures[eye], target, redraw);
+        const Repaint& repaint = repaints[eye];
         result.lit = united(result.lit, in_display(scene::lit_bounds(plan), plan));
         if (!repaint.part.empty()) {
             result.redrawn = united(result.redrawn, in_display(repaint.part, plan));
@@ -163,7 +189,6 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
     }
-    set_channels(plan.picture.channels);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
@@ -174,9 +199,16 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
     glEnable(GL_SCISSOR_TEST);
-    set_scissor(repaint.part, direct);
-    clear(GL_COLOR_BUFFER_BIT | (meshes ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT : 0U));
+    set_channels(glm::bvec3(true));
+    if (!repaint.clear.empty()) {
+        set_scissor(repaint.clear);
+        clear(GL_COLOR_BUFFER_BIT | (meshes ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT : 0U));
+    } else if (meshes) {
+        set_scissor(scene::bounds_in_prop(plan), direct);
+        clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    }
     glDisable(GL_SCISSOR_TEST);
+    set_channels(plan.picture.channels);
     result.draw_calls += table_.draw(plan, repaint.part, store_, shaders_, direct);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);

@@ -101,8 +101,10 @@ private:
         void add_changes(const Picture& other, PixelRectangle& changes) const;
     };
     struct Repaint {
-        PixelRectangle part; ///< of the eye's picture
-        bool prop = true;    ///< false: the part does not touch the prop
+        PixelRectangle part;    ///< of the eye's picture
+        bool prop = true;       ///< false: the part does not touch the prop
+        bool whole = false;     ///< the whole picture
+        PixelRectangle clear{}; ///< of the display's picture; empty: the eye before has cleared the part
     };
     static constexpr std::size_t max_eyes = 2;
     using EyePictures = std::array<Picture, max_eyes>;
@@ -112,6 +114,11 @@ private:
                DrawResult& result);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
                                     const RenderTarget& target, Redraw redraw) const;
+    /// Clears two whole pictures at once: a driver on the processor clears a part of a framebuffer, or some of its
+    /// colours, as it draws, which takes several times as long. Eyes in the same pixels are redrawn together, so that one
+    /// clear serves both.
+    void share_clears(std::span<const scene::FramePlan> plans, const EyePictures& pictures,
+                      std::array<Repaint, max_eyes>& repaints) const;
     [[nodiscard]] bool shows(std::span<const scene::FramePlan> plans) const;
 
     int width_, height_;

@@ -188,19 +188,22 @@ void main() {
 
 // The quadrilateral's corners: the edge's ends, then the inner corners.
 constexpr std::string_view feather_vertex = R"(
-uniform vec2 edge_share; // factor of linear light at the ends
-out float share;
+out vec2 at;
 void main() {
-    vec2 at = place_in_quad();
+    at = place_in_quad();
     gl_Position = corner(at);
-    share = mix(mix(edge_share.x, edge_share.y, at.x), 1.0, at.y);
 }
 )";
-// Codes are multiplied, so the factor is raised to sRGB's power.
+// Codes are multiplied, so the factor is raised to sRGB's power. The share is no linear function of the place: between a
+// triangle's corners it would be off where it differs from one end of the edge to the other.
 constexpr std::string_view feather_fragment = R"(
-in float share;
+in vec2 at;
+uniform vec2 edge_share; // factor of linear light at the ends
 out vec4 result;
-void main() { result = vec4(vec3(pow(max(share, 0.0), 1.0 / 2.4)), 1.0); }
+void main() {
+    float share = mix(mix(edge_share.x, edge_share.y, at.x), 1.0, at.y);
+    result = vec4(vec3(pow(max(share, 0.0), 1.0 / 2.4)), 1.0);
+}
 )";
 
 // A picture of light: colours, or coverage as white.
@@ -322,10 +325,11 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     case scene::ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case scene::ShaderKey::Pass::Surface:
-        return {defines,
-                key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
-                           : fmt::format("{}{}", bent_vertex, surface_vertex),
-                fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
+        return {
+            defines,
+            key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
+                       : fmt::format("{}{}", bent_vertex, surface_vertex),
+            fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
         return {tiles_defines, tiles, std::string(rasterize_fragment)};
     case scene::ShaderKey::Pass::RasterInDepth:

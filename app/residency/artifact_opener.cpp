@@ -56,13 +56,6 @@ Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& 
     return {};
 }
 
-exhibit::TriggeredBehaviour triggered(const world::Behaviour& behaviour) {
-    return {.trigger = behaviour.trigger,
-            .hotspot = behaviour.hotspot,
-            .narration_s = behaviour.narration_s,
-            .lasts = behaviour.repeats || behaviour.stays};
-}
-
 Result<KnownArtifact> open_pack(const settings::Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
     KnownArtifact opened{.file = file, .outline = {}, .plan = {}, .texts = {}};
@@ -81,11 +74,6 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != settings::SoundKind::None));
     TRY_VOID(find_whole_zone(settings, opened));
-    if (opened.world) {
-        for (const pack::PackBehaviour& behaviour : opened.world->world.behaviours) {
-            opened.texts.entry.behaviours.push_back(triggered(behaviour.behaviour));
-        }
-    }
     return opened;
 }
 

@@ -1,6 +1,7 @@
 #include "app/residency/artifact_texts.h"
 
 #include "app/exhibit/languages.h"
+#include "app/pack/pack_world.h"
 #include "app/pack/text_portions.h"
 #include "app/scene/scene_level.h"
 
@@ -79,9 +80,24 @@ bool is_flush_right(const TableText& text, const pack::SetLanguage* set) {
            });
 }
 
-/// Null if the bake could not set it in this language.
-const pack::GlyphText* label_in(const pack::SetLanguage* set, std::size_t hotspot) {
-    return set != nullptr ? set->runs.find(fmt::format("label.{}", hotspot)) : nullptr;
+/// A label or a title. Null if the bake could not set it in this language.
+const pack::GlyphText* label_in(const pack::SetLanguage* set, const std::string& key) {
+    return set != nullptr ? set->runs.find(key) : nullptr;
+}
+
+/// In each language; 0 where the bake could not set it.
+std::vector<glm::dvec2> label_sizes_m(const std::string& key, std::span<const std::string> languages,
+                                      std::span<const pack::SetLanguage> set, const TextStyle& style) {
+    std::vector<glm::dvec2> sizes_m;
+    for (const std::string& language : languages) {
+        const pack::SetLanguage* const texts = find_language(set, language);
+        const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, key)};
+        sizes_m.push_back(text.text != nullptr
+                              ? typography::caption_size_m(texts->runs, std::span(&text, 1), style.em_m,
+                                                           label_width_m, style.texels_per_m)
+                              : glm::dvec2(0.0));
+    }
+    return sizes_m;
 }
 
 /// Reading times of the hotspots' labels in the nearest language.
@@ -152,15 +168,30 @@ exhibit::HotspotSet lay_out_hotspots(const pack::PackDescription& pack,
         const pack::PackHotspot& hotspot = pack.hotspots[k];
         exhibit::LabelledHotspot& labelled = made.hotspots.emplace_back();
         labelled.at = {metres_per_box * hotspot.point, hotspot.normal};
-        for (const std::string& language : languages) {
-            const pack::SetLanguage* const texts = find_language(set, language);
-            const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, k)};
-            labelled.label_sizes_m.push_back(
-                text.text != nullptr
-                    ? typography::caption_size_m(texts->runs, std::span(&text, 1), style.em_m, label_width_m,
-                                                 style.texels_per_m)
-                    : glm::dvec2(0.0));
-        }
+        labelled.label_sizes_m = label_sizes_m(pack::label_key(k), languages, set, style);
+    }
+    return made;
+}
+
+/// The key of its title, which is shown only if a button begins it; empty: it is not.
+std::string title_key(world::Trigger trigger, std::size_t behaviour) {
+    return trigger == world::Trigger::Button ? pack::behaviour_key(behaviour) : std::string();
+}
+
+Result<std::vector<exhibit::TriggeredBehaviour>> lay_out_behaviours(const pack::PackDescription& pack,
+                                                                    std::span<const std::string> languages,
+                                                                    std::span<const pack::SetLanguage> set,
+                                                                    const TextStyle& style) {
+    TRY(const pack::PackWorld world, pack::world_outline_of(pack));
+    std::vector<exhibit::TriggeredBehaviour> made;
+    for (std::size_t k = 0; k < world.behaviours.size(); ++k) {
+        const world::Behaviour& behaviour = world.behaviours[k].behaviour;
+        made.push_back(
+            {.trigger = behaviour.trigger,
+             .hotspot = behaviour.hotspot,
+             .narration_s = behaviour.narration_s,
+             .lasts = behaviour.repeats || behaviour.stays,
+             .title_sizes_m = label_sizes_m(title_key(behaviour.trigger, k), languages, set, style)});
     }
     return made;
 }
@@ -176,6 +207,9 @@ std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart 
     };
     if (part == TextPart::Caption) {
         add(entry.caption_sizes_m[language]);
+        for (const exhibit::TriggeredBehaviour& behaviour : entry.behaviours) {
+            add(std::span(&behaviour.title_sizes_m[language], 1));
+        }
         return sizes;
     }
     for (const std::vector<glm::dvec2>& portion : entry.descriptions[language].sizes_m) {
@@ -204,9 +238,9 @@ public:
         }
         return {};
     }
-    void add_label(const std::string& language, std::size_t hotspot) {
+    void add_label(const std::string& language, const std::string& key) {
         const pack::SetLanguage* const texts = find_language(set_, language);
-        const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, hotspot)};
+        const typography::GlyphPart text{typography::CaptionRole::Text, label_in(texts, key)};
         pictures.push_back(text.text != nullptr
                                ? typography::make_caption(texts->runs, texts->atlas, std::span(&text, 1),
                                                           style_.em_m, label_width_m, style_.texels_per_m)
@@ -224,6 +258,7 @@ private:
 };
 
 Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& caption,
+                  std::span<const exhibit::TriggeredBehaviour> behaviours,
                   std::span<const pack::SetLanguage> set, TextPart part, Drawing& drawing) {
     TRY(const pack::ScanRights rights, pack::scan_rights(pack));
     const bool is_caption = part == TextPart::Caption;
@@ -231,11 +266,11 @@ Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& ca
          is_caption ? caption_texts(rights, caption, set) : told_texts(rights, caption, set).portions) {
         TRY_VOID(drawing.add(text));
     }
-    if (is_caption) {
-        return {};
+    for (std::size_t k = 0; is_caption && k < behaviours.size(); ++k) {
+        drawing.add_label(caption.language, title_key(behaviours[k].trigger, k));
     }
-    for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
-        drawing.add_label(caption.language, k);
+    for (std::size_t k = 0; !is_caption && k < pack.hotspots.size(); ++k) {
+        drawing.add_label(caption.language, pack::label_key(k));
     }
     return {};
 }
@@ -261,6 +296,8 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
                                  sounds.value_or(std::vector<pack::SpokenText>()), setter, made)));
     }
     made.entry.hotspots = lay_out_hotspots(source.pack, languages, set, metres_per_box, style);
+    TRY(made.entry.behaviours,
+        at(source.file.string(), lay_out_behaviours(source.pack, languages, set, style)));
     return made;
 }
 
@@ -270,6 +307,10 @@ std::size_t portion_picture(std::size_t portion, std::size_t shape) {
 
 std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language, std::size_t hotspot) {
     return portion_picture(entry.descriptions[language].sizes_m.size(), hotspot);
+}
+
+std::size_t title_picture(const exhibit::CatalogueEntry& entry, std::size_t language, std::size_t behaviour) {
+    return entry.caption_sizes_m[language].size() + behaviour;
 }
 
 std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,
@@ -288,7 +329,8 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     TRY(const std::vector<pack::SetLanguage> set,
         pack::load_set_texts(source.file, std::span(&caption.language, 1)));
     Drawing drawing(style, set, given_up);
-    TRY_VOID(at(source.file.string(), draw(source.pack, caption, set, part, drawing)));
+    TRY_VOID(
+        at(source.file.string(), draw(source.pack, caption, texts.entry.behaviours, set, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
     const auto as_laid_out = [](const image::Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;

@@ -5,8 +5,8 @@
 /// Units    metres on the table; coverage as in caption_image.h.
 /// Threads  pure except for reading the file; any. Never in a frame.
 /// Errors   as load_set_texts; no typeface where one is needed; a pack that has changed since the layout.
-///          Messages begin with the file's name. A label that the bake could not set has size 0 and no
-///          picture.
+///          Messages begin with the file's name. A label or title that the bake could not set has size 0 and
+///          no picture.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -44,11 +44,14 @@ struct ArtifactTexts {
 enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
 inline constexpr std::size_t text_parts = 2;
 
-/// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one; of the
-/// narration, by portion and width, with the attribution as the last portion, then the hotspots' labels.
+/// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one, then the
+/// titles of behaviours; of the narration, by portion and width, with the attribution as the last portion, then the
+/// hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);
+[[nodiscard]] std::size_t title_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
+                                        std::size_t behaviour);
 /// GPU memory of a part's pictures.
 [[nodiscard]] std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part,
                                        std::size_t language, const TextStyle& style);

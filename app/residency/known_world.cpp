@@ -83,6 +83,13 @@ Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& s
     if (outline.behaviours.empty()) {
         return nullptr;
     }
+    return open_cells(settings, file, std::move(outline), whole, request);
+}
+
+Result<std::shared_ptr<const KnownWorld>> open_cells(const settings::Settings& settings,
+                                                     const std::filesystem::path& file,
+                                                     pack::PackWorld outline, const scene::ScenePlan& whole,
+                                                     const scene::SceneRequest& request) {
     auto known = std::make_shared<KnownWorld>();
     known->world = std::move(outline);
     std::vector<world::Cell> cells;

@@ -38,6 +38,11 @@ struct KnownWorld {
                                                                    const scene::ScenePlan& whole,
                                                                    const scene::SceneRequest& request);
 
+/// As above for a known outline, also if it has no behaviours.
+[[nodiscard]] Result<std::shared_ptr<const KnownWorld>>
+open_cells(const settings::Settings& settings, const std::filesystem::path& file, pack::PackWorld outline,
+           const scene::ScenePlan& whole, const scene::SceneRequest& request);
+
 /// The needs of a renderer for the whole artifact and all of its cells, which fade into each other.
 [[nodiscard]] scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole);
 

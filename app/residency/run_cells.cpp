@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace frustumscreen::residency {
@@ -50,7 +51,8 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
-      player_(cells_of(world), behaviours_of(world)), choice_(cells.options), offered_(cells.levels.size()) {
+      player_(cells_of(world), behaviours_of(world)), choice_(cells.options),
+      rasterized_choice_(cells.options), offered_(cells.levels.size()), rasterized_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show
     for (const PreparedLevel& level : whole_levels) {
         indices = std::max(indices, indices_of(level));
@@ -82,6 +84,15 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
             std::sort(largest.begin(), largest.end());
         }
         indices += largest[0] + largest[1];
+    }
+    can_rasterize_all_ = true;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        std::size_t rasterized = 0;
+        for (std::size_t option = cells_[k].first; option < cells_[k].first + cells.options[k]; ++option) {
+            rasterized += is_rasterized(option) ? 1 : 0;
+        }
+        can_rasterize_all_ = can_rasterize_all_ && rasterized > 0;
+        cells_[k].is_relief_alone = rasterized == cells.options[k];
     }
     parts_.reserve(2 * cells_.size() + 1);
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
@@ -177,27 +188,78 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
     if (leaves_) {
         return;
     }
+    constexpr double never = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
         for (std::size_t option = cells_[k].first; option < end; ++option) {
-            offered_[option] = option_of(options_[option], cells_[k].pixels, all_pixels, samples);
+            offered_[option] = rasterized_[option] =
+                option_of(options_[option], cells_[k].pixels, all_pixels, samples);
+            if (!is_rasterized(option)) {
+                rasterized_[option].cost_us = never;
+            } else if (!cells_[k].is_relief_alone) {
+                offered_[option].cost_us = never;
+            }
         }
     }
-    const double budget_ms = scene::Governor::leave_share * deadline_ms_ / load() - fixed_ms_;
-    const std::span<const std::size_t> chosen = choice_.choose(now, offered_, 1e3 * budget_ms);
-    expected_ms_ = fixed_ms_;
+    const double budget_us = 1e3 * (scene::Governor::leave_share * deadline_ms_ / load() - fixed_ms_);
+    std::span<const std::size_t> chosen = choice_.choose(now, offered_, budget_us);
+    scene::CellOption drawn = sum(chosen, offered_);
+    if (can_rasterize_all_) {
+        const std::span<const std::size_t> others = rasterized_choice_.choose(now, rasterized_, budget_us);
+        const scene::CellOption rasterized = sum(others, rasterized_);
+        choose_kind(now, drawn, rasterized, budget_us);
+        chosen = rasterizes_all_ ? others : chosen;
+        drawn = rasterizes_all_ ? rasterized : drawn;
+    }
+    expected_ms_ = fixed_ms_ + 1e-3 * drawn.cost_us;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         Cell& cell = cells_[k];
-        expected_ms_ += 1e-3 * offered_[cell.first + chosen[k]].cost_us;
         if (is_new_) {
             cell.shown = chosen[k];
             cell.coming.reset();
         } else if (!cell.coming && cell.shown != chosen[k]) {
             cell.coming = chosen[k];
             cell.fade_start = now;
+            ++switches_;
         }
     }
     is_new_ = false;
+}
+
+scene::CellOption RunCells::sum(std::span<const std::size_t> chosen,
+                                const std::vector<scene::CellOption>& offered) const {
+    scene::CellOption sum;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        const scene::CellOption& option = offered[cells_[k].first + chosen[k]];
+        sum.error_mm += option.error_mm;
+        sum.cost_us += option.cost_us;
+    }
+    return sum;
+}
+
+/// As CellChoice: a kind is left for a clearly better one, and at once if it breaks the budget.
+void RunCells::choose_kind(MonotonicTime now, const scene::CellOption& mixed,
+                           const scene::CellOption& rasterized, double budget_us) {
+    const auto is_better = [budget_us](const scene::CellOption& a, const scene::CellOption& b,
+                                       double clearly) {
+        if (b.cost_us > budget_us) {
+            return a.cost_us <= budget_us || a.cost_us < clearly * b.cost_us;
+        }
+        return a.cost_us <= clearly * budget_us && a.error_mm < clearly * b.error_mm;
+    };
+    constexpr double clearly = 0.9;
+    if (is_new_) {
+        rasterizes_all_ = is_better(rasterized, mixed, 1.0);
+        kind_changed_ = now;
+        return;
+    }
+    const scene::CellOption& present = rasterizes_all_ ? rasterized : mixed;
+    const scene::CellOption& other = rasterizes_all_ ? mixed : rasterized;
+    const bool may_change = present.cost_us > budget_us || now - kind_changed_ >= scene::cell_dwell;
+    if (may_change && is_better(other, present, clearly)) {
+        rasterizes_all_ = !rasterizes_all_;
+        kind_changed_ = now;
+    }
 }
 
 void RunCells::add_part(const Cell& cell, std::size_t option, int samples,

@@ -5,7 +5,10 @@
 ///          its place in one frame, at rest, where both show the same within their errors. When everything is at rest
 ///          again and no cell fades, the picture fades back to the whole.
 /// Choice   CellChoice: each option's error is the worst that its eyes see, its time that of its triangles or blocks and
-///          of the cell's pixels (cell_plan.h), times the load that frames have shown.
+///          of the cell's pixels (cell_plan.h), times the load that frames have shown. A rasterized
+///          relief among polygons is drawn once more by the GPU, in each sample: on the software driver 10 ms of relief and
+///          20 ms of polygons cost 40 ms together. So two choices are made, one of rasterized reliefs alone and one of all else,
+///          and the better one is taken; only fades, and cells that have nothing else, mix them.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -71,7 +74,7 @@ public:
 
     /// Of the last frame drawn, the mean over the cells by their pixels.
     [[nodiscard]] const std::optional<scene::ErrorEstimate>& error() const { return error_; }
-    [[nodiscard]] std::uint64_t switches() const { return choice_.switches(); }
+    [[nodiscard]] std::uint64_t switches() const { return switches_; }
     /// The plan of each eye's latest picture.
     [[nodiscard]] std::span<const scene::FramePlan> plans() const { return plans_; }
 
@@ -83,16 +86,26 @@ private:
         double triangles = 0.0; ///< or blocks
     };
     struct Cell {
-        std::size_t number = 0; ///< index into the player's cells
-        std::size_t first = 0;  ///< of its options
-        double pixels = 0.0;    ///< in this frame's picture of one eye
-        std::size_t shown = 0;  ///< index into its options
+        std::size_t number = 0;       ///< index into the player's cells
+        std::size_t first = 0;        ///< of its options
+        bool is_relief_alone = false; ///< it has rasterized reliefs and nothing else
+        double pixels = 0.0;          ///< in this frame's picture of one eye
+        std::size_t shown = 0;        ///< index into its options
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
     void choose(MonotonicTime now, int samples, const scene::PlanView& view);
+    /// The sums over all cells.
+    [[nodiscard]] scene::CellOption sum(std::span<const std::size_t> chosen,
+                                        const std::vector<scene::CellOption>& offered) const;
+    /// Sets `rasterizes_all_`.
+    void choose_kind(MonotonicTime now, const scene::CellOption& mixed, const scene::CellOption& rasterized,
+                     double budget_us);
+    [[nodiscard]] bool is_rasterized(std::size_t option) const {
+        return options_[option].placed.relief && !options_[option].placed.on_gpu;
+    }
     void add_parts(MonotonicTime now, const scene::PlacedLevel& whole);
     void add_part(const Cell& cell, std::size_t option, int samples,
                   const std::optional<scene::Dither>& dither);
@@ -106,8 +119,12 @@ private:
     std::vector<LevelUse> uses_;
     std::vector<Option> options_;
     std::vector<Cell> cells_;
-    scene::CellChoice choice_;
-    std::vector<scene::CellOption> offered_; ///< of each option, in this frame
+    scene::CellChoice choice_, rasterized_choice_;
+    std::vector<scene::CellOption> offered_, rasterized_; ///< of each option, in this frame
+    bool can_rasterize_all_ = false;
+    bool rasterizes_all_ = false; ///< the choice of rasterized reliefs is drawn
+    MonotonicTime kind_changed_;
+    std::uint64_t switches_ = 0; ///< of cells, while they are on show
     scene::FrameCost cost_;
     double fixed_ms_ = 0.0;
     double expected_ms_ = 0.0; ///< of the chosen options, without load

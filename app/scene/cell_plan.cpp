@@ -53,6 +53,58 @@ std::string cell_technique(std::string_view technique, const pack::PackOutline& 
                              technique.ends_with(on_gpu_suffix) ? on_gpu_suffix : "");
 }
 
+namespace {
+
+/// The techniques for each of a cell's levels, the finest first, and for each of its reliefs.
+Result<std::vector<std::string>> every_technique(const pack::PackOutline& cell) {
+    std::vector<std::string> names;
+    for (std::size_t level = cell.levels.size(); level-- > 0;) {
+        names.push_back(fmt::format("level{}", level));
+    }
+    TRY(const std::vector<pack::ReliefOutline> reliefs, pack::reliefs_of(cell.description));
+    for (const pack::ReliefOutline& relief : reliefs) {
+        names.push_back(fmt::format("relief{}", relief.texels));
+    }
+    return names;
+}
+
+/// Adds what `way` draws, if the plan does not draw it yet.
+void add_way(const ScenePlan& way, ScenePlan& plan) {
+    const QualityLevel& added = way.quality_levels.front();
+    if (std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
+                    [&](const QualityLevel& known) { return known.shows_as(added); })) {
+        return;
+    }
+    plan.quality_levels.push_back(added);
+    plan.needs = united(plan.needs, way.needs);
+    if (!added.relief) {
+        plan.levels.push_back(added.level);
+    } else if (std::find(plan.reliefs.begin(), plan.reliefs.end(), way.reliefs.front()) ==
+               plan.reliefs.end()) {
+        plan.reliefs.push_back(way.reliefs.front());
+        plan.seen_reliefs.push_back(way.seen_reliefs.front());
+    }
+}
+
+/// The governor's ladder ends at what is good enough. Which level of a cell is worth its time depends on the other cells,
+/// so a cell has all of them.
+Result<void> add_every_way(const settings::Settings& settings, const pack::PackOutline& cell,
+                           SceneRequest request, ScenePlan& plan) {
+    TRY(const std::vector<std::string> names, every_technique(cell));
+    request.live = false;
+    for (const std::string& name : names) {
+        request.technique = name;
+        TRY(const ScenePlan way, plan_scene(settings, cell, request));
+        add_way(way, plan);
+    }
+    constexpr std::size_t in_a_fade = 2;
+    plan.needs.relief_draws = std::min(plan.reliefs.size(), in_a_fade);
+    std::erase_if(plan.left_out, [](const LeftOut& each) { return each.cull_kind == UnusedLevels; });
+    return {};
+}
+
+} // namespace
+
 Result<ScenePlan> plan_cell(const settings::Settings& settings, const pack::PackOutline& cell,
                             const ScenePlan& whole, const world::CellPose& at_rest, SceneRequest request) {
     request.technique = cell_technique(request.technique, cell);
@@ -60,6 +112,9 @@ Result<ScenePlan> plan_cell(const settings::Settings& settings, const pack::Pack
     request.cull_kinds &= ~static_cast<unsigned>(UnseenTriangles | UnusedDetail);
     request.captions.clear();
     TRY(ScenePlan plan, plan_scene(settings, cell, request));
+    if (request.live && request.technique == "auto") {
+        TRY_VOID(add_every_way(settings, cell, request, plan));
+    }
     plan.light = whole.light;
     return plan;
 }

@@ -25,7 +25,8 @@ void set_pose(PlacedLevel& level, const world::CellPose& pose, double artifact_m
 /// that the cell lacks becomes its finest one; without any relief the cell's default level.
 [[nodiscard]] std::string cell_technique(std::string_view technique, const pack::PackOutline& cell);
 
-/// `whole`: the artifact's own plan; `request`: the same request. A cell may turn any side to the eye, so none of its
+/// `whole`: the artifact's own plan; `request`: the same request. If a governor may choose, the plan has every level and
+/// every relief of the cell (CellChoice), not only those that are good enough. A cell may turn any side to the eye, so none of its
 /// triangles and no detail is left out.
 [[nodiscard]] Result<ScenePlan> plan_cell(const settings::Settings& settings, const pack::PackOutline& cell,
                                           const ScenePlan& whole, const world::CellPose& at_rest,

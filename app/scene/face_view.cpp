@@ -155,4 +155,20 @@ double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
     return std::sqrt(glm::length(glm::cross(across, down)));
 }
 
+/// Clip w of E + s (S - E) is s w(S), and w(S) is a constant of the face divided by -n.L: so z / w = a + b / w is linear
+/// in L / s. The constant is found at a corner of the face, where S is known.
+glm::vec4 depth_from_nearness(const geometry::PropFace& face, const glm::dmat4& clip_from_prop,
+                              const glm::dmat4& projector_from_prop) {
+    const glm::dvec3 slant = -glm::dmat3(projector_from_prop) * face.plane.normal; // times L: -n.L
+    const glm::dvec3 corner(projector_from_prop * glm::dvec4(face.corners[0], 1.0));
+    const double w = (clip_from_prop * glm::dvec4(face.corners[0], 1.0)).w;
+    const double w_slant = w * glm::dot(slant, corner) / corner.z;
+    // The collineation's depth row is a times its w row, and b more in the last column.
+    const glm::dvec3 w_row(clip_from_prop[0].w, clip_from_prop[1].w, clip_from_prop[2].w);
+    const glm::dvec3 z_row(clip_from_prop[0].z, clip_from_prop[1].z, clip_from_prop[2].z);
+    const double a = glm::dot(z_row, w_row) / glm::dot(w_row, w_row);
+    const double b = clip_from_prop[3].z - a * clip_from_prop[3].w;
+    return {glm::vec3(b / w_slant * slant), static_cast<float>(a)};
+}
+
 } // namespace frustumscreen::scene

@@ -61,4 +61,8 @@ struct FaceView {
 [[nodiscard]] double pixels_per_unit(const glm::dmat4& clip_from_box, const glm::dvec3& point,
                                      const geometry::Pinhole& pinhole);
 
+/// FacePlan::depth_from_nearness, of the face's collineation.
+[[nodiscard]] glm::vec4 depth_from_nearness(const geometry::PropFace& face, const glm::dmat4& clip_from_prop,
+                                            const glm::dmat4& projector_from_prop);
+
 } // namespace frustumscreen::scene

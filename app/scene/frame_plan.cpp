@@ -205,21 +205,6 @@ bool plan_relief_draw(const Part& part, const Shared& shared, FramePlan& plan) {
     return true;
 }
 
-/// FacePlan::depth_from_nearness. Clip w of E + s (S - E) is s w(S), and w(S) is a constant of the face divided by
-/// -n.L: so z / w = a + b / w is linear in L / s. The constant is found at a corner of the face, where S is known.
-glm::vec4 depth_from_nearness(const geometry::PropFace& face, const glm::dmat4& clip, const Shared& shared) {
-    const glm::dvec3 slant = -glm::dmat3(shared.projector_from_prop) * face.plane.normal; // times L: -n.L
-    const glm::dvec3 corner(shared.projector_from_prop * glm::dvec4(face.corners[0], 1.0));
-    const double w = (clip * glm::dvec4(face.corners[0], 1.0)).w;
-    const double w_slant = w * glm::dot(slant, corner) / corner.z;
-    // The collineation's depth row is a times its w row, and b more in the last column.
-    const glm::dvec3 w_row(clip[0].w, clip[1].w, clip[2].w);
-    const glm::dvec3 z_row(clip[0].z, clip[1].z, clip[2].z);
-    const double a = glm::dot(z_row, w_row) / glm::dot(w_row, w_row);
-    const double b = clip[3].z - a * clip[3].w;
-    return {glm::vec3(b / w_slant * slant), static_cast<float>(a)};
-}
-
 /// Part by part, because the triangles that face the eye are found once for all faces that share the eye. Returns the
 /// faces, as bits, through which an eye looks at a part, whether or not they show some of it.
 std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
@@ -251,8 +236,8 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
                     added.corners_clip.push_back(corner_in_clip(corner, shared.clip_from_prop));
                 }
                 added.pixels_per_m = draw->pixels_per_box / part.level.metres_per_box;
-                added.depth_from_nearness =
-                    depth_from_nearness(shared.prop.faces[face], through[face]->clip_from_prop, shared);
+                added.depth_from_nearness = depth_from_nearness(
+                    shared.prop.faces[face], through[face]->clip_from_prop, shared.projector_from_prop);
             }
             FacePlan& on = plan.faces[*planned[face]];
             on.bounds = united(on.bounds, draw->bounds);

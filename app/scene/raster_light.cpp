@@ -55,8 +55,8 @@ FRUSTUMSCREEN_INLINE relief::Ints lit(const RasterLight::Gain& gain, const relie
         gain.brightness_code *
         relief::least(relief::all(gain.max_code),
                       share.code * gain.per_cubic_metre_code * distance * root_of(root_of(distance)));
-    const auto channel_in = [&](int shift, const relief::Floats& linear_in, const relief::Floats& power_in)
-                                FRUSTUMSCREEN_INLINED {
+    const auto channel_in = [&](int shift, const relief::Floats& linear_in,
+                                const relief::Floats& power_in) FRUSTUMSCREEN_INLINED {
         const relief::Floats code = __builtin_convertvector(texels >> shift & 255, relief::Floats);
         const relief::Floats straight = linear_in * code;
         const relief::Floats by_power = (code + code_offset) * power_in - code_offset;
@@ -66,8 +66,9 @@ FRUSTUMSCREEN_INLINE relief::Ints lit(const RasterLight::Gain& gain, const relie
                << shift;
     };
     const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
-        return gain.coloured ? channel_in(shift, linear * gain.light[shift / 8], power * gain.light_code[shift / 8])
-                             : channel_in(shift, linear, power);
+        return gain.coloured
+                   ? channel_in(shift, linear * gain.light[shift / 8], power * gain.light_code[shift / 8])
+                   : channel_in(shift, linear, power);
     };
     constexpr auto alpha = static_cast<std::int32_t>(0xFF000000U);
     const relief::Ints seen = texels & alpha;

@@ -8,7 +8,8 @@ namespace frustumscreen::scene {
 namespace {
 
 std::string name_of_light(const ShaderKey& key) {
-    return std::string(key.even_light ? " in even light" : " in plain light") + (key.coloured ? " of a colour" : "");
+    return std::string(key.even_light ? " in even light" : " in plain light") +
+           (key.coloured ? " of a colour" : "");
 }
 
 std::string name_of_surface(const ShaderKey& key) {
@@ -48,8 +49,8 @@ std::string name_of(const ShaderKey& key) {
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 6U | bit(key.coloured, 5) | bit(key.blocks, 4) | bit(key.places, 3) |
-           bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
+    return static_cast<std::uint32_t>(key.pass) << 6U | bit(key.coloured, 5) | bit(key.blocks, 4) |
+           bit(key.places, 3) | bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
 }
 
 ShaderKey places_of(ShaderKey key) {

@@ -56,6 +56,11 @@ std::array<PlanView, 2> views_of(const StereoLayout& layout, const PlanView& vie
     return views;
 }
 
+std::span<const glm::dvec3> drawn_eyes(const StereoLayout& layout, const glm::dvec3& between_m,
+                                       const std::array<glm::dvec3, 2>& both_m) {
+    return layout.count == 1 ? std::span(&between_m, 1) : std::span<const glm::dvec3>(both_m);
+}
+
 bool keeps_pixels(settings::Stereo stereo) {
     return stereo == settings::Stereo::Off || stereo == settings::Stereo::Anaglyph;
 }

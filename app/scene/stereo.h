@@ -32,6 +32,9 @@ struct StereoLayout {
 /// each eye; it must outlive the views. The first `layout.count` are valid.
 [[nodiscard]] std::array<PlanView, 2> views_of(const StereoLayout& layout, const PlanView& view,
                                                std::span<const glm::dvec3> eyes_m);
+/// The eyes that the layout draws for: the one between them, or both, the left eye first. The points must outlive it.
+[[nodiscard]] std::span<const glm::dvec3> drawn_eyes(const StereoLayout& layout, const glm::dvec3& between_m,
+                                                     const std::array<glm::dvec3, 2>& both_m);
 /// True if a picture for both eyes is shown in the projector's own pixels, where it can be measured: without stereo, and
 /// as an anaglyph.
 [[nodiscard]] bool keeps_pixels(settings::Stereo stereo);

@@ -125,7 +125,9 @@ template <typename Fields> void projector_pose_settings(Fields& fields, auto& po
 void projector_settings(auto& fields, auto& projector) {
     lens_settings(fields, projector.pinhole);
     projector_pose_settings(fields, projector.table_from_projector);
-    fields.number("refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
+    fields.number(
+        "refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"},
+        "pictures a second; with \"frame_sequential\" both eyes' are counted: half of them for each");
     fields.choice("stereo", projector.stereo, projector_stereo_names,
                   "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
     fields.number(

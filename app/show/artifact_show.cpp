@@ -296,6 +296,25 @@ void ArtifactShow::place_hotspot(const exhibit::Presentation& presentation) {
     }
 }
 
+void ArtifactShow::place_title(const exhibit::Presentation& presentation) {
+    if (!presentation.title) {
+        return;
+    }
+    const auto& [artifact, behaviour, language] = presentation.title->title;
+    const residency::LoadedTexts* const texts =
+        set_->artifact_cache->texts(artifact, residency::TextPart::Caption, language);
+    const scene::TextureId texture =
+        texts != nullptr
+            ? texts->texture(residency::title_picture(catalogue()[artifact], language, behaviour))
+            : scene::TextureId::None;
+    if (texture != scene::TextureId::None) {
+        on_table_.add({.corners_m = residency::picture_corners(residency::on_pixels(
+                           presentation.title->rectangle, projector_, table_from_projector_)),
+                       .brightness = caption_brightness_ * presentation.title->brightness,
+                       .texture = texture});
+    }
+}
+
 void ArtifactShow::place_signs(const exhibit::Presentation& presentation) {
     if (presentation.sign) {
         const exhibit::PlacedSign& sign = *presentation.sign;
@@ -356,6 +375,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
         set_->table.place_placeholder(*presentation.placeholder, on_table_);
     }
     place_hotspot(presentation);
+    place_title(presentation);
     place_signs(presentation);
     notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
                   renderer_.store(), on_table_);

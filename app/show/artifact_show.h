@@ -142,6 +142,8 @@ private:
     /// Places the frame around the prop's zone.
     void place_zone_frame(const exhibit::Presentation& presentation);
     void place_hotspot(const exhibit::Presentation& presentation);
+    /// Places the title of the behaviour that the button begins.
+    void place_title(const exhibit::Presentation& presentation);
     /// Places the sign of the guidance.
     void place_signs(const exhibit::Presentation& presentation);
     /// Nothing if no caption is shown, or if its picture is not loaded.

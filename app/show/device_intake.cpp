@@ -57,6 +57,12 @@ tracking::TwoEyes two_eyes(const settings::Settings& settings) {
             .glasses_may_lie = tracker != settings::TrackerKind::Simulated};
 }
 
+/// A frustum of the zone Table stands at all times.
+tracking::PropMotion prop_motion(const settings::PropSettings& prop) {
+    const bool on_table = prop.kind == settings::PropKind::Frustum && prop.zone == settings::PropZone::Table;
+    return on_table ? tracking::PropMotion::OnTable : tracking::PropMotion::InHand;
+}
+
 } // namespace
 
 std::string camera_uses(const Inputs& inputs) {
@@ -75,7 +81,8 @@ std::string camera_uses(const Inputs& inputs) {
 
 DeviceIntake::DeviceIntake(const settings::Settings& settings, Inputs& inputs)
     : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
-      tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m, two_eyes(settings)) {
+      tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m, two_eyes(settings),
+                     prop_motion(settings.prop)) {
     samples_.reserve(1024);
     tag_poses_.reserve(64);
     heads_.reserve(64);

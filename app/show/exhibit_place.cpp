@@ -6,10 +6,27 @@
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace frustumscreen::show {
+
+namespace {
+
+/// A script has the buttons up to the last that it presses.
+std::size_t buttons_of(const settings::PanelSettings& panel) {
+    if (panel.kind != settings::PanelKind::Scripted) {
+        return panel.buttons();
+    }
+    int count = 0;
+    for (const settings::ScriptedPress& press : panel.script) {
+        count = std::max(count, press.button + 1);
+    }
+    return static_cast<std::size_t>(count);
+}
+
+} // namespace
 
 exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     exhibit::ExhibitPlace place;
@@ -21,7 +38,7 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     place.picture_edges.assign(edges.begin(), edges.end());
     place.attract_place_m = settings::lit_rectangle(settings).centre_m;
     place.in_hand = settings.prop.zone == settings::PropZone::Hand;
-    place.buttons = settings.panel.buttons();
+    place.buttons = buttons_of(settings.panel);
     if (settings::guides_visitors(settings)) {
         place.guidance = exhibit::guidance_setup(settings);
     }

@@ -45,6 +45,7 @@ void dim(exhibit::Presentation& presentation, double light) {
     dim_part(presentation.sign);
     dim_part(presentation.advice);
     dim_part(presentation.hotspot);
+    dim_part(presentation.title);
     dim_part(presentation.notice);
 }
 
@@ -60,8 +61,8 @@ sound::Volume volume_of(const settings::SoundSettings& settings) {
 
 LiveExhibit::LiveExhibit(const settings::Settings& settings, std::unique_ptr<PresentationShow> show,
                          exhibit::Exhibit exhibit, std::string driver, residency::PromptReader::Answer answer)
-    : settings_(settings), presentation_show_(std::move(show)), driver_(std::move(driver)),
-      exhibit_(std::move(exhibit)),
+    : settings_(settings), layout_(scene::stereo_layout(settings)), presentation_show_(std::move(show)),
+      driver_(std::move(driver)), exhibit_(std::move(exhibit)),
       notice_(settings, answer == residency::PromptReader::Answer::Always ? ImportWatch::Answer::Always
                                                                           : ImportWatch::Answer::WhenReady),
       volume_(volume_of(settings.sound)), gain_db_(settings.sound.gain_db) {
@@ -201,11 +202,9 @@ render::DrawResult LiveExhibit::draw(MonotonicTime now, const tracking::TrackedS
 
 render::DrawResult LiveExhibit::draw_presentation(MonotonicTime now, const tracking::TrackedState& on_table,
                                                   const render::RenderTarget& target, render::Redraw redraw) {
-    if (settings::stereo_of(settings_) == settings::Stereo::Off) {
-        return presentation_show_->draw(now, presentation_, std::span(&on_table.eye_m, 1), target, redraw);
-    }
-    const std::array<glm::dvec3, 2> eyes_m = tracking::eyes_of(on_table, 1e-3 * settings_.eye.interocular_mm);
-    return presentation_show_->draw(now, presentation_, eyes_m, target, redraw);
+    const std::array<glm::dvec3, 2> both_m = tracking::eyes_of(on_table, 1e-3 * settings_.eye.interocular_mm);
+    return presentation_show_->draw(now, presentation_, scene::drawn_eyes(layout_, on_table.eye_m, both_m),
+                                    target, redraw);
 }
 
 void LiveExhibit::record_time(MonotonicTime now, double ms) {

@@ -9,6 +9,7 @@
 #include "app/exhibit/copy_offer.h"
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/reset_offer.h"
+#include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "app/show/notice_show.h"
 #include "app/show/set_switch.h"
@@ -67,6 +68,7 @@ private:
                                                        render::Redraw redraw);
 
     const settings::Settings& settings_;
+    scene::StereoLayout layout_;
     std::unique_ptr<PresentationShow> presentation_show_;
     std::string driver_;
     std::unique_ptr<SetSwitch> set_switch_; ///< none: the set never changes

@@ -72,6 +72,9 @@ public:
         if (presentation.hotspot) {
             lit_.add(presentation.hotspot->label);
         }
+        if (presentation.title) {
+            lit_.add(presentation.title->rectangle);
+        }
         if (presentation.table != nullptr) {
             for (const exhibit::PlacedPicture& picture : presentation.table->pictures()) {
                 (picture.brightness > 0.0 ? lit_ : empty_).add(picture.place.whole());

@@ -1,5 +1,5 @@
-/// The exhibit's filter of the prop: one for the table and one for the hand, both at all times, and softly from one to the
-/// other by how much the prop is held (held_meter.h).
+/// The exhibit's filter of a prop that is lifted: one for the table and one for the hand, both at all times, and softly from
+/// one to the other by how much the prop is held (held_meter.h).
 ///
 /// Table    while nothing lifts or tilts the prop, its poses are those of the table's filter bit for bit: as still, and as
 ///          little beyond a stop.

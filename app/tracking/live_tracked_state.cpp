@@ -57,17 +57,21 @@ PoseEstimator estimator() {
     return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
 }
 
-/// The prop by its tracker: on the table and in the hand.
-PoseEstimator prop_estimator(double lever_m) {
+/// The prop by its tracker.
+PoseEstimator prop_estimator(double lever_m, PropMotion motion) {
+    if (motion == PropMotion::OnTable) {
+        return estimator();
+    }
     return PoseEstimator(std::make_unique<HeldFilter>(PoseNoise{}, lever_m));
 }
 
 } // namespace
 
-LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes)
-    : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m)), tags_(estimator()), head_(estimator()),
-      visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
-      source_arbiter_({.lever_m = lever_m}),
+LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes,
+                                   PropMotion motion)
+    : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m, motion)), tags_(estimator()),
+      head_(estimator()), visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()),
+      lever_m_(lever_m), source_arbiter_({.lever_m = lever_m}),
       shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
       shown_head_({.lever_m = head_lever_m}), two_eyes_(two_eyes),
       shown_turn_({.lever_m = two_eyes.half_apart_m}), eyes_apart_(two_eyes.fixed_viewer) {}

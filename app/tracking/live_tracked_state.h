@@ -21,6 +21,7 @@
 #include "app/tracking/uncertain_pose.h"
 #include "app/tracking/worn_glasses.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace frustumscreen::tracking {
@@ -32,10 +33,14 @@ struct TwoEyes {
     bool glasses_may_lie = true; ///< false: a simulated visitor never takes them off
 };
 
+/// How the prop moves. One that stands on the table at all times is followed by the table's filter alone.
+enum class PropMotion : std::uint8_t { OnTable, InHand };
+
 class LiveTrackedState {
 public:
     /// `lever_m`: half the prop's height.
-    LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes = {});
+    LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes = {},
+                     PropMotion motion = PropMotion::InHand);
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const tracker::PoseSample& sample);

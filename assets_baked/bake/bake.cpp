@@ -184,7 +184,7 @@ private:
                       image::ImageFloat colour, float reach, const image::Image<float>& coverage) {
         if (!options_.unlit) {
             begin_stage(options_, stages::light);
-            multiply(colour, bake_light(mesh, texels, source_, normals_, reach));
+            multiply(colour, bake_light(mesh, texels, source_, normals_, reach, options_.part));
         }
         return finish(colour, texels, coverage);
     }

@@ -12,6 +12,7 @@
 #include "app/pack/pack.h"
 #include "app/pack/pack_outline.h"
 #include "assets_baked/bake/hotspots.h"
+#include "assets_baked/bake/part_light.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "assets_baked/bake/visibility.h"
 #include "firmware_host/base/result.h"
@@ -19,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +70,7 @@ struct BakeOptions {
     /// Share of the points and rays for measurements, 0..1: with fewer, a pack's errors are less exact.
     double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;
+    std::optional<PlaceInWhole> part; ///< the mesh is a part, which the whole shadows; none: it is the whole
     /// Called with the current step and the share of the whole work that is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };

@@ -21,6 +21,8 @@ public:
                std::span<const std::optional<std::size_t>> cell_of_triangle, std::size_t cells);
 
     [[nodiscard]] std::size_t triangles_of(std::size_t cell) const { return triangles_[cell].size(); }
+    /// Positions of the whole, in its box.
+    [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     /// With the vertices that the cell uses. Materials and pictures are the whole's.
     [[nodiscard]] SourceMesh mesh_of(std::size_t cell);
 

@@ -1,5 +1,6 @@
 #include "assets_baked/bake/museum_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -7,6 +8,9 @@
 namespace frustumscreen::bake {
 
 namespace {
+
+constexpr float lift = 1.5e-3F; // a simplified surface may be this far below its source
+constexpr float dome_reach = 1.5F;
 
 float radiance(const glm::vec3& direction) {
     static const glm::vec3 key = glm::normalize(glm::vec3(-0.45F, -0.60F, 0.80F));
@@ -33,20 +37,32 @@ std::vector<glm::vec3> cosine_directions(int count) {
     return directions;
 }
 
+/// Turns directions about +Z to those about a normal.
+class Tangents {
+public:
+    explicit Tangents(const glm::vec3& normal) : normal_(normal) {
+        const glm::vec3 side = std::abs(normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+        tangent_ = glm::normalize(glm::cross(side, normal));
+        bitangent_ = glm::cross(normal, tangent_);
+    }
+    [[nodiscard]] glm::vec3 turned(const glm::vec3& d) const {
+        return tangent_ * d.x + bitangent_ * d.y + normal_ * d.z;
+    }
+
+private:
+    glm::vec3 normal_, tangent_, bitangent_;
+};
+
 } // namespace
 
 MuseumLight::MuseumLight(const SourceScene& source) : source_(source), directions_(cosine_directions(96)) {}
 
 float MuseumLight::at(const glm::vec3& place, const glm::vec3& normal) const {
-    constexpr float lift = 1.5e-3F; // a simplified surface may be this far below its source
-    constexpr float dome_reach = 1.5F;
-    const glm::vec3 side = std::abs(normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
-    const glm::vec3 tangent = glm::normalize(glm::cross(side, normal));
-    const glm::vec3 bitangent = glm::cross(normal, tangent);
+    const Tangents tangents(normal);
     const glm::vec3 origin = place + normal * lift;
     float sum = 0.0F;
     for (const glm::vec3& d : directions_) {
-        const glm::vec3 direction = tangent * d.x + bitangent * d.y + normal * d.z;
+        const glm::vec3 direction = tangents.turned(d);
         if (direction.z < 0.0F) {
             sum += 0.10F; // light reflected by the dark table
             continue;
@@ -58,6 +74,14 @@ float MuseumLight::at(const glm::vec3& place, const glm::vec3& normal) const {
         }
     }
     return sum / static_cast<float>(directions_.size());
+}
+
+bool MuseumLight::is_hidden(const glm::vec3& place, const glm::vec3& normal) const {
+    const Tangents tangents(normal);
+    const glm::vec3 origin = place + normal * lift;
+    return std::all_of(directions_.begin(), directions_.end(), [&](const glm::vec3& d) {
+        return source_.occluded(origin, tangents.turned(d), 0.0F, dome_reach);
+    });
 }
 
 } // namespace frustumscreen::bake

@@ -19,6 +19,8 @@ public:
     explicit MuseumLight(const SourceScene& source);
     /// Light on a point with this unit normal; 1 = an open surface facing the key light. Uses 96 rays.
     [[nodiscard]] float at(const glm::vec3& place, const glm::vec3& normal) const;
+    /// True if none of these rays leaves the artifact, upwards or downwards, so that nobody sees the point.
+    [[nodiscard]] bool is_hidden(const glm::vec3& place, const glm::vec3& normal) const;
 
 private:
     const SourceScene& source_;

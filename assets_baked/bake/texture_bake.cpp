@@ -1,6 +1,5 @@
 #include "assets_baked/bake/texture_bake.h"
 
-#include "assets_baked/bake/museum_light.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
@@ -245,10 +244,11 @@ image::Image<float> bake_coverage(const ChartedMesh& mesh, const image::Image<At
 }
 
 image::ImageFloat bake_light(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
-                             const SourceScene& source, const FileNormals& normals, float reach_box) {
+                             const SourceScene& source, const FileNormals& normals, float reach_box,
+                             const std::optional<PlaceInWhole>& place) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
-    const MuseumLight museum(source);
+    const PartLight museum(source, place);
     image::ImageFloat light(texels.width, texels.height, glm::vec3(0.0F));
     image::Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {

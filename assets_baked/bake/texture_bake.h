@@ -7,9 +7,12 @@
 #include "app/image/image.h"
 #include "assets_baked/bake/charts.h"
 #include "assets_baked/bake/file_normals.h"
+#include "assets_baked/bake/part_light.h"
 #include "assets_baked/bake/source_scene.h"
 
 #include <glm/glm.hpp>
+
+#include <optional>
 
 namespace frustumscreen::bake {
 
@@ -34,10 +37,12 @@ struct AtlasTexel {
                                                 const SourceScene& source, float reach_box);
 
 /// Light on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by the artifact
-/// itself and by the table it stands on (ambient occlusion). `normals` are those of the source's mesh.
+/// itself and by the table it stands on (ambient occlusion). `normals` are those of the source's mesh; `place` of a
+/// source that is a part.
 [[nodiscard]] image::ImageFloat bake_light(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
                                            const SourceScene& source, const FileNormals& normals,
-                                           float reach_box);
+                                           float reach_box,
+                                           const std::optional<PlaceInWhole>& place = std::nullopt);
 
 /// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
 /// that mipmaps and filtering do not bleed. `coverage` becomes alpha; empty = no texel is cut.

@@ -2,15 +2,18 @@
 
 #include "app/pack/container/limits.h"
 #include "assets_baked/bake/cell_mesh.h"
+#include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -73,6 +76,9 @@ public:
         for (std::size_t k = 0; k < made_.cells.size(); ++k) {
             weights_.push_back(meshes.triangles_of(k) == 0 ? 0.0 : 1.0);
         }
+        if (!options_.unlit) {
+            whole_.emplace(mesh_, meshes.points());
+        }
         const double all = std::max(1.0, std::accumulate(weights_.begin(), weights_.end(), 0.0));
         double done = 0.0;
         for (std::size_t k = 0; k < made_.cells.size(); ++k) {
@@ -117,7 +123,8 @@ private:
         }
     }
 
-    [[nodiscard]] BakeOptions options_of(double longest, double begin, double end) const {
+    [[nodiscard]] BakeOptions options_of(const Bounds& bounds, double begin, double end) const {
+        const double longest = bounds.longest();
         BakeOptions options = options_;
         options.size = std::clamp(static_cast<int>(std::ceil(options_.size * longest)), min_size,
                                   std::max(min_size, options_.size));
@@ -128,6 +135,11 @@ private:
         options.measuring = options_.measuring * std::clamp(longest, min_measuring, 1.0);
         options.hotspots.clear();
         options.table_picture = false;
+        if (whole_) {
+            const glm::dvec3 middle = glm::mix(bounds.low, bounds.high, 0.5);
+            options.part = {
+                .whole = &*whole_, .origin = {middle.x, middle.y, bounds.low.z}, .scale = longest};
+        }
         options.prop.zone = ViewingZone::all_around();
         options.progress = [this, begin, end](std::string_view, double done) {
             options_.progress("parts", std::lerp(begin, end, done));
@@ -142,7 +154,7 @@ private:
             flat_.push_back(cell.cell.name);
             return;
         }
-        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds.longest(), begin, end));
+        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds, begin, end));
         if (!baked) { // has triangles, and yet no surface
             flat_.push_back(cell.cell.name);
             return;
@@ -171,6 +183,7 @@ private:
     const SourceMesh& mesh_;
     const BoxFrame& frame_;
     const BakeOptions& options_;
+    std::optional<SourceScene> whole_; ///< shadows the cells
     WorldCells made_;
     std::vector<std::optional<std::size_t>> holder_; ///< of each node: the cell of its triangles
     std::vector<glm::dmat4> box_from_cell_;          ///< of each cell, at rest

@@ -2,6 +2,7 @@
 ///
 /// Frames   cells hang in the whole artifact's box; at rest each lies where the whole has it.
 /// Size     a cell has texels as large as the whole's, so fewer of them; `measuring` shrinks with it.
+/// Light    at rest a cell has the whole's, with the shadows of the other cells (part_light.h).
 /// Sides    a cell keeps those that no visitor sees at rest: it moves, or what hides it does.
 /// Told     a part in a frame that is pressed flat is no cell: its triangles stay with the part that it hangs from, and it
 ///          does not move. A cell without a surface has no geometry.

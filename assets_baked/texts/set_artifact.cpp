@@ -19,8 +19,22 @@ struct KeyedText {
     bool is_title = false;
 };
 
+using LabelLists = std::span<const std::vector<pack::PackLabel>>;
+
+/// Adds those of a language; `key_of` gives the key of each list.
+void add_labels(LabelLists lists, const std::string& language, std::string (*key_of)(std::size_t),
+                std::vector<KeyedText>& texts) {
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        for (const pack::PackLabel& label : lists[k]) {
+            if (label.language == language) {
+                texts.push_back({key_of(k), label.text});
+            }
+        }
+    }
+}
+
 std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::ScanRights& rights,
-                                std::span<const std::vector<pack::PackLabel>> labels) {
+                                LabelLists labels, LabelLists titles) {
     std::vector<KeyedText> texts{{"title", caption.title, true},
                                  {"text", caption.text},
                                  {std::string(pack::attribution_key), pack::attribution_of(caption, rights)}};
@@ -28,13 +42,8 @@ std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::Sc
     for (std::size_t k = 0; k < portions.size() && portions.size() <= pack::max_text_portions; ++k) {
         texts.push_back({pack::portion_key(k), portions[k]});
     }
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-        for (const pack::PackLabel& label : labels[k]) {
-            if (label.language == caption.language) {
-                texts.push_back({fmt::format("label.{}", k), label.text});
-            }
-        }
-    }
+    add_labels(labels, caption.language, pack::label_key, texts);
+    add_labels(titles, caption.language, pack::behaviour_key, texts);
     std::erase_if(texts, [](const KeyedText& each) { return each.text.empty(); });
     return texts;
 }
@@ -140,11 +149,11 @@ private:
 } // namespace
 
 SetArtifact set_artifact(std::span<const pack::PackCaption> captions, const pack::ScanRights& rights,
-                         std::span<const std::vector<pack::PackLabel>> labels, const CaptionLimits& limits,
+                         LabelLists labels, LabelLists titles, const CaptionLimits& limits,
                          const Shaper& shaper) {
     SetArtifact set;
     for (const pack::PackCaption& caption : captions) {
-        const std::vector<KeyedText> texts = texts_of(caption, rights, labels);
+        const std::vector<KeyedText> texts = texts_of(caption, rights, labels, titles);
         if (texts.empty()) {
             continue;
         }

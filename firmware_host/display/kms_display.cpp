@@ -10,9 +10,6 @@
 
 namespace frustumscreen::display {
 
-namespace {
-
-/// Without atomic commits no flip can change the shown rows: the left eye's are shown.
 std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes) {
     std::unique_ptr<KmsDevice> device = make_kms_device(card);
     if (eyes == EyeLayout::InTurn && card.is_atomic()) {
@@ -20,8 +17,6 @@ std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes) {
     }
     return device;
 }
-
-} // namespace
 
 Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_name,
                                                        const OutputRequest& request) {

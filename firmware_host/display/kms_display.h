@@ -24,6 +24,10 @@
 
 namespace frustumscreen::display {
 
+/// The card's device. Only where the eyes' pictures are shown in turn it has a thread. Without atomic commits no flip can
+/// change the shown rows: the left eye's are shown.
+[[nodiscard]] std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes);
+
 class KmsDisplay final : public Display {
 public:
     /// `card`: as KmsCard::open; the size of what the projector shows is in `request`.

@@ -1,9 +1,12 @@
 // Which card is opened, and what is detected on it.
+#include "firmware_host/display/kms_display.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/display/fake_desk.h"
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <memory>
 
 namespace frustumscreen::display {
 namespace {
@@ -85,6 +88,22 @@ TEST_F(KmsCardTest, Hdmis3DModesAreListedOnlyForTwoHalves) {
     EXPECT_EQ(capabilities(), 10);
     kernel.fail(kernel.calls().size() + 5, EINVAL); // open, resources, two capabilities, this one
     EXPECT_EQ(listed(EyeLayout::SideBySide), 1U) << "an older kernel";
+}
+
+std::ptrdiff_t threads_now() {
+    return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
+}
+
+TEST_F(KmsCardTest, OnlyEyesInTurnHaveAThread) {
+    const Result<KmsCard> card = KmsCard::open(card_path, {});
+    ASSERT_TRUE(card) << card.error().message;
+    const std::ptrdiff_t before = threads_now();
+    for (const EyeLayout eyes : {EyeLayout::One, EyeLayout::SideBySide, EyeLayout::TopBottom}) {
+        const std::unique_ptr<KmsDevice> device = make_device(*card, eyes);
+        EXPECT_EQ(threads_now(), before) << static_cast<int>(eyes);
+    }
+    const std::unique_ptr<KmsDevice> device = make_device(*card, EyeLayout::InTurn);
+    EXPECT_EQ(threads_now(), before + 1);
 }
 
 TEST_F(KmsCardTest, ACardWithoutAtomicCommitsIsDrivenByTheOlderCalls) {

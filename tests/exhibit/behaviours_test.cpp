@@ -29,11 +29,17 @@ TriggeredBehaviour behaviour(Trigger trigger, bool lasts = false) {
     return {.trigger = trigger, .lasts = lasts, .title_sizes_m = {{0.1, 0.02}, {0.0, 0.0}}};
 }
 
+BehaviourTriggers::Input not_there() {
+    BehaviourTriggers::Input input;
+    input.arrived = false;
+    return input;
+}
+
 struct Rules {
     std::vector<TriggeredBehaviour> behaviours;
     BehaviourTriggers triggers = {};
     MonotonicTime now = sample::start;
-    BehaviourTriggers::Input input = {.behaviours = {}, .arrived = false};
+    BehaviourTriggers::Input input = not_there();
 
     std::string step(Nanoseconds later = milliseconds(20)) {
         now += later;
@@ -216,7 +222,7 @@ TEST(Behaviours, ATitleSaysWhatTheButtonDoes) {
     EXPECT_EQ(visit.shown.title->rectangle.size_m, glm::dvec2(0.1, 0.02));
     EXPECT_EQ(visit.shown.title->brightness, 1.0);
     ASSERT_TRUE(visit.shown.caption);
-    const typography::TablePolygon caption = visit.shown.caption->rectangle.corners();
+    const std::array caption = visit.shown.caption->rectangle.corners();
     EXPECT_GT(typography::clearance(visit.shown.title->rectangle.corners(), caption), 0.0);
     visit.run(seconds(1), {settings::Command::NextLanguage});
     EXPECT_FALSE(visit.shown.title) << "it has no title in German";

@@ -3,11 +3,13 @@
 #include "exhibits.h"
 #include "tests/render/counted_new.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace frustumscreen::exhibit {
 namespace {
@@ -41,7 +43,22 @@ glm::dvec2 point_of(const PlacedSign& sign, double u, double v) {
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[3], c[2], u), v);
 }
 
-/// The sign's light meets the table and not the prop, for every advice: traced ray by ray.
+/// The sign's light meets the table and not the prop: traced ray by ray.
+void expect_beside_prop(const PlacedSign& sign, const ExhibitPlace& place,
+                        const geometry::RigidTransform& table_from_prop, const std::string& where) {
+    const geometry::RigidTransform prop_from_table = table_from_prop.inverse();
+    const glm::dvec3 lens = prop_from_table.point(place.lens_m);
+    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        for (const double v : {0.0, 0.5, 1.0}) {
+            const glm::dvec2 point = point_of(sign, u, v);
+            EXPECT_TRUE(inside(place.picture_m, point)) << where;
+            geometry::PropHit hit;
+            const glm::dvec3 ray = prop_from_table.point({point, 0.0}) - lens;
+            EXPECT_FALSE(geometry::enter(place.prop, lens, ray, hit) && hit.t < 1.0 - 1e-6) << where;
+        }
+    }
+}
+
 TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     const ExhibitPlace place = guided_place();
     const guidance::FaceReader reader(*place.guidance);
@@ -66,18 +83,8 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
             continue;
         }
         ++shown[sign->sign];
-        const geometry::RigidTransform prop_from_table = guidance.tracked_state.table_from_prop.inverse();
-        const glm::dvec3 lens = prop_from_table.point(place.lens_m);
-        for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            for (const double v : {0.0, 0.5, 1.0}) {
-                const glm::dvec2 point = point_of(*sign, u, v);
-                EXPECT_TRUE(inside(place.picture_m, point)) << "situation " << k;
-                geometry::PropHit hit;
-                const glm::dvec3 ray = prop_from_table.point({point, 0.0}) - lens;
-                EXPECT_FALSE(geometry::enter(place.prop, lens, ray, hit) && hit.t < 1.0 - 1e-6)
-                    << "situation " << k;
-            }
-        }
+        expect_beside_prop(*sign, place, guidance.tracked_state.table_from_prop,
+                           "situation " + std::to_string(k));
     }
     EXPECT_GT(shown[Sign::Arrow], 100);
     EXPECT_GT(shown[Sign::Stand], 100);
@@ -137,6 +144,48 @@ TEST(Signs, AnArcTurnsTheWay) {
         }
     }
     EXPECT_GT(right, left * 11 / 10);
+}
+
+/// The picture of the table is 58 cm wide, and the shadow of a cube of 12 cm at most 20 cm: beside it there is space.
+TEST(Signs, AnArcHasAPlaceBesideALargeCubeInAnyTurn) {
+    settings::Settings settings = bench::cube_in_hand();
+    settings.prop = settings::cube_settings(0.12);
+    ExhibitPlace place;
+    place.prop = settings::make_prop(settings.prop);
+    place.lens_m = settings.projector.table_from_projector.translation;
+    place.picture_m = settings::picture_on_table(settings, 0.0);
+    int fits = 0;
+    for (const double yaw_deg : {0.0, 20.0, 45.0, 70.0}) {
+        for (int k = 0; k < 15 * 9; ++k) {
+            guidance::Guidance guidance;
+            guidance.stage = guidance::GuidanceStage::Picture;
+            guidance.move = {guidance::Action::Turn, {}, k % 2 == 0 ? 0.5 : -0.5};
+            geometry::RigidTransform& pose = guidance.tracked_state.table_from_prop;
+            pose.rotation = glm::angleAxis(yaw_deg * std::numbers::pi / 180.0, glm::dvec3(0.0, 0.0, 1.0));
+            pose.translation = {0.04 * (k % 15 - 7), 0.04 * (k / 15 - 4), 0.0};
+            const auto shadow = typography::hidden_by_prop(place.prop, pose, place.lens_m);
+            ASSERT_TRUE(shadow);
+            const auto corners = shadow->corners();
+            if (!std::all_of(corners.begin(), corners.end(),
+                             [&](const glm::dvec2& corner) { return inside(place.picture_m, corner); })) {
+                continue;
+            }
+            ++fits;
+            const std::string where = fmt::format("{} degrees at {:.2f}, {:.2f}, side {}", yaw_deg,
+                                                  pose.translation.x, pose.translation.y, k % 4);
+            glm::dvec2 lowest(1.0), highest(-1.0);
+            for (int tenth = 0; tenth < 18; ++tenth) { // a swing takes 1.8 s
+                const auto sign = place_sign(guidance, MonotonicTime(milliseconds(100 * tenth)), *shadow,
+                                             place.picture_m, k % 4);
+                ASSERT_TRUE(sign) << where;
+                expect_beside_prop(*sign, place, pose, where);
+                lowest = glm::min(lowest, point_of(*sign, 0.5, 0.5));
+                highest = glm::max(highest, point_of(*sign, 0.5, 0.5));
+            }
+            EXPECT_LT(glm::distance(lowest, highest), 0.04) << where << ": it stays on one side";
+        }
+    }
+    EXPECT_GT(fits, 4 * 20);
 }
 
 class GuidedExhibit : public ::testing::Test {

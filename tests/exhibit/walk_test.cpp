@@ -1,7 +1,7 @@
 // A million random events (fewer under the sanitizers), with the exhibit's invariants checked after each.
 
 #include "app/bench/truth/seeded_situations.h"
-#include "tests/exhibit/exhibits.h"
+#include "tests/exhibit/walked_exhibit.h"
 #include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
@@ -15,110 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-const std::vector<std::string> languages{"en", "de", "ar"};
-constexpr std::size_t artifacts = 4;
-
-const std::vector<std::string> keys{"attract_line",
-                                    "slide_left",
-                                    "slide_left_a_little",
-                                    "slide_right",
-                                    "slide_right_a_little",
-                                    "slide_nearer",
-                                    "slide_nearer_a_little",
-                                    "slide_farther",
-                                    "slide_farther_a_little",
-                                    "slide_back_to_light",
-                                    "turn_counter_clockwise",
-                                    "turn_clockwise",
-                                    "set_down",
-                                    "stand_upright",
-                                    "come_round_left",
-                                    "come_round_right",
-                                    "come_to_front",
-                                    "uncover",
-                                    "wait_tracker",
-                                    "away_from_metal",
-                                    "show_your_head",
-                                    "fault.no_artifact"};
-
-ExhibitPlace walked_place() {
-    ExhibitPlace place = sample::shipped_place();
-    for (const std::string& language : languages) {
-        place.words.push_back(sample::words_of(language, keys, {0.12, 0.02}));
-    }
-    place.table_pictures = true;
-    place.buttons = settings::button_commands.size();
-    place.rest = seconds(20);
-    return place;
-}
-
-/// The first has a description and hotspots, the second a description, the third hotspots, the last nothing to tell.
-Catalogue walked_catalogue() {
-    CatalogueEntry entry{languages, {languages.size(), {{0.14, 0.04}}}};
-    Catalogue catalogue(artifacts, entry);
-    const std::vector<std::vector<glm::dvec2>> portions{{{0.14, 0.03}}, {{0.12, 0.04}}, {{0.13, 0.02}}};
-    for (std::size_t k = 0; k < 3; ++k) {
-        Tellable tellable;
-        if (k < 2) {
-            tellable.portions.assign(portions.size(), seconds(3));
-            catalogue[k].descriptions.assign(languages.size(), {portions, largest_sizes(portions), false});
-        }
-        if (k != 1) {
-            tellable.hotspots.assign(2, seconds(2));
-            for (const double height_m : {0.01, 0.03}) {
-                const Hotspot at{{0.0, -0.02, height_m}, {0.0, -1.0, 0.0}};
-                catalogue[k].hotspots.hotspots.push_back({at, {languages.size(), {0.05, 0.01}}});
-            }
-        }
-        catalogue[k].tellables.assign(languages.size(), tellable);
-    }
-    return catalogue;
-}
-
-Exhibit walked_exhibit() {
-    return {walked_catalogue(), walked_place(), "en", sample::start};
-}
-
-/// Plays descriptions like a sound card, or plays nothing, or plays one that never ends.
-class Narrator {
-public:
-    static constexpr Nanoseconds portion = seconds(4);
-
-    void step(MonotonicTime now, const Presentation& shown, bench::Seeded& random) {
-        if (shown.tells && shown.tells != told_) {
-            const double dice = random.between(0.0, 1.0);
-            silent_ = dice < 0.2;
-            hangs_ = dice > 0.97;
-            begins_ = now + milliseconds(static_cast<int>(random.between(0.0, 400.0)));
-            narration_ = {silent_ ? SpeechProgress::State::Silent : SpeechProgress::State::Coming, 0};
-        }
-        told_ = shown.tells ? shown.tells : shown.leaves ? told_ : std::nullopt;
-        if (!told_) {
-            narration_ = {};
-        }
-        if (narration_.state == SpeechProgress::State::Coming && now >= begins_) {
-            narration_.state = SpeechProgress::State::Heard;
-        }
-        if (narration_.state == SpeechProgress::State::Heard && !hangs_) {
-            const auto gone = static_cast<std::size_t>((now - begins_) / portion);
-            const bool at_pause = gone > narration_.portion;
-            narration_.portion = gone;
-            if (gone >= 3 || (at_pause && shown.leaves)) {
-                narration_.state = SpeechProgress::State::Over;
-            }
-        }
-    }
-    [[nodiscard]] const SpeechProgress& narration() const { return narration_; }
-    [[nodiscard]] bool heard() const { return narration_.state == SpeechProgress::State::Heard; }
-
-private:
-    std::optional<DescriptionIndex> told_;
-    SpeechProgress narration_;
-    MonotonicTime begins_;
-    bool silent_ = false;
-    bool hangs_ = false;
-};
+using namespace walked;
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -179,6 +76,9 @@ public:
     long described = 0;
     long pointed_out = 0;
     long chosen = 0;
+    long toggled = 0;
+    long begun_or_ended = 0;
+    long titled = 0;
 
 private:
     Nanoseconds time_to_pass() {
@@ -260,7 +160,24 @@ private:
         check_description(watched);
         check_packs(watched);
         check_sound(watched);
+        check_behaviours();
         check_picture(watched);
+    }
+
+    /// Behaviours are those of an artifact on show, and a press is the only thing that toggles one.
+    void check_behaviours() {
+        const std::vector<TriggeredBehaviour>& of_artifact = behaviours_.at(shown_.artifact);
+        for (const BehaviourEvent& event : shown_.behaviours.events()) {
+            ASSERT_LT(event.behaviour, of_artifact.size());
+            EXPECT_TRUE(note_of(shown_.state).artifact) << name_of(shown_.state);
+            const bool toggles = event.kind == BehaviourEvent::Kind::Toggle;
+            EXPECT_EQ(toggles, of_artifact[event.behaviour].trigger == world::Trigger::Button);
+            EXPECT_TRUE(!toggles ||
+                        std::count(commands_.begin(), commands_.end(), settings::Command::Behaviour) == 1);
+            ++(toggles ? toggled : begun_or_ended);
+        }
+        EXPECT_TRUE(!shown_.title || a_share(shown_.title->brightness));
+        titled += shown_.title ? 1 : 0;
     }
 
     /// Spoken sentences are visible as words; when the words go, the speech ends.
@@ -315,8 +232,12 @@ private:
         EXPECT_TRUE(!fault || offered() == 0);
         EXPECT_TRUE(!fault || !shown_.tells);
         note_since(fault_since_, fault && !moved_, watched);
+        // In another language they fade out and in again, dark for a moment between.
+        const bool said = shown_.advice && keys[shown_.advice->word.text] == "fault.no_artifact";
+        note_since(unsaid_since_, fault && !said && !moved_, watched);
+        EXPECT_TRUE(!unsaid_since_ || now_ - *unsaid_since_ < milliseconds(500))
+            << "a fault without its words";
         if (fault_since_ && now_ - *fault_since_ > seconds(2)) {
-            EXPECT_TRUE(shown_.advice && keys[shown_.advice->word.text] == "fault.no_artifact");
             EXPECT_LT(shown_.brightness, 0.05);
             EXPECT_FALSE(shown_.caption);
             EXPECT_FALSE(shown_.hotspot);
@@ -350,6 +271,8 @@ private:
 
     ExhibitPlace walked_ = walked_place();
     Exhibit exhibit_ = walked_exhibit();
+    std::array<std::vector<TriggeredBehaviour>, artifacts> behaviours_{behaviours_of(0), behaviours_of(1),
+                                                                       behaviours_of(2), behaviours_of(3)};
     bench::Seeded random_;
     tracking::TrackedState tracked_state_;
     MonotonicTime now_ = sample::start;
@@ -360,8 +283,8 @@ private:
     MonotonicTime sound_ends_;
     bool moved_ = false;
     std::array<ArtifactState, artifacts> packs_{};
-    Narrator narrator_;
-    Since dark_since_, mute_since_, left_out_since_, fault_since_, unread_since_, told_since_,
+    PlayingNarrator narrator_;
+    Since dark_since_, mute_since_, left_out_since_, fault_since_, unsaid_since_, unread_since_, told_since_,
         elsewhere_since_;
 };
 
@@ -384,6 +307,35 @@ TEST(Walk, EventsFindNothingThatMustNotBe) {
     EXPECT_GT(walk.chosen, 100);
     EXPECT_GT(walk.described, 100);
     EXPECT_GT(walk.pointed_out, 100);
+    EXPECT_GT(walk.toggled, 100);
+    EXPECT_GT(walk.begun_or_ended, 100);
+    EXPECT_GT(walk.titled, 100);
+}
+
+/// Frames that fall anywhere in the fades find the words, or one frame between the two languages does not.
+TEST(Walk, AFaultsWordsAreDarkForAMomentWhileTheirLanguageChanges) {
+    Exhibit exhibit = walked_exhibit();
+    exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Unusable, ArtifactState::Unusable,
+                            ArtifactState::Unusable});
+    MonotonicTime now = sample::start;
+    int dark = 0;
+    std::size_t language = 0;
+    for (int k = 0; k < 300; ++k) {
+        now += milliseconds(17);
+        std::vector<settings::Command> commands;
+        if (k == 150) {
+            commands.push_back(settings::Command::NextLanguage);
+        }
+        const Presentation shown = exhibit.step(now, commands, sample::tracked_state(now));
+        if (k < 50) {
+            continue; // the words come
+        }
+        ASSERT_EQ(shown.state, State::Fault);
+        dark += shown.advice ? 0 : 1;
+        language = shown.advice ? shown.advice->word.language : language;
+    }
+    EXPECT_EQ(dark, 1);
+    EXPECT_EQ(language, 1U);
 }
 
 } // namespace

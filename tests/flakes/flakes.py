@@ -1,56 +1,54 @@
 #!/usr/bin/python3
-"""Looks for tests that fail now and then; `./test flakes` calls this. What has passed is remembered, so that a run that was ended goes on
-where it stood; another commit, or another change of the working tree, begins anew. Exit status 1: something failed.
+"""Looks for tests that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
 
-Each test of `ctest` but those that only compute (label 'computes') runs 20 times beside six busy loops, three tests at a time; then the emulated machines start
-five times (./test hil, ./test image), and all of continuous integration runs three times.
+Each test of `ctest` passes 20 runs beside six busy loops, three tests at a time; then the emulated machines start five times
+(./test hil, ./test image), and all of continuous integration runs three times. out/flakes remembers what has passed, run by run, and a
+hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another
+change of the working tree. A test of ctest begins anew when its inputs change, which one more run, under strace, tells (inputs.py).
+A test that asks git, or that cannot run under strace, begins anew with a commit, too. Tests that never passed all their runs come
+first, and among these the ones with threads.
+
+Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of
+tests whose threads only share out arithmetic. The run under strace finds the others: a program of the build that is one process and
+one thread from its start to its end, without a wait, a socket, a lock, a timer or a file of /proc or /sys. Nor may its
+disassembly have a call of a clock or of random numbers, apart from GoogleTest's, since strace does not see how a clock is read.
 """
 
 import argparse
 import concurrent.futures
 import hashlib
-import json
 import os
 import pathlib
 import signal
 import subprocess
 import sys
-import threading
 import time
+
+from hunt import Hunt, tests_of
+from inputs import Places
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(os.fspath(ROOT / "tests" / "hil"))
 from repeat import Load  # noqa: E402  (the folder is only now known)
 
-BUILD = ROOT / "build" / "release"
+STATE = ROOT / "out" / "flakes"
 
 
 def output_of(*command):
     return subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
 
 
-def state_folder():
-    """The passed tests of this commit and this working tree."""
+def commit():
+    """A name for this commit and this working tree."""
     changes = output_of("git", "diff", "HEAD") + output_of("git", "ls-files", "--others", "--exclude-standard")
     name = output_of("git", "rev-parse", "--short", "HEAD").decode().strip()
     if changes:
         name += "-" + hashlib.sha256(changes).hexdigest()[:8]
-    return ROOT / "out" / "flakes" / name
-
-
-def labels_of(test):
-    return next((entry["value"] for entry in test["properties"] if entry["name"] == "LABELS"), [])
-
-
-def unit_tests(times):
-    listed = json.loads(output_of("ctest", "--test-dir", BUILD, "--show-only=json-v1"))
-    return [(test["name"], ["ctest", "--test-dir", BUILD, "--tests-regex", f"^{test['name']}$", "--repeat", f"until-fail:{times}",
-                            "--no-tests=error", "--output-on-failure"])
-            for test in listed["tests"] if "computes" not in labels_of(test)]
+    return name
 
 
 class Runs:
-    """The runs that passed, one name a line, and the outputs of those that failed."""
+    """The runs of a commit that passed, one name a line, and the outputs of those that failed."""
 
     def __init__(self, folder):
         self._folder = folder
@@ -58,19 +56,14 @@ class Runs:
         self._passed_file = folder / "passed.txt"
         self._passed = set(self._passed_file.read_text(encoding="utf-8").splitlines()) if self._passed_file.exists() else set()
         self.failed = []
-        self._lock = threading.Lock()
 
     def make(self, name, command):
         if name in self._passed:
             return
         begun = time.monotonic()
-        ran = subprocess.run([os.fspath(word) for word in command], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        with self._lock:
-            self._note(name, ran, time.monotonic() - begun)
-
-    def _note(self, name, ran, seconds):
+        ran = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         passed = ran.returncode == 0
-        print(f"   {name}: {'passed' if passed else 'FAILED'} in {seconds:.0f} s", flush=True)
+        print(f"   {name}: {'passed' if passed else 'FAILED'} in {time.monotonic() - begun:.0f} s", flush=True)
         if passed:
             with open(self._passed_file, "a", encoding="utf-8") as file:
                 file.write(f"{name}\n")
@@ -79,6 +72,22 @@ class Runs:
         log.write_bytes(ran.stdout)
         print(f"   its output is in {log}", flush=True)
         self.failed.append(name)
+
+
+def hunt_tests(hunt, places, loops, parallel):
+    tests = list(tests_of(places))
+    labelled = [test for test in tests if "computes" in test.labels]
+    waiting = hunt.waiting(test for test in tests if test not in labelled)
+    left_out = len(labelled) + len(hunt.only_compute)
+    print(f"== {len(tests)} tests of ctest: {len(waiting)} to run, {len(tests) - len(waiting) - left_out} passed with the same inputs, "
+          f"{left_out} only compute", flush=True)
+    with Load(loops), concurrent.futures.ThreadPoolExecutor(parallel) as pool:
+        try:
+            for _ in pool.map(hunt.make, waiting):
+                pass
+        finally:
+            hunt.end()
+    print(f"== left out because they only compute: {len(labelled)} by their label, {len(hunt.only_compute)} by their trace", flush=True)
 
 
 def main():
@@ -91,19 +100,20 @@ def main():
     arguments = parser.parse_args()
 
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # ends the busy loops, too
-    folder = state_folder()
-    print(f"== what passed is remembered in {folder.relative_to(ROOT)}", flush=True)
-    runs = Runs(folder)
-    with Load(arguments.loops), concurrent.futures.ThreadPoolExecutor(arguments.parallel) as pool:
-        for name, command in unit_tests(arguments.times):
-            pool.submit(runs.make, f"{name} x {arguments.times}", command)
+    print(f"== what passed is remembered in {STATE.relative_to(ROOT)}", flush=True)
+    git = output_of("git", "rev-parse", "--path-format=absolute", "--git-common-dir").decode().strip()
+    places = Places(ROOT, ROOT / "build" / "release", ROOT.parent / "shared", git)
+    hunt = Hunt(places, STATE / "tests", commit(), arguments.times)
+    hunt_tests(hunt, places, arguments.loops, arguments.parallel)
+    runs = Runs(STATE / commit())
     for number in range(1, arguments.boots + 1):
         runs.make(f"hil {number}", ["./test", "hil"])
         runs.make(f"image {number}", ["./test", "image"])
     for number in range(1, arguments.ci + 1):
         runs.make(f"ci {number}", [".ci/run"])
-    print(f"== {len(runs.failed)} failed" + "".join(f"\n   {name}" for name in runs.failed))
-    return 1 if runs.failed else 0
+    failed = hunt.failed + runs.failed
+    print(f"== {len(failed)} failed" + "".join(f"\n   {name}" for name in failed))
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

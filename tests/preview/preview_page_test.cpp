@@ -53,6 +53,16 @@ protected:
         media.languages[0].labels = {text};
         media.languages[0].sound = sound;
         media.languages[1].caption = arabic;
+        BehaviourPictures moves;
+        moves.behaviour.behaviour.name = hostile;
+        moves.behaviour.behaviour.seconds = 2.0;
+        moves.behaviour.behaviour.trigger = world::Trigger::Hotspot;
+        moves.behaviour.titles = {{"en", hostile}, {"ar", "أدر الغطاء"}};
+        moves.frames = 2;
+        moves.step_s = 2.0;
+        moves.size = {8, 4};
+        moves.sheet = image::Image8(16, 4, {9, 8, 7, 255});
+        media.behaviours = {moves};
         media.languages[1].labels = {text};
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
@@ -70,8 +80,9 @@ protected:
 TEST_F(PreviewPage, LoadsNothingRunsNothingElseAndSaysAll) {
     const std::string page = preview_page(pack, facts, media);
     EXPECT_EQ(check(page,
-                    "--pictures 7 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
-                    "--text 'first line' --text 'جرة' --text 0.123 --text 'could not set this text'"),
+                    "--pictures 8 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
+                    "--text 'first line' --text 'جرة' --text 0.123 --text 'أدر الغطاء' --text 'place 1 is "
+                    "turned to the visitor' --text 'could not set this text'"),
               0);
     EXPECT_NE(check(page, "--text 'words that nobody wrote' 2>/dev/null"), 0) << "the check itself";
     EXPECT_NE(check(std::string(page).replace(page.find("<h1"), 0, "<script>1</script>"), "2>/dev/null"), 0);
@@ -90,6 +101,7 @@ TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
     bare.title = "Jug";
     media.turn.marks.clear();
     media.languages.clear();
+    media.behaviours.clear();
     media.table_picture = image::Image8();
     EXPECT_EQ(check(preview_page(bare, {}, media), "--pictures 1 --sounds 0 --text 'Nothing of the scan'"),
               0);

@@ -167,5 +167,32 @@ class BakeCells(unittest.TestCase):
             self.assertEqual(said.count("\n"), 1)
 
 
+    def test_titles_are_set_in_each_language_for_the_behaviours_that_the_pack_has(self):
+        titles = {"en": "Turn the lid", "ar": "أدر الغطاء", "th": "หมุนฝา", "de": "Den Deckel drehen"}
+        flat = gltf()  # a part of no height, whose light nobody would see
+        flat["nodes"].append({"name": "flat", "mesh": 1, "scale": [1, 0, 1]})
+        flat["nodes"][0]["children"].append(2)
+        (self.folder / "chest.gltf").write_text(json.dumps(flat))
+        lines = ['scan = "chest.gltf"']
+        for language in titles:
+            lines += ["[[texts]]", f'language = "{language}"', 'title = "1"']
+        told = ", ".join(f'{language} = "{text}"' for language, text in titles.items())
+        lines += ["[[behaviours]]", 'name = "glow"', 'cell = "flat"', "light = [2, 2, 2]", "titles = { en = \"Glow\" }",
+                  "[[behaviours]]", 'name = "lid"', 'animation = "open"', f"titles = {{ {told} }}"]
+        (self.folder / "artifact.toml").write_text("\n".join(lines), encoding="utf-8")
+        report = self.bake(given=".")
+        self.assertEqual([each["name"] for each in report["cells"]["behaviours"]], ["lid"])
+        there = {each["language"] for each in self.sections()["texts"]["data"]["languages"]}
+        missing = [language for language in titles if any(f"texts in '{language}'" in lost for lost in report["lost"])]
+        self.assertEqual(there, set(titles) - set(missing), report["lost"])
+        with zipfile.ZipFile(self.folder / "chest.fspack") as pack:
+            for language in there:
+                runs = pack.read(f"texts/{language}/glyphs.bin")
+                self.assertEqual((runs.count(b"behaviour.0"), runs.count(b"behaviour.")), (1, 1), language)
+        self.bake("--cells", "none", given=".")
+        with zipfile.ZipFile(self.folder / "chest.fspack") as pack:
+            self.assertNotIn(b"behaviour.", pack.read("texts/en/glyphs.bin"))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -78,9 +78,8 @@ TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
         std::string(english_and_german) +
         "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\", fr = \"Flanc\" }\n";
     ASSERT_EQ(bake(lines), 0) << text("err.txt");
-    EXPECT_TRUE(said(
-        "lost: hotspots[0] has no label in 'de', so its visitors read another language there; write de = "
-        "\"...\" under labels"));
+    EXPECT_TRUE(said("lost: hotspots[0] has no label in 'de', so none is shown there; write de = "
+                     "\"...\" under labels"));
     EXPECT_TRUE(said("lost: hotspots[0] has the label \"Flanc\" in 'fr', and the artifact has no "
                      "[[texts]] in that language; write them, or take the label away"));
     fs::remove(folder / "jug.fspack");

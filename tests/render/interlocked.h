@@ -2,8 +2,8 @@
 /// which of them a pixel shows.
 #pragma once
 
-#include "tests/render/relief_rig.h"
 #include "tests/render/reference_cast.h"
+#include "tests/render/relief_rig.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -144,20 +144,27 @@ public:
             parts[k] = {levels_[k][static_cast<std::size_t>(chosen[k])], std::nullopt};
         }
     }
-    image::Image8 picture(const scene::PlanView& view) {
-        scene::plan_frame(prop, parts, view, plan);
-        EXPECT_TRUE(renderer->draw(plan, {display->framebuffer(), display->buffer_age()}, render::Redraw::Everything)
-                        .drawn);
+    image::Image8 picture(const scene::PlanView& view) { return picture(view, parts); }
+    image::Image8 picture(const scene::PlanView& view, std::span<const scene::Part> shown) {
+        scene::plan_frame(prop, shown, view, plan);
+        EXPECT_TRUE(
+            renderer->draw(plan, {display->framebuffer(), display->buffer_age()}, render::Redraw::Everything)
+                .drawn);
         EXPECT_TRUE(display->present(MonotonicTime{}));
         return render::read_colour(display->framebuffer(), display->width(), display->height());
     }
     [[nodiscard]] image::ImageFloat places() { return hit_points->draw(plan, renderer->store()); }
 
-    [[nodiscard]] SeenPart seen(const TestTable& table, const glm::dvec2& pixel) const {
+    /// The first part that the pixel's ray meets. `only`: as if the world had one part alone.
+    [[nodiscard]] SeenPart seen(const TestTable& table, const glm::dvec2& pixel,
+                                std::optional<int> only = std::nullopt) const {
         SeenPart first;
         const std::optional<ReferenceCast::Ray> ray = ReferenceCast::ray_of(table, pixel);
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; ray && k < casts_.size(); ++k) {
+            if (only && *only != static_cast<int>(k)) {
+                continue;
+            }
             const auto in_placed = [&](const glm::dvec3& point) {
                 return glm::dvec3(placed_from_prop_[k] * glm::dvec4(point, 1.0));
             };

@@ -175,8 +175,8 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
         }
         scene::RasterLight best;
         scene::RasterLight plain(relief::Instructions::Plain);
-        best.begin(rig.plan, 0);
-        plain.begin(rig.plan, 0);
+        best.begin(rig.plan);
+        plain.begin(rig.plan);
         std::size_t shown = 0;
         for (int y = 0; y < table.projector.height; ++y) {
             std::vector<glm::u8vec4> a = codes;

@@ -200,7 +200,7 @@ TEST(Solids, MeshAndReliefHaveTheSameLightAndSoftEdges) {
                         off);
             EXPECT_GT(both, 1'000U);
             EXPECT_GT(soft, 10U);
-            EXPECT_LE(off, both / 500);
+            EXPECT_LE(off, both / 1000);
         }
     }
 }

@@ -221,8 +221,7 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
         for (int k = 0; k < 500; ++k) {
             const glm::dvec3 unit(u(random), u(random), u(random));
             const glm::dvec3 x = metres * (unit - glm::dvec3(0.5, 0.5, 0.0)); // table and prop frame coincide
-            const glm::dvec3 told =
-                glm::dvec3(draw.prop_from_unit[0]) * unit + glm::dvec3(draw.prop_from_unit[1]);
+            const glm::dvec3 told(glm::dmat4(draw.prop_from_unit) * glm::dvec4(unit, 1.0));
             ASSERT_LT(glm::distance(told, x), 1e-7);
             const glm::dvec3 ray = x - kiosk.eye;
             const double t = -plane.distance(kiosk.eye) / glm::dot(plane.normal, ray);

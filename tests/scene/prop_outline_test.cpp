@@ -80,9 +80,15 @@ TEST(PropOutline, OfAPropInTheHandIsThePicture) {
 }
 
 TEST(PropOutline, OfTwoNeedsHoldsBoth) {
-    const RenderNeeds whole{4, {}};
-    const RenderNeeds wide{.samples = 4, .draws = {}, .outline = PixelSize{300, 100}};
-    const RenderNeeds high{.samples = 2, .draws = {}, .outline = PixelSize{100, 300}};
+    const auto needs = [](int samples, std::optional<PixelSize> outline) {
+        RenderNeeds needs;
+        needs.samples = samples;
+        needs.outline = outline;
+        return needs;
+    };
+    const RenderNeeds whole = needs(4, std::nullopt);
+    const RenderNeeds wide = needs(4, PixelSize{300, 100});
+    const RenderNeeds high = needs(2, PixelSize{100, 300});
     EXPECT_EQ(united(wide, high).outline, (PixelSize{300, 300}));
     EXPECT_FALSE(united(wide, whole).outline) << "all of the picture";
     EXPECT_EQ(united(RenderNeeds{}, wide).outline, wide.outline) << "one sample needs no room";

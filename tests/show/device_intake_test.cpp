@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -95,6 +96,50 @@ TEST(DeviceIntake, KnowsWhoHasTwoEyes) {
         intake.poll(MonotonicTime{});
         EXPECT_EQ(intake.tracked_state_at(MonotonicTime{}).eyes_apart, is.apart)
             << static_cast<int>(is.tracker);
+    }
+}
+
+/// A frustum on the table is followed by the table's filter alone; whatever a hand lifts also by the hand's.
+TEST(DeviceIntake, FollowsThePropByHowItMoves) {
+    class Lifted final : public tracker::Tracker {
+    public:
+        [[nodiscard]] static tracker::PoseSample at(MonotonicTime now) {
+            tracker::PoseSample sample;
+            sample.time = now;
+            sample.position_m = {0.0, 0.0, 0.2 + 0.1 * std::sin(3.0 * to_seconds(now.time_since_epoch()))};
+            return sample;
+        }
+        [[nodiscard]] Result<void> poll(MonotonicTime now,
+                                        std::vector<tracker::PoseSample>& samples) override {
+            samples.push_back(at(now));
+            return {};
+        }
+        [[nodiscard]] std::string name() const override { return "lifted"; }
+        [[nodiscard]] bool reports_table_frame() const override { return true; }
+    };
+    settings::Settings in_hand;
+    in_hand.prop.zone = settings::PropZone::Hand;
+    settings::Settings cube;
+    cube.prop = settings::cube_settings(0.1);
+    cube.prop.zone = settings::PropZone::Table;
+    using tracking::PropMotion;
+    for (const auto& [settings, motion] :
+         {std::pair(settings::Settings{}, PropMotion::OnTable), std::pair(in_hand, PropMotion::InHand),
+          std::pair(cube, PropMotion::InHand)}) {
+        Inputs inputs;
+        inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::make_unique<Lifted>(),
+                                                                       geometry::Registration{});
+        DeviceIntake intake(settings, inputs);
+        tracking::LiveTrackedState same(settings.eye.default_m, 0.5 * settings.prop.height_m, {}, motion);
+        for (int k = 0; k < 100; ++k) {
+            const MonotonicTime now(milliseconds(16 * k));
+            intake.poll(now);
+            same.take(Lifted::at(now));
+            const MonotonicTime lit = now + milliseconds(30);
+            ASSERT_EQ(intake.tracked_state_at(lit).table_from_prop.translation,
+                      same.at(lit).table_from_prop.translation)
+                << name_of(settings.prop.kind) << ' ' << k;
+        }
     }
 }
 

@@ -28,6 +28,7 @@ const MonotonicTime start{seconds(100)};
 
 struct Record {
     std::vector<int> ages; ///< of the buffers passed in
+    std::size_t eyes = 0;  ///< of the latest picture
     int times = 0;
 };
 
@@ -36,9 +37,10 @@ class RecordingShow final : public PresentationShow {
 public:
     explicit RecordingShow(Record& record) : record_(record) {}
     [[nodiscard]] render::DrawResult draw(MonotonicTime, const exhibit::Presentation&,
-                                          std::span<const glm::dvec3>, const render::RenderTarget& target,
-                                          render::Redraw) override {
+                                          std::span<const glm::dvec3> eyes_m,
+                                          const render::RenderTarget& target, render::Redraw) override {
         record_.ages.push_back(target.buffer_age);
+        record_.eyes = eyes_m.size();
         return {true, {}, {}, 1};
     }
     void record_time(MonotonicTime, double) override { ++record_.times; }
@@ -117,6 +119,15 @@ TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
     frame(chord);
     frame();
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds no picture of its own
+}
+
+TEST_F(Live, TwoEyesAreDrawnForStereoAlone) {
+    EXPECT_EQ(record.eyes, 1U);
+    settings.eye.stereo = settings::Stereo::Anaglyph;
+    show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingShow>(record),
+                                         sample::exhibit(3, {"en"}), "a driver");
+    frame();
+    EXPECT_EQ(record.eyes, 2U);
 }
 
 /// Every page has its own picture; the white and black lights are exactly that, once their words have gone.

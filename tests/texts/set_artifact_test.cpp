@@ -34,8 +34,10 @@ CaptionLimits limits_for_captions() {
 class SetArtifactTexts : public Shaping {
 protected:
     [[nodiscard]] SetArtifact set(const std::vector<pack::PackCaption>& captions,
-                                  const std::vector<std::vector<pack::PackLabel>>& labels = {}) const {
-        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, limits_for_captions(), *shaper);
+                                  const std::vector<std::vector<pack::PackLabel>>& labels = {},
+                                  const std::vector<std::vector<pack::PackLabel>>& titles = {}) const {
+        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, titles, limits_for_captions(),
+                            *shaper);
     }
 };
 
@@ -74,6 +76,40 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
     EXPECT_EQ(lines(made.languages[0]), 3U) << "Köln and um 1600, the gift, who made the scan";
     EXPECT_EQ(lines(made.languages[1]), 1U);
     EXPECT_EQ(made.languages[0].runs.find("title")->settings.size(), 1U) << "one line is one setting";
+}
+
+TEST_F(SetArtifactTexts, titles_of_behaviours_are_set_in_every_language) {
+    std::vector<pack::PackCaption> captions;
+    std::vector<pack::PackLabel> titles;
+    for (const Sample& sample : samples) {
+        if (has(sample.language)) {
+            captions.push_back({sample.language, "1", ""});
+            titles.push_back({sample.language, sample.text});
+        }
+    }
+    const SetArtifact made = set(captions, {}, {{}, titles, {{"tlh", "1"}}});
+    EXPECT_TRUE(made.notes.empty()) << made.notes.front();
+    ASSERT_EQ(made.languages.size(), captions.size());
+    for (std::size_t k = 0; k < captions.size(); ++k) {
+        const std::string& language = captions[k].language;
+        const pack::GlyphRuns& runs = made.languages[k].runs;
+        EXPECT_EQ(keys_of(made.languages[k]),
+                  (std::vector<std::string>{"title", "attribution", "behaviour.1"}))
+            << language;
+        const pack::GlyphText* const title = runs.find("behaviour.1");
+        ASSERT_NE(title, nullptr) << language;
+        const bool leftwards = language == "ar" || language == "he";
+        EXPECT_EQ(title->direction,
+                  leftwards ? pack::TextDirection::RightToLeft : pack::TextDirection::LeftToRight)
+            << language;
+        const Result<ShapedText> alone = shape(language, titles[k].text, 35);
+        ASSERT_TRUE(alone);
+        std::size_t glyphs = 0;
+        for (const pack::GlyphSetting& setting : title->settings) {
+            glyphs = std::max(glyphs, setting.glyphs.size());
+        }
+        EXPECT_EQ(glyphs, alone->settings.front().glyphs.size()) << language;
+    }
 }
 
 TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {

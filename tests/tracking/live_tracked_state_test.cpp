@@ -1,9 +1,12 @@
 #include "app/tracking/live_tracked_state.h"
+#include "app/tracking/shown_pose.h"
+#include "app/tracking/motion_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace frustumscreen::tracking {
 namespace {
@@ -37,6 +40,27 @@ TEST(LiveTrackedState, CountsWhatIsNoPose) {
     const TrackedState tracked_state = live.at(from_microseconds(0));
     EXPECT_EQ(tracked_state.table_from_prop.translation, glm::dvec3(0.1, 0.0, 0.0));
     EXPECT_TRUE(tracked_state.prop_known);
+}
+
+/// The filter of the hand is not there at all: its poses are those of the table's, bit for bit, also while it is lifted.
+TEST(LiveTrackedState, APropThatStandsOnTheTableHasTheTablesFilterAlone) {
+    LiveTrackedState on_table(default_eye, lever_m, {}, PropMotion::OnTable);
+    LiveTrackedState in_hand(default_eye, lever_m);
+    PoseEstimator table(std::make_unique<MotionFilter>(exhibit_filter()));
+    ShownPose shown({.lever_m = lever_m}); // holds what moves by less than can be seen
+    int differ = 0;
+    for (int k = 0; k < 600; ++k) {
+        tracker::PoseSample sample = prop_at(16'000 * k, 0.1 * std::sin(0.03 * k));
+        sample.position_m.z = 0.2 + 0.1 * std::sin(0.03 * k); // 0.2 m/s
+        on_table.take(sample);
+        in_hand.take(sample);
+        table.take(sample.time, {sample.rotation, sample.position_m});
+        const MonotonicTime lit = from_microseconds(16'000 * k + 33'000);
+        const glm::dvec3 place_m = on_table.at(lit).table_from_prop.translation;
+        ASSERT_EQ(place_m, shown.follow(table.at(lit), lit).translation) << k;
+        differ += place_m != in_hand.at(lit).table_from_prop.translation ? 1 : 0;
+    }
+    EXPECT_GT(differ, 500) << "otherwise this test sees nothing";
 }
 
 /// A picture at rest is not redrawn: the pose must be equal bit for bit.

@@ -286,9 +286,48 @@ def draw_ladder(path):
     save_column(path.with_suffix(".svg"), [panel])
 
 
+CHOICES = {"ours": (0, "o"), "paper": (1, "s")}  # of mixed: colour and mark
+
+
+def draw_mixed(path):
+    rows = read_table(path)
+    panels = []
+    for title, unit, column in (("Geometric error at each budget", "mean distance, mm", "error_mm_mean"),
+                                ("Silhouette error at each budget", "% of the artifact's pixels", "silhouette_pct"),
+                                ("Popping at each budget", "largest of the walk, RMSE in 8-bit codes", "pop_codes")):
+        panel = Panel(f"{title}: cells of polygons or relief", "processor time of a frame, 99th percentile, ms", unit,
+                      log=False, corner="better ↙")
+        for name, (colour, mark) in CHOICES.items():
+            own = sorted((float(row["ms_p99"]), float(row[column])) for row in rows if row["technique"] == name)
+            panel.series.append(Series(name, own, colour, mark))
+        panels.append(panel)
+    save_column(path.with_suffix(".svg"), panels)
+
+
+def draw_mixed_frames(path):
+    """As Kim 2008, Fig. 9: the frame rate over the walk; below it the popping."""
+    rows = read_table(path)
+    panels = []
+    budgets = different(row["budget_us"] for row in rows)
+    for budget in different((budgets[0], budgets[len(budgets) // 2], budgets[-1])):
+        for title, unit, value in (
+                ("Frame rate over the walk", "frames a second of processor time",
+                 lambda row: 1e3 / float(row["ms"])),
+                ("Popping over the walk", "RMSE in 8-bit codes", lambda row: float(row["pop_codes"]))):
+            panel = Panel(f"{title}, at {float(budget) / 1e3:.1f} ms", "frame", unit, log=False)
+            for name, (colour, _) in CHOICES.items():
+                own = [(float(row["frame"]), value(row)) for row in rows
+                       if row["technique"] == name and row["budget_us"] == budget]
+                panel.series.append(Series(name, own, colour, ""))
+            if title.startswith("Frame rate"):
+                panel.limits = [(1e6 / float(budget), "the budget")]
+            panels.append(panel)
+    save_column(path.with_suffix(".svg"), panels)
+
+
 TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_": draw_scaling,
           "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup,
-          "guidance": draw_guidance, "ladder": draw_ladder}
+          "guidance": draw_guidance, "ladder": draw_ladder, "mixed": draw_mixed, "mixed_frames": draw_mixed_frames}
 
 
 @contextmanager

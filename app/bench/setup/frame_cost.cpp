@@ -43,6 +43,7 @@ Result<std::unique_ptr<Candidate>> make_candidate(const settings::Settings& sett
     PictureOptions options;
     options.lit = true;
     options.both_eyes = true;
+    options.only_changes = true;
     TRY(made->level, relief
                          ? make_pack_relief(made->kiosk, pack, relief, std::nullopt, options, "relief")
                          : make_pack_level(made->kiosk, pack, pack.default_level, options, "default level"));

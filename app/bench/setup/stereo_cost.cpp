@@ -1,6 +1,7 @@
 #include "app/bench/setup/stereo_cost.h"
 
 #include "app/pack/pack_relief.h"
+#include "app/scene/stereo.h"
 
 #include <fmt/format.h>
 
@@ -10,15 +11,22 @@ namespace frustumscreen::bench {
 
 namespace {
 
-/// Without stereo, then each layout.
-std::vector<settings::Settings> with_each_layout(const settings::Settings& settings) {
-    std::vector<settings::Settings> all;
-    for (const settings::Stereo stereo :
-         {settings::Stereo::Off, settings::Stereo::SideBySide, settings::Stereo::TopBottom,
-          settings::Stereo::FrameSequential, settings::Stereo::Anaglyph}) {
-        all.push_back(settings);
-        all.back().eye.stereo = stereo;
-        all.back().projector.stereo = settings::ProjectorStereo::AsEye;
+constexpr std::array layouts{settings::Stereo::SideBySide, settings::Stereo::TopBottom,
+                             settings::Stereo::FrameSequential, settings::Stereo::Anaglyph};
+
+settings::Settings in_layout(settings::Settings settings, settings::Stereo stereo) {
+    settings.eye.stereo = stereo;
+    settings.projector.stereo = settings::ProjectorStereo::AsEye;
+    return settings;
+}
+
+/// Without stereo; then, for each layout, one eye's picture alone and both eyes.
+std::vector<settings::Settings> set_ups_of(const settings::Settings& settings) {
+    std::vector<settings::Settings> all{in_layout(settings, settings::Stereo::Off)};
+    for (const settings::Stereo stereo : layouts) {
+        settings::Settings& alone = all.emplace_back(all.front());
+        alone.projector.pinhole = scene::stereo_layout(settings.projector.pinhole, stereo).pinhole;
+        all.push_back(in_layout(settings, stereo));
     }
     return all;
 }
@@ -27,7 +35,7 @@ std::vector<settings::Settings> with_each_layout(const settings::Settings& setti
 
 Result<std::vector<StereoCost>> stereo_costs(const settings::Settings& settings, const pack::Pack& pack,
                                              const Progress& progress) {
-    const std::vector<settings::Settings> set_ups = with_each_layout(settings);
+    const std::vector<settings::Settings> set_ups = set_ups_of(settings);
     std::vector<const settings::Settings*> pointers;
     for (const settings::Settings& each : set_ups) {
         pointers.push_back(&each);
@@ -46,32 +54,36 @@ Result<std::vector<StereoCost>> stereo_costs(const settings::Settings& settings,
             progress((static_cast<double>(part) + done) / static_cast<double>(reliefs.size() + 1));
         };
         TRY(const std::vector<SetUpCost> measured, frame_costs(pointers, pack, shown, relief));
-        for (std::size_t k = 1; k < measured.size(); ++k) {
+        for (std::size_t k = 0; k < layouts.size(); ++k) {
+            const SetUpCost& alone = measured[1 + 2 * k];
+            const SetUpCost& both = measured[2 + 2 * k];
             costs.push_back({.drawn = drawn,
-                             .stereo = set_ups[k].eye.stereo,
-                             .times_one_eye = measured[k].times_first,
-                             .cpu_times_one_eye = measured[k].cpu_times_first});
+                             .stereo = layouts[k],
+                             .times_one_eye = both.times_first,
+                             .cpu_times_one_eye = both.cpu_times_first,
+                             .cpu_times_alone = both.cpu_times_first / alone.cpu_times_first});
         }
     }
     return costs;
 }
 
 std::string stereo_table(std::span<const StereoCost> costs) {
-    std::string text =
-        fmt::format("{:<10} {:<18} {:>16} {:>16}\n", "drawn", "layout", "time / one eye", "processor time");
+    std::string text = fmt::format("{:<10} {:<18} {:>16} {:>16} {:>16}\n", "drawn", "layout",
+                                   "time / one eye", "processor time", "/ its eye alone");
     for (const StereoCost& cost : costs) {
-        text += fmt::format("{:<10} {:<18} {:>16.2f} {:>16.2f}{}\n", cost.drawn,
+        text += fmt::format("{:<10} {:<18} {:>16.2f} {:>16.2f} {:>16.2f}{}\n", cost.drawn,
                             settings::name_of(cost.stereo), cost.times_one_eye, cost.cpu_times_one_eye,
+                            cost.cpu_times_alone,
                             cost.cpu_times_one_eye > wanted_times_one_eye ? "  more than wanted" : "");
     }
     return text;
 }
 
 std::string stereo_csv(std::span<const StereoCost> costs) {
-    std::string text = "drawn,layout,times_one_eye,cpu_times_one_eye\n";
+    std::string text = "drawn,layout,times_one_eye,cpu_times_one_eye,cpu_times_alone\n";
     for (const StereoCost& cost : costs) {
-        text += fmt::format("{},{},{:.4f},{:.4f}\n", cost.drawn, settings::name_of(cost.stereo),
-                            cost.times_one_eye, cost.cpu_times_one_eye);
+        text += fmt::format("{},{},{:.4f},{:.4f},{:.4f}\n", cost.drawn, settings::name_of(cost.stereo),
+                            cost.times_one_eye, cost.cpu_times_one_eye, cost.cpu_times_alone);
     }
     return text;
 }

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -104,12 +103,13 @@ struct Placed {
 
 class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Kiosk& kiosk, settings::Stereo stereo, const Placed& placed,
+    PackLevelTechnique(const Kiosk& kiosk, const PictureOptions& options, const Placed& placed,
                        std::optional<scene::SeenLevel> seen, const Lights& lights, std::string name,
                        Parts parts)
-        : kiosk_(kiosk), stereo_(stereo), placed_(placed), seen_(std::move(seen)), lights_(lights),
-          name_(std::move(name)), parts_(std::move(parts)) {
-        const std::size_t eyes = layout_of(kiosk, stereo).count;
+        : kiosk_(kiosk), stereo_(stereo_of(kiosk, options)), only_changes_(options.only_changes),
+          placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
+          parts_(std::move(parts)) {
+        const std::size_t eyes = layout_of(kiosk, stereo_).count;
         plans_.reserve(eyes);
         for (std::size_t eye = 0; eye < eyes; ++eye) {
             plans_.push_back(scene::make_plan(kiosk.prop, placed.coloured));
@@ -174,10 +174,9 @@ private:
     }
     void plan(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         const scene::StereoLayout layout = layout_of(kiosk_, stereo_);
-        const std::array<glm::dvec3, 2> both = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
-        const std::span<const glm::dvec3> eyes_m =
-            layout.count == 1 ? std::span(&pose.eye_m, 1) : std::span(both);
-        const std::array<scene::PlanView, 2> views = scene::views_of(layout, view_of(pose, light), eyes_m);
+        const std::array<glm::dvec3, 2> both_m = eyes_of(pose, 1e-3 * kiosk_.settings.eye.interocular_mm);
+        const std::array<scene::PlanView, 2> views =
+            scene::views_of(layout, view_of(pose, light), scene::drawn_eyes(layout, pose.eye_m, both_m));
         for (std::size_t eye = 0; eye < layout.count; ++eye) {
             scene::plan_frame(kiosk_.prop, placed, views[eye], plans_[eye]);
             if (!light.feathered) {
@@ -187,11 +186,16 @@ private:
     }
     void draw(const scene::PlacedLevel& placed, const BenchPose& pose, const Light& light) {
         plan(placed, pose, light);
-        parts_.renderer.draw(plans_, {kiosk_.framebuffer, 0}, render::Redraw::Everything);
+        if (only_changes_) {
+            parts_.renderer.draw(plans_, {kiosk_.framebuffer, 1}, render::Redraw::Again);
+        } else {
+            parts_.renderer.draw(plans_, {kiosk_.framebuffer, 0}, render::Redraw::Everything);
+        }
     }
 
     const Kiosk& kiosk_;
     settings::Stereo stereo_;
+    bool only_changes_;
     Placed placed_;
     std::optional<scene::SeenLevel> seen_;
     Lights lights_;
@@ -210,8 +214,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     const scene::SceneLevel whole = scene::whole_level(pack, level);
     scene::ShaderKey shader;
     shader.cut_out = whole.cut_out;
-    const settings::Stereo stereo = stereo_of(kiosk, options);
-    const scene::StereoLayout layout = layout_of(kiosk, stereo);
+    const scene::StereoLayout layout = layout_of(kiosk, stereo_of(kiosk, options));
     TRY(render::Renderer renderer,
         render::Renderer::create(layout.display.width, layout.display.height,
                                  needs_of(layout.pinhole, samples_of(options, pack), shader)));
@@ -228,7 +231,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pac
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(kiosk, stereo, both, seen.levels[level], lights,
+    return std::make_unique<PackLevelTechnique>(kiosk, options, both, seen.levels[level], lights,
                                                 std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
@@ -239,8 +242,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
                                                     const PictureOptions& options, std::string name,
                                                     bool on_gpu) {
     TRY(const Lights lights, lights_of(kiosk, options, pack));
-    const settings::Stereo stereo = stereo_of(kiosk, options);
-    const scene::StereoLayout layout = layout_of(kiosk, stereo);
+    const scene::StereoLayout layout = layout_of(kiosk, stereo_of(kiosk, options));
     scene::RenderNeeds needs;
     if (on_gpu) {
         scene::ShaderKey shader;
@@ -265,7 +267,8 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
-    return std::make_unique<PackLevelTechnique>(kiosk, stereo, both, std::move(seen), lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(kiosk, options, both, std::move(seen), lights,
+                                                std::move(name),
                                                 Parts{std::move(renderer), std::move(hit_points)});
 }
 

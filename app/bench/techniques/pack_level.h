@@ -21,6 +21,9 @@ struct PictureOptions {
     bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, for comparison
     /// Both eyes in the settings' layout, of a head that looks at the prop; the framebuffer has the layout's size.
     bool both_eyes = false;
+    /// As the exhibit, draws only what changed since the technique's last picture, which the framebuffer must still hold;
+    /// otherwise every picture is drawn whole.
+    bool only_changes = false;
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Kiosk& kiosk, const pack::Pack& pack,

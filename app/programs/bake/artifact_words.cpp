@@ -6,6 +6,8 @@
 #include "assets_baked/texts/set_artifact.h"
 
 #include <cmath>
+#include <functional>
+#include <map>
 
 namespace frustumscreen::programs {
 
@@ -31,7 +33,8 @@ texts::CaptionLimits caption_limits() {
     return limits;
 }
 
-void set_texts(const BakeRequest& request, ArtifactWords& words) {
+void set_texts(const BakeRequest& request, std::span<const pack::PackBehaviour> behaviours,
+               ArtifactWords& words) {
     const Result<texts::Shaper> shaper = texts::Shaper::open();
     if (!shaper) {
         words.lost.push_back(shaper.error().message);
@@ -41,23 +44,46 @@ void set_texts(const BakeRequest& request, ArtifactWords& words) {
     for (const bake::GivenHotspot& hotspot : request.options.hotspots) {
         labels.push_back(hotspot.labels);
     }
+    std::vector<std::vector<pack::PackLabel>> titles;
+    for (const pack::PackBehaviour& behaviour : behaviours) {
+        titles.push_back(behaviour.titles);
+    }
     texts::SetArtifact set =
-        texts::set_artifact(request.captions, request.rights, labels, caption_limits(), *shaper);
+        texts::set_artifact(request.captions, request.rights, labels, titles, caption_limits(), *shaper);
     words.set = std::move(set.languages);
     words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }
 
 } // namespace
 
-Result<ArtifactWords> words_of(const BakeRequest& request) {
+Result<ArtifactWords> words_of(const BakeRequest& request, std::span<const pack::PackBehaviour> behaviours) {
     ArtifactWords words;
     words.lost = request.lost;
-    set_texts(request, words);
+    set_texts(request, behaviours, words);
     TRY(texts::SpokenArtifact spoken, texts::speak_artifact(request.captions, request.speech));
     words.spoken = std::move(spoken.languages);
     words.silent = std::move(spoken.silent);
     words.lost.insert(words.lost.end(), spoken.notes.begin(), spoken.notes.end());
     return words;
+}
+
+void number_titles(std::span<const pack::PackBehaviour> behaviours, std::span<const pack::PackBehaviour> kept,
+                   std::vector<pack::SetLanguage>& set) {
+    std::map<std::string, std::string, std::less<>> keys; // empty: the behaviour is not kept
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < behaviours.size(); ++k) {
+        const bool stays =
+            next < kept.size() && kept[next].behaviour.name == behaviours[k].behaviour.name; // each name once
+        keys[pack::behaviour_key(k)] = stays ? pack::behaviour_key(next++) : std::string();
+    }
+    for (pack::SetLanguage& language : set) {
+        for (pack::GlyphText& text : language.runs.texts) {
+            if (const auto found = keys.find(text.key); found != keys.end()) {
+                text.key = found->second;
+            }
+        }
+        std::erase_if(language.runs.texts, [](const pack::GlyphText& text) { return text.key.empty(); });
+    }
 }
 
 } // namespace frustumscreen::programs

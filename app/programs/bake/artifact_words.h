@@ -5,8 +5,10 @@
 #pragma once
 
 #include "app/pack/pack_texts.h"
+#include "app/pack/pack_world.h"
 #include "app/programs/bake/bake_request.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,12 @@ struct ArtifactWords {
     std::vector<std::string> lost;   ///< texts that cannot be shown or spoken, a sentence each
 };
 
-[[nodiscard]] Result<ArtifactWords> words_of(const BakeRequest& request);
+/// `behaviours`: what moves, whose titles are set.
+[[nodiscard]] Result<ArtifactWords> words_of(const BakeRequest& request,
+                                             std::span<const pack::PackBehaviour> behaviours);
+
+/// Gives the set titles of `behaviours` the keys that they have in a pack with `kept`, some of them in the same order.
+void number_titles(std::span<const pack::PackBehaviour> behaviours, std::span<const pack::PackBehaviour> kept,
+                   std::vector<pack::SetLanguage>& set);
 
 } // namespace frustumscreen::programs

@@ -71,7 +71,11 @@ Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult
     TRY(std::vector<ProjectedLanguage> languages,
         projected_texts(result.file, result.pack,
                         pack::place(result.pack, result.prop.shape).metres_per_box));
-    const PreviewMedia media{std::move(turn), result.pack.table_picture, std::move(languages)};
+    TRY(std::vector<BehaviourPictures> behaviours, behaviour_pictures(result.file, options));
+    const PreviewMedia media{.turn = std::move(turn),
+                             .table_picture = result.pack.table_picture,
+                             .languages = std::move(languages),
+                             .behaviours = std::move(behaviours)};
     const std::string page = preview_page(result.pack, preview_facts(result), media,
                                           request.watched ? PageKind::Reloading : PageKind::Final);
     TRY_VOID(write_file(request.preview, as_bytes(page)));

@@ -51,8 +51,7 @@ std::vector<std::string> label_notes(std::span<const Labelled> all,
         const std::string word = key.substr(0, key.size() - 1);
         for (const pack::PackCaption& caption : captions) {
             if (std::none_of(labels.begin(), labels.end(), is_in(caption.language))) {
-                notes.push_back(fmt::format("{} has no {} in '{}', so its visitors read another "
-                                            "language there; write {} = "
+                notes.push_back(fmt::format("{} has no {} in '{}', so none is shown there; write {} = "
                                             "\"...\" under {}",
                                             name, word, caption.language, caption.language, key));
             }

@@ -78,10 +78,11 @@ Result<void> tell(const std::vector<bake::SourceNote>& notes, const BakeRequest&
 }
 
 /// Sets and speaks the texts. Runs before the bake: it takes seconds, the bake minutes, so errors are reported early.
-Result<ArtifactWords> set_and_speak(const BakeRequest& request, const bake::BakeOptions& options,
-                                    std::vector<bake::SourceNote>& notes) {
+Result<ArtifactWords> set_and_speak(const BakeRequest& request,
+                                    std::span<const pack::PackBehaviour> behaviours,
+                                    const bake::BakeOptions& options, std::vector<bake::SourceNote>& notes) {
     options.progress("texts and speech", 0.0);
-    TRY(ArtifactWords words, words_of(request));
+    TRY(ArtifactWords words, words_of(request, behaviours));
     for (const std::string& lost : words.lost) {
         notes.push_back({bake::SourceNote::Kind::Lost, lost});
     }
@@ -139,7 +140,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     };
     begin_stages(read, std::lerp(read, 1.0, whole));
     result.notes = mesh.notes;
-    TRY(std::vector<pack::PackBehaviour> behaviours, movements_of(written, mesh, result.cells, result.notes));
+    TRY(const std::vector<pack::PackBehaviour> behaviours,
+        movements_of(written, mesh, result.cells, result.notes));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
@@ -154,7 +156,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         request.turn_deg ? *request.turn_deg
                          : bake::best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
     TRY_VOID(check_hotspots(mesh, options));
-    TRY(ArtifactWords words, set_and_speak(request, options, result.notes));
+    TRY(ArtifactWords words, set_and_speak(request, behaviours, options, result.notes));
     result.silent = std::move(words.silent);
     TRY(const bake::ScanMeasures measures, at(request.scan.string(), bake::measure_scan(mesh, options)));
     result.scan = summary_of(mesh, measures);
@@ -163,7 +165,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     if (result.cells.nodes) {
         begin_stages(std::lerp(read, 1.0, whole), 1.0);
         TRY(result.world,
-            at(request.scan.string(), put_cells(pack, mesh, std::move(behaviours), options, result.notes)));
+            at(request.scan.string(), put_cells(pack, mesh, behaviours, options, result.notes)));
+        number_titles(behaviours, result.world.behaviours, words.set);
         TRY_VOID(check_losses(result.notes, request));
     }
     result.rights = request.rights;

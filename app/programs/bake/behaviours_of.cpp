@@ -204,6 +204,7 @@ Result<std::vector<pack::PackBehaviour>> movements_of(const BakeRequest& request
         const std::string movements =
             behaviours.size() == 1 ? "the movement" : fmt::format("{} movements", behaviours.size());
         lost = {fmt::format("{} of its parts, since {}", movements, cells.why)};
+        behaviours.clear();
     }
     for (const std::string& each : lost) {
         notes.push_back({bake::SourceNote::Kind::Lost, each});

@@ -24,7 +24,7 @@ namespace frustumscreen::programs {
 behaviours_of(std::span<const folder::ArtifactBehaviour> written, const bake::SourceMesh& mesh,
               std::vector<std::string>& lost);
 
-/// The same for a request. Notes what is lost: all of it, if the bake makes no cells.
+/// The same for a request; none if the bake makes no cells. Notes what is lost.
 [[nodiscard]] Result<std::vector<pack::PackBehaviour>> movements_of(const BakeRequest& request,
                                                                     const bake::SourceMesh& mesh,
                                                                     const CellsChoice& cells,

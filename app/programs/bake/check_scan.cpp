@@ -22,15 +22,16 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
     for (const bake::SourceAnimation& animation : mesh.animations) {
         checked.animations.push_back(animation.name);
     }
-    TRY_VOID(without_value(movements_of(
-        request, mesh, choose_cells(request.cells, mesh, request.behaviours.size()), checked.notes)));
+    TRY(const std::vector<pack::PackBehaviour> behaviours,
+        movements_of(request, mesh, choose_cells(request.cells, mesh, request.behaviours.size()),
+                     checked.notes));
     TRY(const bake::ScanMeasures measures,
         at(request.scan.string(), bake::measure_scan(mesh, request.options)));
     checked.summary = summary_of(mesh, measures);
     CompletedRequest all = completed(std::move(request), mesh.about);
     checked.notes.insert(checked.notes.end(), all.notes.begin(), all.notes.end());
     all.request.speech.voice = std::nullopt; // what it cannot speak is silent, not lost
-    TRY(const ArtifactWords words, words_of(all.request));
+    TRY(const ArtifactWords words, words_of(all.request, behaviours));
     for (const std::string& lost : words.lost) {
         checked.notes.push_back({bake::SourceNote::Kind::Lost, lost});
     }

@@ -136,6 +136,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand setup_command(CommandLine& app);
 /// The cost of two eyes' pictures over that of one.
 [[nodiscard]] BenchCommand stereo_command(CommandLine& app);
+/// Which cells are polygons and which are relief: ours against the paper's choice, on one walk.
+[[nodiscard]] BenchCommand mixed_command(CommandLine& app);
 /// The benefit of advice for visitors.
 [[nodiscard]] BenchCommand guidance_command(CommandLine& app);
 /// The benefit of the recovery ladder over years of faults.

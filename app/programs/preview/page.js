@@ -63,6 +63,27 @@
     view.addEventListener(end, () => { drag = null; });
   }
 
+  // A behaviour plays once on a press: its pictures lie side by side.
+  document.querySelectorAll('.behaviour').forEach((behaviour) => {
+    const film = behaviour.querySelector('.film');
+    const row = film.querySelector('img');
+    const press = behaviour.querySelector('button');
+    let playing = 0;
+    press.hidden = false;
+    press.addEventListener('click', () => {
+      let picture = 0;
+      clearInterval(playing);
+      row.style.left = '0';
+      playing = setInterval(() => {
+        picture += 1;
+        row.style.left = -100 * picture + '%';
+        if (picture + 1 >= number(film, 'frames')) {
+          clearInterval(playing);
+        }
+      }, number(film, 'step'));
+    });
+  });
+
   // A page that loads itself again goes on where it was.
   const kept = /^#turn=(\d+)(,stop)?$/.exec(location.hash);
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -16,12 +16,23 @@ namespace frustumscreen::programs {
 namespace {
 
 constexpr float turn_quality = 82.0F;
+/// Between a behaviour's pictures: none is too short to be seen, and an hour's are not waited for.
+constexpr double shortest_step_ms = 40.0, longest_step_ms = 1000.0;
 constexpr double frame_s = 0.15; ///< as step_ms of page.js
 constexpr std::string_view reload_without_scripts =
     "<noscript><meta http-equiv=\"refresh\" content=\"2\"></noscript>\n";
 
 std::string reload_script_part() {
     return fmt::format("<script>{}</script>\n", page_reload_script());
+}
+
+/// The rules that depend on the pictures of a behaviour, which have one size and number.
+std::string style_of(const std::vector<BehaviourPictures>& behaviours) {
+    return behaviours.empty()
+               ? std::string()
+               : fmt::format(
+                     ".scripted .film {{ aspect-ratio: {} / {}; }}\n.scripted .film img {{ width: {}%; }}\n",
+                     behaviours.front().size.x, behaviours.front().size.y, 100 * behaviours.front().frames);
 }
 
 /// The page's style with the rules that depend on the sheet of pictures.
@@ -227,6 +238,55 @@ std::string hotspots_part(const pack::PackDescription& pack,
         rows);
 }
 
+/// When a behaviour begins.
+std::string start_of(const world::Behaviour& behaviour) {
+    switch (behaviour.trigger) {
+    case world::Trigger::Button:
+        return "begins by the button for it";
+    case world::Trigger::Dwell:
+        return "begins when a visitor has looked for a while";
+    case world::Trigger::Hotspot:
+        return fmt::format("begins when place {} is turned to the visitor", behaviour.hotspot + 1);
+    case world::Trigger::Narration:
+        return fmt::format("begins {:.1f} s after the description", behaviour.narration_s);
+    case world::Trigger::Arrival:
+        break;
+    }
+    return "begins when the artifact has come";
+}
+
+std::string behaviour_part(const BehaviourPictures& pictures) {
+    const world::Behaviour& behaviour = pictures.behaviour.behaviour;
+    std::string told;
+    for (const pack::PackLabel& title : pictures.behaviour.titles) {
+        told += fmt::format("<br>{0}: <span lang=\"{0}\" dir=\"auto\">{1}</span>", xml_text(title.language),
+                            xml_text(title.text));
+    }
+    return fmt::format(
+        "<figure class=\"behaviour\"><div class=\"film\" data-frames=\"{}\" data-step=\"{:.0f}\">"
+        "<img alt=\"{}: {} pictures side by side\" src=\"{}\"></div>\n"
+        "<figcaption><button type=\"button\" hidden>Play</button> <b>{}</b>, {:.1f} s, {}{}"
+        "</figcaption></figure>\n",
+        pictures.frames, std::clamp(1000.0 * pictures.step_s, shortest_step_ms, longest_step_ms),
+        xml_text(behaviour.name), pictures.frames,
+        data_address("image/webp", image::encode_lossy_webp(pictures.sheet, turn_quality)),
+        xml_text(behaviour.name), behaviour.seconds, start_of(behaviour), told);
+}
+
+std::string behaviours_part(const std::vector<BehaviourPictures>& behaviours) {
+    if (behaviours.empty()) {
+        return {};
+    }
+    std::string figures;
+    for (const BehaviourPictures& pictures : behaviours) {
+        figures += behaviour_part(pictures);
+    }
+    return fmt::format(
+        "<h2>What moves</h2>\n<p class=\"soft\">{} pictures of each, over the time that it takes; "
+        "below it, what the visitor is told.</p>\n<div class=\"behaviours\">\n{}</div>\n",
+        behaviours.front().frames, figures);
+}
+
 std::string levels_part(const pack::PackDescription& pack, const PreviewFacts& facts) {
     std::string rows;
     for (std::size_t k = 0; k < facts.levels.size(); ++k) {
@@ -266,13 +326,13 @@ std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& 
     for (const ProjectedLanguage& language : media.languages) {
         texts += language_part(language);
     }
-    std::string page = head(pack, style_of(media.turn), kind) + "<body>\n" + beginning(pack, facts, media) +
-                       "<main>\n" + warnings(facts) +
+    std::string page = head(pack, style_of(media.turn) + style_of(media.behaviours), kind) + "<body>\n" +
+                       beginning(pack, facts, media) + "<main>\n" + warnings(facts) +
                        "<h2>Texts on the table</h2>\n<p class=\"soft\">Left as the projector draws them, 30 "
                        "cm wide; right the "
                        "words for reading.</p>\n" +
-                       texts + hotspots_part(pack, media.languages) + levels_part(pack, facts) +
-                       source_part(pack, facts) + "</main>\n";
+                       texts + hotspots_part(pack, media.languages) + behaviours_part(media.behaviours) +
+                       levels_part(pack, facts) + source_part(pack, facts) + "</main>\n";
     page += fmt::format("<footer>Made by {} from {}. This page needs no network and no other file.</footer>\n"
                         "<script>{}</script>\n",
                         xml_text(facts.program), xml_text(facts.pack_name), page_script());

@@ -1,7 +1,8 @@
 /// A pack as one HTML page for its curator: the artifact's look, its texts, its errors, and the losses of the bake.
 ///
 /// The page is self-contained: pictures, sounds, style and script are in it, and its content security policy forbids it
-/// to load anything. All texts of the pack are escaped. Without scripts the artifact turns by itself.
+/// to load anything. All texts of the pack are escaped. Without scripts the artifact turns by itself, and the pictures of
+/// what moves lie side by side.
 ///
 /// Threads  pure; any.
 /// Errors   none.
@@ -9,6 +10,7 @@
 
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
+#include "app/programs/preview/behaviour_pictures.h"
 #include "app/programs/preview/text_pictures.h"
 #include "app/programs/preview/turn_pictures.h"
 
@@ -43,6 +45,7 @@ struct PreviewMedia {
     TurnPictures turn;
     image::Image8 table_picture; ///< empty: none
     std::vector<ProjectedLanguage> languages;
+    std::vector<BehaviourPictures> behaviours = {};
 };
 
 /// A page of a bake that is being watched reloads itself every two seconds.

@@ -1,8 +1,7 @@
 /// Pictures for the preview's page: the artifact as seen by a visitor who turns the prop once around.
 ///
 /// The exhibit's renderer draws the projector's picture at the finest level, and the simulated eye sees the prop under
-/// it. A frustum stands at the centre of the usual table under the usual projector. A standing cube's sides get no
-/// light from straight above, so for a cube the projector hangs above the visitor's head.
+/// it (preview_view.h).
 ///
 /// Frames   table T, metres; places in a picture as shares of its width and height, from the top left.
 /// Errors   as load_pack; no OpenGL ES.

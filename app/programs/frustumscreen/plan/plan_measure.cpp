@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <span>
 
 namespace frustumscreen::programs {
 
@@ -132,13 +131,12 @@ public:
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
                 const tracking::TrackedState& tracked_state = poses[frame % poses.size()];
-                const std::array<glm::dvec3, 2> eyes_m =
+                const std::array<glm::dvec3, 2> both_m =
                     tracking::eyes_of(tracked_state, 1e-3 * settings_.eye.interocular_mm);
                 const render::DrawResult result =
                     scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state),
-                                     layout_.count == 1 ? std::span<const glm::dvec3>(&tracked_state.eye_m, 1)
-                                                        : std::span<const glm::dvec3>(eyes_m),
-                                     target(), render::Redraw::Everything);
+                                     scene::drawn_eyes(layout_, tracked_state.eye_m, both_m), target(),
+                                     render::Redraw::Everything);
                 render::wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
                     scene.us.push_back(microseconds_since(start));

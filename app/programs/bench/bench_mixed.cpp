@@ -1,0 +1,125 @@
+#include "app/bench/mixed/game_board.h"
+#include "app/bench/mixed/mixed.h"
+#include "app/pack/container/sha256.h"
+#include "app/pack/pack_world.h"
+#include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
+#include "assets_baked/artifacts/write_glb.h"
+#include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/box_frame.h"
+#include "assets_baked/bake/load_mesh.h"
+#include "assets_baked/bake/world_cells.h"
+#include "firmware_host/base/file.h"
+
+#include <memory>
+
+namespace frustumscreen::programs {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    std::filesystem::path config = "config/near.toml";
+    BenchArtifact artifact;
+    bench::MixedOptions options;
+    bool is_long = false;
+};
+
+/// The game board's pack is baked anew: its cells have what the present bake gives them.
+Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::SourceMesh& mesh,
+                                 BenchProgress& progress) {
+    constexpr std::int64_t triangles = 96'000;
+    mesh = bench::make_game_board(triangles);
+    bake::BakeOptions options;
+    options.size = 256;
+    options.unlit = true;
+    options.up = "y";
+    options.table_picture = false;
+    options.measuring = 0.3;
+    options.progress = [&](std::string_view, double done) {
+        progress.show("the game board's pack", 0.3 * done);
+    };
+    TRY(pack::Pack pack, bake::bake(mesh, options));
+    pack.title = "Game board";
+    const BenchArtifact made{folder / "game_board.fspack", folder / "game_board.glb"};
+    TRY(const Bytes glb, artifacts::write_glb(mesh));
+    TRY_VOID(write_file(made.mesh, glb));
+    pack.provenance.source_name = made.mesh.filename().string();
+    pack.provenance.source_sha256 = pack::sha256_hex(glb);
+    pack.provenance.source_triangles = mesh.triangles.size();
+    TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {options.up, options.turn_deg, options.lift}));
+    options.progress = [&](std::string_view, double done) {
+        progress.show("the game board's pack", 0.3 + 0.7 * done);
+    };
+    bake::WorldCells cells = bake::bake_cells(mesh, frame, options);
+    for (std::size_t k = 0; k < cells.cells.size(); ++k) {
+        cells.geometry[k].provenance = pack.provenance;
+        cells.geometry[k].provenance.source_triangles = cells.cells[k].triangles;
+    }
+    TRY_VOID(pack::put_world(pack, {.cells = std::move(cells.cells), .behaviours = {}}, cells.geometry));
+    TRY(const Bytes bytes, pack::write_pack(pack));
+    TRY_VOID(write_file(made.pack, bytes));
+    return made;
+}
+
+Result<void> make_folder(const std::filesystem::path& folder) {
+    return write_all(folder, {});
+}
+
+Result<void> run(Arguments arguments, BenchProgress& progress) {
+    if (arguments.artifact.pack.empty() != arguments.artifact.mesh.empty()) {
+        return bad_input("bench.pack_without_mesh",
+                         "--pack and --mesh are given together, or neither of them");
+    }
+    if (arguments.is_long) {
+        arguments.options.frames = 600;
+        arguments.options.steps = 15;
+        arguments.options.budgets = 8;
+    }
+    TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
+    TRY_VOID(make_folder(arguments.out));
+    std::shared_ptr<const bake::SourceMesh> mesh;
+    if (arguments.artifact.pack.empty()) {
+        bake::SourceMesh board;
+        TRY(arguments.artifact, bake_board(arguments.out, board, progress));
+        mesh = std::make_shared<const bake::SourceMesh>(std::move(board));
+    } else {
+        TRY(LoadedArtifact loaded, load_artifact(arguments.artifact));
+        mesh = std::move(loaded.mesh);
+    }
+    TRY(const bench::MixedResult result,
+        bench::measure_mixed(*settings, arguments.artifact.pack, mesh, arguments.options,
+                             [&](const std::string& step, double done) { progress.show(step, done); }));
+    progress.clear();
+    fmt::print("{}\n{}", bench::mixed_table(result), bench::mixed_verdicts(result));
+    TRY_VOID(write_all(arguments.out, {{"mixed.csv", bench::mixed_csv(result)},
+                                       {"mixed_frames.csv", bench::mixed_frames_csv(result)}}));
+    return draw_all(arguments.out, {"mixed.csv", "mixed_frames.csv"});
+}
+
+} // namespace
+
+BenchCommand mixed_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
+        "mixed",
+        "measures how the cells of an artifact are drawn, each as polygons or relief, at several budgets "
+        "of time, against the paper's way to choose");
+    const auto arguments = std::make_shared<Arguments>();
+    command.add_option("--out", arguments->out, "folder for the tables and plots").required();
+    command.add_option("--pack", arguments->artifact.pack,
+                       "pack with cells (default: a game board, baked into --out)");
+    command.add_option("--mesh", arguments->artifact.mesh, "file that the pack was baked from");
+    command.add_option("--config", arguments->config, "settings of the set-up").capture_default_str();
+    command.add_option("--frames", arguments->options.frames, "length of the walk, at 60 frames a second")
+        .within(2, 100000)
+        .capture_default_str();
+    command
+        .add_option("--steps", arguments->options.steps, "of each technique's own budget, from least to most")
+        .within(1, 100)
+        .capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "seed of the walk").capture_default_str();
+    command.add_flag("--long", arguments->is_long, "a walk of 600 frames at eight budgets");
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen::programs

@@ -1,0 +1,221 @@
+#!/usr/bin/python3
+"""What a hunt for flaky tests remembers, on made-up tests of a made-up repository, which count their own runs."""
+
+import contextlib
+import io
+import json
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import hunt
+import inputs
+
+RUN_TEST = pathlib.Path(__file__).resolve().parents[1] / "house" / "run_test.sh"
+TIMES = 3
+
+
+class MadeUpRepository(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name, "repository")
+        self.counted = pathlib.Path(folder.name, "counted")
+        self.build = self.root / "build" / "release"
+        for each in (self.build / "tests", self.counted):
+            each.mkdir(parents=True)
+        self.places = inputs.Places(self.root, self.build, self.root.parent / "shared", self.root.parent / "git")
+        self.listed = []
+
+    def add(self, name, *command, labels=""):
+        words = " ".join(f'"{word}"' for word in [RUN_TEST, name, *command])
+        self.listed.append(f'add_test({name} {words})\nset_tests_properties({name} PROPERTIES LABELS "{labels}")\n')
+        (self.build / "CTestTestfile.cmake").write_text("".join(self.listed), encoding="utf-8")
+
+    def add_script(self, name, text, labels=""):
+        """A script that writes a line for each of its runs."""
+        script = self.root / f"{name}.sh"
+        script.write_text(f"echo run >>{self.counted / name}\ncd {self.root}\n{text}\n", encoding="utf-8")
+        self.add(name, "/bin/sh", script, labels=labels)
+
+    def runs(self, name):
+        file = self.counted / name
+        return len(file.read_text(encoding="utf-8").splitlines()) if file.exists() else 0
+
+    def hunt(self, times=TIMES, commit="first"):
+        made = hunt.Hunt(self.places, self.root / "out" / "flakes", commit, times)
+        with contextlib.redirect_stdout(io.StringIO()):
+            for test in made.waiting(hunt.tests_of(self.places)):
+                made.make(test)
+        return made
+
+    def new_runs(self, names, **options):
+        before = [self.runs(name) for name in names]
+        self.hunt(**options)
+        return [self.runs(name) - count for name, count in zip(names, before)]
+
+
+class Remembered(MadeUpRepository):
+    def setUp(self):
+        super().setUp()
+        for name in ("one", "two"):
+            (self.root / f"{name}.txt").write_text(name, encoding="utf-8")
+            self.add_script(name, f"cat {name}.txt")
+
+    def test_only_what_reads_the_changed_file_runs_again(self):
+        self.assertEqual(self.new_runs(["one", "two"]), [1 + TIMES, 1 + TIMES])  # one under strace
+        self.assertEqual(self.new_runs(["one", "two"]), [0, 0])
+        (self.root / "one.txt").write_text("other", encoding="utf-8")
+        self.assertEqual(self.new_runs(["one", "two"], commit="second"), [1 + TIMES, 0])
+        self.assertEqual(self.new_runs(["one", "two"], commit="third"), [0, 0])
+
+    def test_a_changed_script_runs_again(self):
+        self.hunt()
+        with open(self.root / "two.sh", "a", encoding="utf-8") as script:
+            script.write("true\n")
+        self.assertEqual(self.new_runs(["one", "two"]), [0, 1 + TIMES])
+
+    def test_each_run_counts(self):
+        self.hunt(times=2)
+        self.assertEqual(self.new_runs(["one", "two"], times=5), [3, 3])
+
+    def test_an_ended_hunt_begins_no_run(self):
+        ended = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES)
+        ended.end()
+        for test in ended.waiting(hunt.tests_of(self.places)):
+            ended.make(test)
+        self.assertEqual(self.runs("one"), 0)
+
+
+class Failures(MadeUpRepository):
+    def test_a_test_that_failed_begins_anew(self):
+        self.add_script("flaky", f"[ $(wc -l <{self.counted}/flaky) -ne 3 ] || {{ echo the third; exit 1; }}")
+        self.assertEqual(self.hunt().failed, ["flaky"])
+        self.assertEqual(self.runs("flaky"), 3)
+        self.assertIn("the third", (self.root / "out" / "flakes" / "flaky.log").read_text(encoding="utf-8"))
+        self.assertEqual(self.new_runs(["flaky"]), [TIMES])
+
+    def test_what_strace_cannot_run_is_remembered_by_commit(self):
+        self.add_script("traces", "strace -o /dev/null true")
+        self.assertEqual(self.hunt().untraced, ["traces"])
+        self.assertEqual(self.new_runs(["traces"]), [0])
+        self.assertEqual(self.new_runs(["traces"], commit="second"), [1 + TIMES])
+
+    def test_what_asks_git_is_remembered_by_commit(self):
+        (self.root.parent / "git").mkdir()
+        (self.root.parent / "git" / "index").touch()
+        self.add_script("asks", "cat ../git/index")
+        self.hunt()
+        self.assertEqual(self.new_runs(["asks"]), [0])
+        self.assertEqual(self.new_runs(["asks"], commit="second"), [1 + TIMES])
+
+
+class Order(MadeUpRepository):
+    def test_first_what_never_passed_and_of_it_first_what_has_threads(self):
+        self.add_script("old", "cat data.txt", labels="threads")
+        (self.root / "data.txt").touch()
+        self.hunt()
+        (self.root / "data.txt").write_text("other", encoding="utf-8")
+        self.add_script("new", "true")
+        self.add_script("new_threads", "true", labels="outside;threads")
+        waiting = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES).waiting(hunt.tests_of(self.places))
+        self.assertEqual([test.name for test in waiting], ["new_threads", "new", "old"])
+
+
+class Traces(MadeUpRepository):
+    def used(self, *lines):
+        trace = inputs.Trace([line.replace("ROOT", str(self.root)) for line in lines], self.places)
+        return {self.places.name(path): way for path, way in trace.used.items()}, trace
+
+    def test_how_a_path_was_used(self):
+        used, trace = self.used(
+            '7 execve("ROOT/build/release/tests/a", ["a"], 0x7ffc /* 9 vars */) = 0',
+            '7 openat(AT_FDCWD</>, "/etc/ld.so.cache", O_RDONLY|O_CLOEXEC) = 3</etc/ld.so.cache>',
+            '7 openat(AT_FDCWD<ROOT>, "link.txt", O_RDONLY <unfinished ...>',
+            '8 newfstatat(AT_FDCWD<ROOT/docs>, "page.md", {st_mode=S_IFREG|0644, st_size=1, ...}, 0) = 0',
+            '7 <... openat resumed>) = 3<ROOT/data.txt>',
+            '7 openat(3<ROOT/config>, "none.toml", O_RDONLY) = -1 ENOENT (No such file or directory)',
+            '7 openat(AT_FDCWD<ROOT>, "made.txt", O_WRONLY|O_CREAT, 0666) = 4<ROOT/made.txt>',
+            '7 openat(AT_FDCWD<ROOT>, "made.txt", O_RDONLY) = 4<ROOT/made.txt>',
+            '7 openat(AT_FDCWD<ROOT>, "out/hil/log", O_RDONLY) = 4<ROOT/out/hil/log>',
+            '7 openat(AT_FDCWD<ROOT>, "__pycache__/day.cpython-311.pyc", O_RDONLY) = 4<ROOT/__pycache__/day.cpython-311.pyc>')
+        self.assertEqual(used, {"build/release/tests/a": inputs.RAN, "data.txt": inputs.READ, "docs/page.md": inputs.SEEN,
+                                "config/none.toml": inputs.SEEN, "day.py": inputs.READ})
+        self.assertIsNone(trace.timing)
+        self.assertFalse(trace.asks_git)
+
+    def test_a_program_that_was_named_from_its_folder(self):
+        used, trace = self.used('7 execve("/usr/bin/sh", ["sh"], 0x7ffc /* 9 vars */) = 0',
+                                '7 execve("./b", ["b"], 0x7ffc /* 9 vars */) = 0',
+                                '7 openat(AT_FDCWD<ROOT/bin>, "/etc/ld.so.cache", O_RDONLY) = 3</etc/ld.so.cache>')
+        self.assertEqual(used, {"bin/b": inputs.RAN})
+        self.assertEqual(trace.timing, "execve")
+
+    def test_names_in_other_letters(self):
+        used, _ = self.used('7 openat(AT_FDCWD<ROOT>, "h\\303\\266he.txt", O_RDONLY) = 3<ROOT/h\\303\\266he.txt>')
+        self.assertEqual(used, {"höhe.txt": inputs.READ})
+
+    def test_what_a_path_holds(self):
+        ways = {"folder": inputs.READ, "later": inputs.SEEN, "data": inputs.READ, "looked_at": inputs.SEEN}
+        (self.root / "folder").mkdir()
+        (self.root / "data").write_text("a", encoding="utf-8")
+        (self.root / "looked_at").write_text("a", encoding="utf-8")
+        files = inputs.Digests(self.places).of_all(ways)
+        (self.root / "looked_at").write_text("b", encoding="utf-8")
+        self.assertIsNone(inputs.Digests(self.places).changed(files))
+        for change, name in ((self.root / "folder" / "new", "folder"), (self.root / "later", "later"), (self.root / "data", "data")):
+            files = inputs.Digests(self.places).of_all(ways)
+            change.write_text("b", encoding="utf-8")
+            self.assertEqual(inputs.Digests(self.places).changed(files), name)
+
+
+class Programs(MadeUpRepository):
+    def compile(self, name, text):
+        source, program = self.root / f"{name}.cpp", self.build / "tests" / name
+        source.write_text(text, encoding="utf-8")
+        subprocess.run(["c++", "-g", "-O1", "-o", program, source], check=True)
+        return program
+
+    def only_computes(self, name, text):
+        self.add(name, self.compile(name, text))
+        self.hunt()
+        return json.loads((self.root / "out" / "flakes" / f"{name}.json").read_text(encoding="utf-8"))["only_computes"]
+
+    def test_a_comment_changes_no_program(self):
+        program = self.compile("program", "int main() { return 0; }\n")
+        bytes_before, before = program.read_bytes(), inputs.digest(program, inputs.RAN)
+        self.compile("program", "// a comment\n\nint main() { return 0; }\n")
+        self.assertNotEqual(program.read_bytes(), bytes_before)
+        self.assertEqual(inputs.digest(program, inputs.RAN), before)
+        self.compile("program", "int main(int count, char**) { return count - 1; }\n")
+        self.assertNotEqual(inputs.digest(program, inputs.RAN), before)
+
+    def test_what_only_computes(self):
+        self.assertTrue(self.only_computes("sum", "int main(int count, char**) { return count - 1; }\n"))
+        self.assertTrue(self.only_computes("googletest", "#include <chrono>\nnamespace testing { __attribute__((noinline)) long now() { "
+                                           "return std::chrono::steady_clock::now().time_since_epoch().count(); } }\n"
+                                           "int main() { return testing::now() == 0; }\n"))
+
+    def test_what_does_more(self):
+        for name, text in {"clock": "#include <chrono>\nint main() { return std::chrono::steady_clock::now().time_since_epoch().count() == 0; }\n",
+                           "seconds": "#include <ctime>\nint main() { return time(nullptr) == 0; }\n",
+                           "cycles": "int main() { return __builtin_ia32_rdtsc() == 0; }\n",
+                           "process": "#include <unistd.h>\nint main() { if (fork() == 0) _exit(0); }\n",
+                           "thread": "#include <thread>\nint main() { std::thread([] {}).join(); }\n",
+                           "sleep": "#include <unistd.h>\nint main() { usleep(1); }\n",
+                           "load": "#include <cstdio>\nint main() { return fopen(\"/proc/loadavg\", \"r\") == nullptr; }\n"}.items():
+            with self.subTest(name):
+                self.assertFalse(self.only_computes(name, text))
+
+    def test_it_runs_once_and_is_left_out_until_it_changes(self):
+        self.only_computes("sum", "int main(int count, char**) { return count - 1; }\n")
+        again = self.hunt()
+        self.assertEqual((again.only_compute, again.failed), (["sum"], []))
+        self.compile("sum", "int main(int count, char**) { return 2 * count - 2; }\n")
+        waiting = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES).waiting(hunt.tests_of(self.places))
+        self.assertEqual([test.name for test in waiting], ["sum"])
+
+
+if __name__ == "__main__":
+    unittest.main()
