@@ -226,7 +226,6 @@ TEST(HostileWorld, altered_sections_are_refused) {
     expect_told(refusal_of_data("cells", cell(0, "cell_from_geometry", {1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0})),
                 "[world.nested_box]");
     expect_told(refusal_of_data("cells", [](Json& data) { data["cells"] = Json::array(); }), "[world.parts]");
-    expect_told(refusal_of_data("cells", [](Json& data) { data["drawn_at_rest"] = 1; }), "drawn_at_rest");
     expect_told(refusal_of_data("cells",
                                 [](Json& data) {
                                     const Json one = data["cells"][1];
@@ -332,9 +331,9 @@ TEST(HostileWorld, every_flipped_byte_of_its_parts_is_refused_in_one_line) {
 
 TEST(HostileWorld, a_flipped_byte_with_a_right_hash_is_refused_in_one_line_or_sound) {
     const Pack good = samples::pack_with_world();
-    const auto refused = [&](const std::string& part, std::size_t stride, const auto& check) {
+    const auto refused = [&](const std::string& part, std::size_t step, const auto& check) {
         std::size_t count = 0;
-        for (std::size_t k = 0; k < good.section_parts.at(part).size(); k += stride) {
+        for (std::size_t k = 0; k < good.section_parts.at(part).size(); k += step) {
             Pack pack = good;
             pack.section_parts[part][k] ^= std::byte{0x41};
             if (const std::string message = told(check(pack)); !message.empty()) {
@@ -344,8 +343,12 @@ TEST(HostileWorld, a_flipped_byte_with_a_right_hash_is_refused_in_one_line_or_so
         }
         return count;
     };
-    EXPECT_GT(
+    constexpr std::size_t headers = 16 + 4 * 8; // of the part and of its curves: no byte of them may change
+    EXPECT_GE(
         refused("behaviours/curves.bin", 1, [](const Pack& pack) { return without_value(world_of(pack)); }),
-        10U) << "a flipped number may be sound, a flipped count or length is not";
-    EXPECT_GT(refused("cells/2.fspack", 211, check_world), 10U);
+        headers);
+    // Dates and attributes of the container are not read.
+    constexpr std::size_t stride = 211;
+    EXPECT_GT(refused("cells/2.fspack", stride, check_world),
+              good.section_parts.at("cells/2.fspack").size() / stride * 3 / 4);
 }
