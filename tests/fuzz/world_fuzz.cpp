@@ -65,8 +65,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     }
     require_poses(*world);
     require_movers(*world);
-    const auto again = checked_world(
-        with_sections(pack::write_cells(*world), pack::write_behaviours(world->behaviours)));
+    const auto again =
+        checked_world(with_sections(pack::write_cells(*world), pack::write_behaviours(world->behaviours)));
     fuzz::require(again.has_value(), "what was written is read",
                   again ? std::string() : again.error().message);
     fuzz::require(*again == *world, "a world written again is the same");

@@ -1,6 +1,6 @@
 #include "app/tracking/live_tracked_state.h"
-#include "app/tracking/shown_pose.h"
 #include "app/tracking/motion_filter.h"
+#include "app/tracking/shown_pose.h"
 
 #include <gtest/gtest.h>
 

@@ -29,14 +29,14 @@ double cpu_now_ms() {
 }
 
 /// One pass over the walk: keeps each frame's least time, milliseconds.
-void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, std::vector<double>& least_ms) {
-    least_ms.resize(walk.size(), std::numeric_limits<double>::infinity());
+void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, std::vector<double>& min_ms) {
+    min_ms.resize(walk.size(), std::numeric_limits<double>::infinity());
     technique.begin();
     for (std::size_t frame = 0; frame < walk.size(); ++frame) {
         const double start_ms = cpu_now_ms();
         technique.draw(frame, walk[frame]);
         render::wait_until_drawn();
-        least_ms[frame] = std::min(least_ms[frame], cpu_now_ms() - start_ms);
+        min_ms[frame] = std::min(min_ms[frame], cpu_now_ms() - start_ms);
     }
 }
 

@@ -88,8 +88,9 @@ std::string world_text(const pack::PackDescription& pack, double mm_per_box) {
                             cell.parent ? ", on " + world.cells[*cell.parent].cell.name : "",
                             world.cells[k].triangles, size.x, size.y, size.z);
     }
-    text += world.drawn_at_rest ? "  the cells are drawn at rest, too: together they are quicker than the whole\n"
-                                : "";
+    text += world.drawn_at_rest
+                ? "  the cells are drawn at rest, too: together they are quicker than the whole\n"
+                : "";
     for (const pack::PackBehaviour& packed : world.behaviours) {
         text += fmt::format("  behaviour {}: {} s, trigger {}", packed.behaviour.name,
                             packed.behaviour.seconds, name_of(packed.behaviour.trigger));
