@@ -72,16 +72,18 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
         const PixelRectangle whole{.x = 0, .y = 0, .width = width, .height = height};
         upload(zeros, std::span(&whole, 1), {});
     };
-    if (needs.relief_draws > 0 && !painter_) {
+    const bool rasterizes = needs.relief_draws > 0 && !painter_;
+    const bool interlocks = needs.relief_draws > 0 && needs.interlocks && nearness_.texels.empty();
+    if (rasterizes) {
         painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
         memory_ = image::Image8(width, height);
         make(colour_texels_, GL_RGBA8, colours());
     }
-    if (needs.relief_draws > 0 && needs.interlocks && nearness_.texels.empty()) {
+    if (interlocks) {
         nearness_ = image::Image<float>(width, height);
         make(nearness_texels_, GL_R32F, depths());
     }
-    if (glGetError() != GL_NO_ERROR) {
+    if ((rasterizes || interlocks) && glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration, "render.no_room_for_cast",
                     "render: the driver has no memory for a picture that is cast; use a technique of meshes");
     }

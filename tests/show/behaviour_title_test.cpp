@@ -85,6 +85,7 @@ protected:
         settings.panel.kind = settings::PanelKind::Keys;
         settings.panel.keys = {"1", "2", "3", "4", "5", "6"};
         devices.language = true;
+        display.reset(); // one context at a time
         display = display::SurfacelessDisplay::create(width, height).value();
     }
     /// The picture two seconds after a visitor has come, and `commands` were given.

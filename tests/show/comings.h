@@ -29,7 +29,9 @@ protected:
         options.packs = std::vector(files.files().begin(), files.files().begin() + static_cast<long>(packs));
         options.waits = waits;
         devices.other_packs = true;
-        show = show::ArtifactShow::create(settings, devices, options, {display->framebuffer(), 0}).value();
+        auto made = show::ArtifactShow::create(settings, devices, options, {display->framebuffer(), 0});
+        ASSERT_TRUE(made) << made.error().message;
+        show = *std::move(made);
         exhibit.emplace(show::make_exhibit(settings, *show, now));
     }
     exhibit::Presentation step(std::span<const settings::Command> commands = {}) {
