@@ -90,11 +90,11 @@ protected:
     bool comes(const char* name, const std::string& words) const {
         return comes_true([&] { return text(name).find(words) != std::string::npos; });
     }
-    /// Waits for the end and returns the exit status; -1: a signal ended it.
+    /// Waits for the end and returns the exit status; the negative number of a signal that ended it.
     int ending() {
         int status = 0;
         ::waitpid(std::exchange(process, 0), &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
 
     service::NotifySocket socket;
