@@ -49,12 +49,12 @@ struct BehaviourEvent {
     Kind kind = Kind::Start;
 };
 
-/// What happens to behaviours in one step, at the step's `now`.
+/// The starts and ends of behaviours in one step; all take effect at the step's `now`.
 class BehaviourEvents {
 public:
     /// Before the events: everything of every artifact returns to rest; what is not shown may do so at once.
     bool end_all = false;
-    /// Of the artifact on show (Presentation::artifact), in this order; one for each behaviour at most.
+    /// Events of the artifact on show (Presentation::artifact), in this order; at most one for each behaviour.
     [[nodiscard]] std::span<const BehaviourEvent> events() const { return std::span(events_).first(count_); }
     void add(std::size_t behaviour, BehaviourEvent::Kind kind) {
         events_.at(count_++) = {.behaviour = behaviour, .kind = kind};

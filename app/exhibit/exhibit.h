@@ -138,6 +138,17 @@ private:
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const tracking::TrackedState& tracked_state,
                                                           const DrawnPose& drawn);
+    /// What a text on the table must keep clear of: the artifacts' pictures, and the caption and label that are placed already.
+    struct Obstacles {
+        std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> places{};
+        std::size_t count = 0;
+
+        void add(const typography::TableRectangle& place) { places.at(count++) = place; }
+        [[nodiscard]] std::span<const typography::TableRectangle> all() const {
+            return std::span(places).first(count);
+        }
+    };
+    [[nodiscard]] Obstacles obstacles_of(const Presentation& presentation) const;
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
                                                         const tracking::TrackedState& tracked_state,
                                                         const DrawnPose& drawn,

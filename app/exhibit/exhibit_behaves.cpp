@@ -47,19 +47,8 @@ std::optional<PresentedTitle> Exhibit::title(MonotonicTime now, const tracking::
             input.title = {.artifact = shown.artifact, .behaviour = *next, .language = language};
         }
     }
-    std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> obstacles{};
-    std::size_t count = 0;
-    for (const typography::TableRectangle& place :
-         table_ ? table_->obstacles() : std::span<const typography::TableRectangle>()) {
-        obstacles.at(count++) = place;
-    }
-    if (presentation.caption) {
-        obstacles.at(count++) = presentation.caption->rectangle;
-    }
-    if (presentation.hotspot) {
-        obstacles.at(count++) = presentation.hotspot->label;
-    }
-    input.obstacles = std::span(obstacles).first(count);
+    const Obstacles obstacles = obstacles_of(presentation);
+    input.obstacles = obstacles.all();
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     input.light = shown.caption_brightness * drawn.brightness * std::max(0.0, 1.0 - 2.0 * advised);
     if (input.title || title_.lies()) {

@@ -134,6 +134,22 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
               .environment = environment_of(place_, drawn, tracked_state.eye_m, side_.quarter_turns())});
 }
 
+Exhibit::Obstacles Exhibit::obstacles_of(const Presentation& presentation) const {
+    Obstacles obstacles;
+    if (table_) {
+        for (const typography::TableRectangle& place : table_->obstacles()) {
+            obstacles.add(place);
+        }
+    }
+    if (presentation.caption) {
+        obstacles.add(presentation.caption->rectangle);
+    }
+    if (presentation.hotspot) {
+        obstacles.add(presentation.hotspot->label);
+    }
+    return obstacles;
+}
+
 /// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
 /// priority.
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
@@ -143,15 +159,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     if (!has_artifact() || entry == nullptr) {
         return std::nullopt;
     }
-    std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> obstacles{};
-    std::size_t count = 0;
-    for (const typography::TableRectangle& place :
-         table_ ? table_->obstacles() : std::span<const typography::TableRectangle>()) {
-        obstacles.at(count++) = place;
-    }
-    if (presentation.caption) {
-        obstacles.at(count++) = presentation.caption->rectangle;
-    }
+    const Obstacles obstacles = obstacles_of(presentation);
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     return labels_.step(
         now, {.set = &entry->hotspots,
@@ -164,7 +172,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
               .eye_m = tracked_state.eye_m,
               .lens_m = place_.lens_m,
               .picture_edges = place_.picture_edges,
-              .obstacles = std::span(obstacles).first(count),
+              .obstacles = obstacles.all(),
               .caption = presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
               .quarter_turns = side_.quarter_turns()});
 }

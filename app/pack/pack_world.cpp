@@ -60,7 +60,7 @@ Result<void> check_parts(const PackWorld& world, const PackDescription& pack) {
     return {};
 }
 
-/// What is drawn at rest must show something.
+/// Refuses a world that is drawn at rest and has no geometry.
 Result<void> check_rest(const PackWorld& world) {
     const bool has_geometry = std::any_of(world.cells.begin(), world.cells.end(),
                                           [](const PackCell& cell) { return cell.cell.has_geometry; });

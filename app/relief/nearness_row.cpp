@@ -56,7 +56,7 @@ FRUSTUMSCREEN_INLINE Floats slant_at(const NearnessView& view, const PixelLanes&
     return slant;
 }
 
-/// Of sample `k` of eight pixels.
+/// The nearness of sample `k` of each of eight pixels.
 FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const NearnessView& view, int x, int y,
                                         std::size_t k) {
     const Floats met = load(&samples.nearness[samples.at(x, y, k)]);
@@ -67,7 +67,8 @@ FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const Near
     return met > 0.0F ? met / slant_at(view, at) : Floats{};
 }
 
-/// Of two samples on opposite sides of the centre: of one surface, what is between them; otherwise the nearer one.
+/// The nearness at the centre, from two samples on opposite sides of it: their mean if both lie on one surface, otherwise the
+/// nearer one.
 FRUSTUMSCREEN_INLINE Floats between(Floats a, Floats b) {
     constexpr float one_surface = 31.0F / 32.0F;
     const Floats near = most(a, b);

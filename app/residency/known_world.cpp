@@ -4,7 +4,7 @@
 #include "app/scene/cell_plan.h"
 
 #include <algorithm>
-#include <optional>
+#include <map>
 #include <utility>
 
 namespace frustumscreen::residency {
@@ -23,52 +23,39 @@ std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan) {
     return ways;
 }
 
-Result<pack::VerifiedPack> read_cell(const std::filesystem::path& file, const KnownWorld& known,
-                                     const KnownCell& cell, std::optional<std::uint32_t> level) {
-    const pack::PackCell& of = known.world.cells[cell.cell];
-    if (!level) {
-        return pack::load_cell(file, of);
-    }
-    return pack::load_cell(
-        file, of, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            if (outline != cell.outline) {
-                return bad_input("show.cell_changed",
-                                 "the pack has changed since the exhibit was started; start it again");
-            }
-            return std::vector<std::uint32_t>{*level};
-        });
-}
-
+/// Reads the cell's pack once for all ways of drawing it.
 Result<void> prepare_cell(const std::filesystem::path& file, const KnownWorld& known, const KnownCell& cell,
                           const std::function<bool()>& given_up, PreparedCells& cells) {
+    TRY(const pack::VerifiedPack pack, pack::load_cell(file, known.world.cells[cell.cell]));
+    if (pack::outline_of(*pack) != cell.outline) {
+        return bad_input("show.cell_changed",
+                         "the pack has changed since the exhibit was started; start it again");
+    }
     const scene::ScenePlan& plan = cell.plan;
-    std::size_t options = 0;
-    std::shared_ptr<const relief::BlockRelief> relief;
-    std::uint32_t relief_texels = 0;
-    for (const scene::QualityLevel& way : ways_of(plan)) {
+    std::map<std::uint32_t, std::shared_ptr<const relief::BlockRelief>>
+        reliefs; // both ways of drawing share one
+    const std::vector<scene::QualityLevel> ways = ways_of(plan);
+    for (const scene::QualityLevel& way : ways) {
         if (given_up()) {
             return bad_input("show.cells_not_wanted", "not wanted any more");
         }
-        ++options;
         if (!way.relief) {
-            TRY(const pack::VerifiedPack pack, read_cell(file, known, cell, way.level));
             cells.levels.push_back(prepare_level(*pack, way.level, plan));
             continue;
         }
         const auto place =
             std::find_if(plan.reliefs.begin(), plan.reliefs.end(),
                          [&](const pack::ReliefOutline& each) { return each.texels == way.level; });
-        if (!relief || relief_texels != way.level) { // both ways of drawing share the relief
-            TRY(const pack::VerifiedPack pack, read_cell(file, known, cell, std::nullopt));
+        std::shared_ptr<const relief::BlockRelief>& relief = reliefs[way.level];
+        if (!relief) {
             TRY(relief::BlockRelief read, pack::relief_of(*pack, *place));
             relief = std::make_shared<const relief::BlockRelief>(std::move(read));
-            relief_texels = way.level;
         }
         cells.levels.push_back(prepare_relief(cell.outline.description,
                                               static_cast<std::size_t>(place - plan.reliefs.begin()), relief,
                                               way.on_gpu, plan));
     }
-    cells.options.push_back(options);
+    cells.options.push_back(ways.size());
     return {};
 }
 

@@ -1,7 +1,7 @@
-/// The cells of an artifact that its behaviours move, or that are drawn at rest, too: how each is drawn, before any of it is loaded, and their levels, read
-/// and ready to upload.
+/// The cells of an artifact that its behaviours move, or that are drawn at rest: how each is drawn, before any of it is
+/// loaded, and their levels, read and ready to upload.
 ///
-/// Memory   before the artifact is about to be shown, only the manifests: no curves. A cell is read level by level.
+/// Memory   before the artifact is about to be shown, only the manifests: no curves. While cells are prepared, one cell's pack at a time.
 /// Threads  pure except for reading the file; any.
 /// Errors   as load_pack and plan_cell; a pack that has changed since its plan was made.
 #pragma once

@@ -59,7 +59,7 @@ public:
 
     [[nodiscard]] render::Renderer& renderer() { return *renderer_; }
     [[nodiscard]] render::RenderTarget target() const { return {display_->framebuffer(), 0}; }
-    /// Of the plan that was drawn last, or any other.
+    /// The hit point of each pixel in this plan, which need not be the one drawn last.
     [[nodiscard]] image::ImageFloat hit_points(const scene::FramePlan& plan);
     void read_colour_into(image::Image8& picture) const;
 

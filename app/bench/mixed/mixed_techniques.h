@@ -24,7 +24,7 @@ public:
     virtual void begin() = 0;
     /// Chooses, plans and draws the whole picture; the caller waits until it is drawn.
     virtual void draw(std::size_t frame, const BenchPose& pose) = 0;
-    /// Of the latest picture.
+    /// The plan of the latest picture.
     [[nodiscard]] virtual const scene::FramePlan& plan() const = 0;
     /// Cells that changed since `begin`.
     [[nodiscard]] virtual std::size_t switches() const = 0;
@@ -42,7 +42,7 @@ public:
 [[nodiscard]] scene::FrameWork uniform_work(const CellSet& set, double share, bool relief,
                                             const BenchPose& pose);
 
-/// What the paper's choice knows of the cells in a frame.
+/// The quantities of Eq. (1) for each cell of a frame.
 [[nodiscard]] std::vector<PaperCell> paper_cells(const CellSet& set, const BenchPose& pose);
 
 } // namespace frustumscreen::bench

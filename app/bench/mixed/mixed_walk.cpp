@@ -1,30 +1,19 @@
 #include "app/bench/mixed/mixed_walk.h"
 
+#include "app/bench/truth/seeded_draw.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace frustumscreen::bench {
 
 namespace {
 
-/// std::uniform_real_distribution differs between libraries; this is portable.
-class Draw {
-public:
-    explicit Draw(std::uint64_t seed) : engine_(seed) {}
-    double between(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53);
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
-
 /// Between -1 and 1.
 class Wave {
 public:
-    explicit Wave(Draw& draw)
+    explicit Wave(SeededDraw& draw)
         : slow_hz_(draw.between(0.10, 0.20)), quick_hz_(draw.between(0.25, 0.40)),
           slow_(draw.between(0.0, 1.0)), quick_(draw.between(0.0, 1.0)) {}
     [[nodiscard]] double at(double seconds) const {
@@ -42,7 +31,7 @@ struct Path {
     Wave x, y, yaw, azimuth, elevation, distance;
     double first_yaw, first_azimuth;
 
-    explicit Path(Draw& draw)
+    explicit Path(SeededDraw& draw)
         : x(draw), y(draw), yaw(draw), azimuth(draw), elevation(draw), distance(draw),
           first_yaw(draw.between(-std::numbers::pi, std::numbers::pi)),
           first_azimuth(draw.between(-std::numbers::pi, std::numbers::pi)) {}
@@ -69,7 +58,7 @@ struct Path {
 Result<std::vector<BenchPose>> draw_walk(const settings::Settings& settings, const geometry::PropShape& prop,
                                          int frames, std::uint64_t seed) {
     constexpr int max_tries = 2000;
-    Draw draw(seed);
+    SeededDraw draw(seed);
     for (int tries = 0; tries < max_tries; ++tries) {
         const Path path(draw);
         const double slid = 0.4 * (1.0 - static_cast<double>(tries) / max_tries);

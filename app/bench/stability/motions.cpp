@@ -55,7 +55,7 @@ ExactMotion exact_after(const SpringLaw& law, const ExactMotion& start, Real t) 
             of_slow * slow * std::exp(slow * t) + of_fast * fast * std::exp(fast * t)};
 }
 
-/// Of the start's swing; a speed counts as the swing that it makes.
+/// Distance of two motions in place and speed, as a share of the swing at the start. A speed counts as the swing that it makes.
 double off(const SpringLaw& law, const Motion& start, const Motion& seen, const ExactMotion& exact) {
     const double rate = std::sqrt(law.stiffness_per_s2);
     return std::fmax(static_cast<double>(std::abs(seen.x - exact.x)),
@@ -213,7 +213,7 @@ StabilityResult a_day(const StabilityOptions&) {
              {"loops of 0.1, 1 and 7 s: other than in the first round", 0.0, loops}}};
 }
 
-/// Of a channel by the formulas of glTF, appendix C, in long double.
+/// Component `i` of a curve between keys k and k + 1, by the formulas of glTF, appendix C, in long double.
 Real exact_value(const world::Curve& curve, std::size_t k, int i, double seconds) {
     const Real begin = curve.times_s[k];
     const Real interval = curve.times_s[k + 1] - begin;

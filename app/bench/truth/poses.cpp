@@ -1,35 +1,24 @@
 #include "app/bench/truth/poses.h"
 
+#include "app/bench/truth/seeded_draw.h"
 #include "app/settings/lit_zone.h"
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace frustumscreen::bench {
 
 namespace {
 
-/// std::uniform_real_distribution differs between libraries; this is portable.
-class Draw {
-public:
-    explicit Draw(std::uint64_t seed) : engine_(seed) {}
-    double between(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53);
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
-
 /// Upright on the table.
-geometry::RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
+geometry::RigidTransform slid(SeededDraw& draw, const glm::dvec2& over_table) {
     const double yaw = draw.between(-std::numbers::pi, std::numbers::pi);
     return {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(over_table, 0.0)};
 }
 
 /// Any orientation (Shoemake 1992, uniform random rotations), from just above the table to a forearm higher.
-geometry::RigidTransform held(const geometry::PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
+geometry::RigidTransform held(const geometry::PropShape& prop, SeededDraw& draw,
+                              const glm::dvec2& over_table) {
     constexpr double highest_above_table_m = 0.25;
     const double share = draw.between(0.0, 1.0);
     const double first = draw.between(-std::numbers::pi, std::numbers::pi);
@@ -45,7 +34,7 @@ geometry::RigidTransform held(const geometry::PropShape& prop, Draw& draw, const
             glm::dvec3(over_table - glm::dvec2(middle), draw.between(0.0, highest_above_table_m) - lowest)};
 }
 
-BenchPose draw_one(const settings::Settings& settings, const geometry::PropShape& prop, Draw& draw) {
+BenchPose draw_one(const settings::Settings& settings, const geometry::PropShape& prop, SeededDraw& draw) {
     const double x = draw.between(-settings.table.width_m / 2.0, settings.table.width_m / 2.0);
     const double y = draw.between(-settings.table.depth_m / 2.0, settings.table.depth_m / 2.0);
     const geometry::RigidTransform table_from_prop =
@@ -88,7 +77,7 @@ bool in_zone(const settings::Settings& settings, const geometry::PropShape& prop
 Result<std::vector<BenchPose>> draw_poses(const settings::Settings& settings, const geometry::PropShape& prop,
                                           int count, std::uint64_t seed) {
     constexpr int max_tries_each = 10000;
-    Draw draw(seed);
+    SeededDraw draw(seed);
     std::vector<BenchPose> poses;
     for (std::int64_t tries = 0; static_cast<int>(poses.size()) < count; ++tries) {
         if (tries > static_cast<std::int64_t>(count) * max_tries_each) {

@@ -25,7 +25,7 @@ struct Arguments {
     bool is_long = false;
 };
 
-/// The game board's pack is baked anew: its cells have what the present bake gives them.
+/// Bakes the game board, so that its cells have the levels and reliefs of the present bake.
 Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::SourceMesh& mesh,
                                  BenchProgress& progress) {
     constexpr std::int64_t triangles = 96'000;
