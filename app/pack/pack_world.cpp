@@ -154,11 +154,7 @@ Result<void> check_cell_pack(const PackCell& cell, const glm::dmat4& box_from_ge
 }
 
 std::vector<world::CellPose> poses_of(const PackWorld& world) {
-    std::vector<world::Cell> cells;
-    for (const PackCell& packed : world.cells) {
-        cells.push_back(packed.cell);
-    }
-    return world::poses_at_rest(cells);
+    return world::poses_at_rest(tree_of(world));
 }
 
 /// Puts the cells' packs among the parts of the pack, and their names into the cells.
@@ -192,6 +188,14 @@ Result<void> put_geometry(Pack& pack, PackWorld& world, std::span<const Pack> ge
 }
 
 } // namespace
+
+std::vector<world::Cell> tree_of(const PackWorld& world) {
+    std::vector<world::Cell> tree;
+    for (const PackCell& cell : world.cells) {
+        tree.push_back(cell.cell);
+    }
+    return tree;
+}
 
 Result<PackWorld> world_outline_of(const PackDescription& pack) {
     TRY(PackWorld world, read_world_sections(pack));

@@ -51,6 +51,9 @@ struct PackWorld {
     [[nodiscard]] bool operator==(const PackWorld&) const = default;
 };
 
+/// The tree that the cells form, for world::poses_at_rest and world::Player.
+[[nodiscard]] std::vector<world::Cell> tree_of(const PackWorld& world);
+
 /// From the manifest alone: the curves are empty.
 [[nodiscard]] Result<PackWorld> world_outline_of(const PackDescription& pack);
 /// With the curves; reads only their part and the manifest.

@@ -72,8 +72,8 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
         const PixelRectangle whole{.x = 0, .y = 0, .width = width, .height = height};
         upload(zeros, std::span(&whole, 1), {});
     };
-    const bool rasterizes = needs.relief_draws > 0 && !painter_;
-    const bool interlocks = needs.relief_draws > 0 && needs.interlocks && nearness_.texels.empty();
+    const bool rasterizes = needs.rasterizes && !painter_;
+    const bool interlocks = needs.rasterizes && needs.interlocks && nearness_.texels.empty();
     if (rasterizes) {
         painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
         memory_ = image::Image8(width, height);

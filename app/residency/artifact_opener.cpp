@@ -197,7 +197,7 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
         }
     }
     needs.draws.insert(scene::raster_shader());
-    needs.relief_draws = 2; // in a fade
+    needs.rasterizes = true;
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
     return with_cut_outs(scene::with_cells(std::move(needs)));

@@ -80,13 +80,9 @@ Result<std::shared_ptr<const KnownWorld>> open_cells(const settings::Settings& s
                                                      const scene::SceneRequest& request) {
     auto known = std::make_shared<KnownWorld>();
     known->world = std::move(outline);
-    std::vector<world::Cell> cells;
-    for (const pack::PackCell& cell : known->world.cells) {
-        cells.push_back(cell.cell);
-    }
-    const std::vector<world::CellPose> at_rest = world::poses_at_rest(cells);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (!cells[k].has_geometry) {
+    const std::vector<world::CellPose> at_rest = world::poses_at_rest(pack::tree_of(known->world));
+    for (std::size_t k = 0; k < at_rest.size(); ++k) {
+        if (!known->world.cells[k].cell.has_geometry) {
             continue;
         }
         KnownCell& cell = known->drawn.emplace_back();
@@ -104,12 +100,9 @@ Result<std::shared_ptr<const KnownWorld>> open_cells(const settings::Settings& s
 
 scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole) {
     scene::RenderNeeds needs = whole;
-    std::size_t relief_draws = whole.relief_draws;
     for (const KnownCell& cell : world.drawn) {
         needs = scene::united(needs, cell.plan.needs);
-        relief_draws += cell.plan.needs.relief_draws;
     }
-    needs.relief_draws = relief_draws;
     for (scene::ShaderKey key : scene::RenderNeeds(needs).draws) {
         if (key.pass == scene::ShaderKey::Pass::Surface) {
             key.dithered = true;

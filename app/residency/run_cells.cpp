@@ -17,14 +17,6 @@ namespace {
 /// The time of an option that is not offered.
 constexpr double never = std::numeric_limits<double>::infinity();
 
-std::vector<world::Cell> cells_of(const pack::PackWorld& world) {
-    std::vector<world::Cell> cells;
-    for (const pack::PackCell& cell : world.cells) {
-        cells.push_back(cell.cell);
-    }
-    return cells;
-}
-
 std::vector<world::Behaviour> behaviours_of(const pack::PackWorld& world) {
     std::vector<world::Behaviour> behaviours;
     for (const pack::PackBehaviour& behaviour : world.behaviours) {
@@ -65,7 +57,7 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
-      drawn_at_rest_(known.world.drawn_at_rest), player_(cells_of(world), behaviours_of(world)),
+      drawn_at_rest_(known.world.drawn_at_rest), player_(pack::tree_of(world), behaviours_of(world)),
       choice_(cells.options), rasterized_choice_(cells.options), offered_(cells.levels.size()),
       rasterized_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show

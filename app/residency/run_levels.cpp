@@ -276,6 +276,20 @@ void RunLevels::measure(const geometry::PropShape& prop, std::span<const scene::
             renderer.draw(plans_, target, render::Redraw::Everything);
         }
     }
+    // The shader of reliefs among polygons needs both in one picture.
+    const auto level_where = [&](bool rasterized) {
+        return std::find_if(levels_.begin(), levels_.end(), [&](const Level& one) {
+            return (one.shows.relief && !one.shows.on_gpu) == rasterized;
+        });
+    };
+    if (renderer.shaders().contains({scene::ShaderKey::Pass::RasterInDepth}) &&
+        level_where(true) != levels_.end() && level_where(false) != levels_.end()) {
+        plan(prop,
+             std::array{scene::Part{level_where(true)->placed, std::nullopt},
+                        scene::Part{level_where(false)->placed, std::nullopt}},
+             views);
+        renderer.draw(plans_, target, render::Redraw::Everything);
+    }
     render::wait_until_drawn();
     start(times);
 }

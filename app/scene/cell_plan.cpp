@@ -97,8 +97,6 @@ Result<void> add_every_way(const settings::Settings& settings, const pack::PackO
         TRY(const ScenePlan way, plan_scene(settings, cell, request));
         add_way(way, plan);
     }
-    constexpr std::size_t in_a_fade = 2;
-    plan.needs.relief_draws = std::min(plan.reliefs.size(), in_a_fade);
     std::erase_if(plan.left_out, [](const LeftOut& each) { return each.cull_kind == UnusedLevels; });
     return {};
 }

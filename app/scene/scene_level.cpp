@@ -220,9 +220,9 @@ std::uint64_t gpu_bytes(const SceneLevel& level, const image::Image8& texture) {
 std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height) {
     constexpr std::uint64_t bytes_per_sample = 4 + 4; // colour; depth and stencil
     const std::uint64_t bytes_per_texel =             // colours, and depth
-        needs.relief_draws == 0 ? 0
-        : needs.interlocks      ? 4 + 4
-                                : 4;
+        !needs.rasterizes  ? 0
+        : needs.interlocks ? 4 + 4
+                           : 4;
     const auto area = [](const PixelSize& size) {
         return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     };

@@ -210,8 +210,7 @@ void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades,
             plan.needs.draws.insert(key);
         }
     }
-    plan.needs.relief_draws =
-        is_raster ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
+    plan.needs.rasterizes = is_raster && !plan.reliefs.empty();
 }
 
 /// Samples a pixel of the picture that the GPU draws into. A relief rasterized on the processor takes its

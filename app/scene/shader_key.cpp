@@ -71,7 +71,7 @@ std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector)
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     RenderNeeds both{.samples = std::max(a.samples, b.samples),
                      .draws = a.draws,
-                     .relief_draws = std::max(a.relief_draws, b.relief_draws)};
+                     .rasterizes = a.rasterizes || b.rasterizes};
     if (a.samples <= 1 || b.samples <= 1) { // one sample needs no space
         both.outline = a.samples > 1 ? a.outline : b.outline;
     } else if (a.outline && b.outline) {
@@ -91,7 +91,7 @@ RenderNeeds with_cells(RenderNeeds needs) {
             needs.draws.insert(key);
         }
     }
-    needs.interlocks = needs.relief_draws > 0;
+    needs.interlocks = needs.rasterizes;
     return needs;
 }
 

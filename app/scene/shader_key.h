@@ -50,10 +50,10 @@ struct ShaderKey {
 
 /// Capabilities and memory that a renderer must provide.
 struct RenderNeeds {
-    int samples = 1;              ///< samples a pixel that the target must hold wherever the prop stands
-    std::set<ShaderKey> draws;    ///< the shaders that the draws of its plans name
-    std::size_t relief_draws = 0; ///< reliefs that one plan may rasterize into memory, into one picture
-    bool interlocks = false;      ///< such a relief may hide, or be hidden by, what the GPU draws
+    int samples = 1;           ///< samples a pixel that the target must hold wherever the prop stands
+    std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
+    bool rasterizes = false;   ///< a plan may rasterize reliefs into memory, all into one picture
+    bool interlocks = false;   ///< such a relief may hide, or be hidden by, what the GPU draws
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<geometry::Pinhole> bent_by =

@@ -46,14 +46,11 @@ std::vector<Source> sources_of(const OfflineScene& scene) {
 
 scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves) {
     scene::RenderNeeds needs;
-    std::size_t relief_draws = 0;
     for (const Source& source : sources) {
         const scene::RenderNeeds own =
             source.level ? scene::needs_of(source.plan, *source.level) : source.plan.needs;
         needs = scene::united(needs, own);
-        relief_draws += own.relief_draws;
     }
-    needs.relief_draws = relief_draws;
     return moves ? scene::with_cells(std::move(needs)) : needs;
 }
 

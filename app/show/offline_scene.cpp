@@ -80,9 +80,7 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
         TRY(const std::size_t behaviour, find_behaviour(world, name));
         read.behaviour = world.behaviours[behaviour].behaviour;
     }
-    for (const pack::PackCell& cell : world.cells) {
-        read.cells.push_back(cell.cell);
-    }
+    read.cells = pack::tree_of(world);
     const std::vector<world::CellPose> at_rest = world::poses_at_rest(read.cells);
     for (std::size_t k = 0; k < world.cells.size(); ++k) {
         if (world.cells[k].cell.has_geometry) {

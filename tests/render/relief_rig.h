@@ -28,7 +28,7 @@ inline scene::RenderNeeds needs_with_reliefs(int samples, const geometry::Pinhol
     scene::RenderNeeds all = needs(samples, true);
     all.bent_by = scene::if_it_bends(projector);
     all.draws.insert(scene::raster_shader());
-    all.relief_draws = 2;
+    all.rasterizes = true;
     for (scene::ShaderKey key : needs(samples, true).draws) {
         key.blocks = key.pass == scene::ShaderKey::Pass::Surface;
         all.draws.insert(key);

@@ -117,7 +117,7 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         ASSERT_EQ(plan.reliefs.size(), 1U);
         EXPECT_EQ(plan.reliefs.front().texels, texels);
         EXPECT_EQ(name_of(plan.quality_levels.front()), fmt::format("relief{}", texels));
-        EXPECT_EQ(plan.needs.relief_draws, 1U);
+        EXPECT_TRUE(plan.needs.rasterizes);
         EXPECT_EQ(plan.needs.samples, 1) << "its samples are taken where it is cast";
         for (const ShaderKey& key : plan.needs.draws) {
             EXPECT_NE(key.pass, ShaderKey::Pass::Surface);
@@ -149,7 +149,7 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
         EXPECT_TRUE(plan.quality_levels.front().level == 192 || technique == "relief-gpu");
         EXPECT_EQ(name_of(plan.quality_levels.front()),
                   fmt::format("relief{}-gpu", plan.reliefs.front().texels));
-        EXPECT_EQ(plan.needs.relief_draws, 0U);
+        EXPECT_FALSE(plan.needs.rasterizes);
         EXPECT_TRUE(std::none_of(plan.needs.draws.begin(), plan.needs.draws.end(), [](const ShaderKey& key) {
             return key.pass == ShaderKey::Pass::Raster ||
                    (key.pass == ShaderKey::Pass::Surface && !key.blocks);
@@ -184,13 +184,13 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     ASSERT_EQ(plan.reliefs.size(), 1U);
     EXPECT_EQ(plan.reliefs.front().texels, 192U);
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
-    EXPECT_EQ(plan.needs.relief_draws, 1U);
+    EXPECT_TRUE(plan.needs.rasterizes);
     EXPECT_TRUE(fades(plan));
     // A relief outside the tolerance is neither read nor drawn.
     const ScenePlan meshes =
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 8e-3F), request(settings)).value();
     EXPECT_TRUE(meshes.reliefs.empty());
-    EXPECT_EQ(meshes.needs.relief_draws, 0U);
+    EXPECT_FALSE(meshes.needs.rasterizes);
     const ScenePlan finer =
         plan_scene(settings, outline_with_reliefs({96, 192, 384, 768}, 8e-3F, 384), request(settings))
             .value();

@@ -3,6 +3,7 @@
 #include "app/pack/pack_texts.h"
 #include "app/pack/pack_world.h"
 #include "tests/show/comings.h"
+#include "tests/show/square_letters.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -26,16 +27,6 @@ pack::GlyphText squares(const std::string& key, std::int32_t count) {
         setting.glyphs.push_back({0, 0, k * pack::em_units});
     }
     return {key, pack::TextDirection::LeftToRight, {setting}};
-}
-
-pack::SetLanguage set_language(const std::string& language, std::vector<pack::GlyphText> texts) {
-    pack::SetLanguage set{language, {}, pack::DistanceAtlas(12, 12, 255)};
-    set.runs.texels_per_em = 8;
-    set.runs.spread_texels = 1;
-    set.runs.atlas_width = set.runs.atlas_height = 12;
-    set.runs.boxes = {{2, 2, 8, 8, 0, 8}};
-    set.runs.texts = std::move(texts);
-    return set;
 }
 
 world::Behaviour slide(world::Trigger trigger) {
@@ -71,8 +62,8 @@ pack::Pack moving_pack(bool set) {
     EXPECT_TRUE(put) << put.error().message;
     if (set) {
         pack::put_set_texts(
-            whole, std::vector{set_language("en", {squares("behaviour.0", 9), squares("behaviour.1", 3)}),
-                               set_language("de", {squares("behaviour.1", 6)})});
+            whole, std::vector{set_in_squares("en", {squares("behaviour.0", 9), squares("behaviour.1", 3)}),
+                               set_in_squares("de", {squares("behaviour.1", 6)})});
     }
     return whole;
 }

@@ -1,5 +1,6 @@
 // Captions from glyph runs if the pack has them, otherwise in the kiosk's typeface.
 #include "app/residency/caption_setter.h"
+#include "tests/show/square_letters.h"
 
 #include <gtest/gtest.h>
 
@@ -18,16 +19,6 @@ pack::GlyphText letter(const std::string& key) {
             {{4 * pack::em_units, pack::em_units, pack::em_units, {{pack::em_units, 1}}, {{0, 0, 0}}}}};
 }
 
-pack::SetLanguage set_language(const std::string& language, std::vector<pack::GlyphText> texts) {
-    pack::SetLanguage set{language, {}, pack::DistanceAtlas(12, 12, 255)};
-    set.runs.texels_per_em = 8;
-    set.runs.spread_texels = 1;
-    set.runs.atlas_width = set.runs.atlas_height = 12;
-    set.runs.boxes = {{2, 2, 8, 8, 0, 8}};
-    set.runs.texts = std::move(texts);
-    return set;
-}
-
 std::vector<typography::CaptionImage> images_of(const std::vector<pack::SetLanguage>& set,
                                                 const pack::PackCaption& caption) {
     residency::CaptionSetter setter({em_m, texels_per_m});
@@ -40,8 +31,8 @@ std::vector<typography::CaptionImage> images_of(const std::vector<pack::SetLangu
 } // namespace
 
 TEST(CaptionSetter, takes_the_glyph_runs_of_the_captions_language) {
-    const std::vector set{set_language("ar", {letter("title"), letter("text")}),
-                          set_language("hi", {letter("title")})};
+    const std::vector set{synthetic::set_in_squares("ar", {letter("title"), letter("text")}),
+                          synthetic::set_in_squares("hi", {letter("title")})};
     for (const typography::CaptionImage& image : images_of(set, {"ar", "T", "t"})) {
         EXPECT_NEAR(image.size_m.x, typography::caption_title_em * em_m, 2.0 / texels_per_m);
         EXPECT_EQ(image.coverage.at(image.coverage.width / 2, 5), 255) << "the title is a bright square";
@@ -54,9 +45,9 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
     const pack::PackCaption caption{"hi", "Title", "A text of several words."};
     const std::vector<typography::CaptionImage> plain = images_of({}, caption);
     const std::vector<typography::CaptionImage> other =
-        images_of({set_language("ar", {letter("title"), letter("text")})}, caption);
+        images_of({synthetic::set_in_squares("ar", {letter("title"), letter("text")})}, caption);
     const std::vector<typography::CaptionImage> half =
-        images_of({set_language("hi", {letter("title")})}, caption);
+        images_of({synthetic::set_in_squares("hi", {letter("title")})}, caption);
     ASSERT_EQ(plain.size(), typography::caption_widths_m.size());
     for (std::size_t k = 0; k < plain.size(); ++k) {
         EXPECT_GT(plain[k].coverage.width, 1);
@@ -66,7 +57,7 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
 }
 
 TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
-    std::vector<pack::SetLanguage> set{set_language("ar", {letter("title"), letter("text")})};
+    std::vector<pack::SetLanguage> set{synthetic::set_in_squares("ar", {letter("title"), letter("text")})};
     residency::CaptionSetter setter({em_m, texels_per_m});
     const auto titled = [](const std::string& language, const std::string& title, const std::string& text) {
         return residency::caption_text({language, title, text});
@@ -104,11 +95,12 @@ TEST(CaptionSetter, takes_the_attribution_as_one_text_or_in_older_packs_line_by_
         }
         return found;
     };
-    EXPECT_EQ(keys({set_language("ar", {letter("title"), letter("attribution"), letter("maker")})}),
-              std::vector<std::string>{"attribution"});
-    EXPECT_EQ(keys({set_language("ar", {letter("title"), letter("credit"), letter("maker")})}),
+    EXPECT_EQ(
+        keys({synthetic::set_in_squares("ar", {letter("title"), letter("attribution"), letter("maker")})}),
+        std::vector<std::string>{"attribution"});
+    EXPECT_EQ(keys({synthetic::set_in_squares("ar", {letter("title"), letter("credit"), letter("maker")})}),
               (std::vector<std::string>{"maker", "credit"}));
-    EXPECT_EQ(keys({set_language("ar", {letter("title")})}), std::vector<std::string>{})
+    EXPECT_EQ(keys({synthetic::set_in_squares("ar", {letter("title")})}), std::vector<std::string>{})
         << "nothing is set in it";
     EXPECT_EQ(keys({}), std::vector<std::string>{"attribution"}) << "in the kiosk's own typeface";
     caption.maker = caption.credit = "";

@@ -11,13 +11,13 @@
 
 namespace frustumscreen::bench {
 
-namespace {
-
 double cpu_now_ms() {
     timespec now{};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
+
+namespace {
 
 void time_one(Technique& technique, const BenchPose& pose, FrameTimes& times) {
     const double cpu_start_ms = cpu_now_ms();

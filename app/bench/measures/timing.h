@@ -26,6 +26,9 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(const std::vector<double>& values);
 
+/// Processor time of this process, all threads.
+[[nodiscard]] double cpu_now_ms();
+
 struct TimingPlan {
     int rounds = 3; ///< how often every technique draws each pose
     int warm_up = 2;

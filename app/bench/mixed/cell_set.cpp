@@ -27,14 +27,6 @@ pack::PackBehaviour stillness() {
     return still;
 }
 
-std::vector<world::Cell> cells_of(const pack::PackWorld& world) {
-    std::vector<world::Cell> cells;
-    for (const pack::PackCell& cell : world.cells) {
-        cells.push_back(cell.cell);
-    }
-    return cells;
-}
-
 scene::SceneRequest request_for(int samples) {
     scene::SceneRequest request;
     request.light = false;
@@ -90,7 +82,7 @@ Result<void> CellSet::upload() {
 }
 
 void CellSet::list_ways() {
-    const std::vector<world::CellPose> at_rest = world::poses_at_rest(cells_of(known_->world));
+    const std::vector<world::CellPose> at_rest = world::poses_at_rest(pack::tree_of(known_->world));
     std::size_t place = 0;
     for (std::size_t k = 0; k < known_->drawn.size(); ++k) {
         const residency::KnownCell& known = known_->drawn[k];

@@ -1,5 +1,6 @@
 #include "app/bench/mixed/mixed.h"
 
+#include "app/bench/measures/timing.h"
 #include "app/bench/mixed/mixed_techniques.h"
 #include "app/bench/mixed/mixed_walk.h"
 #include "app/bench/mixed/popping.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <span>
 #include <utility>
@@ -20,13 +20,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-using Progress = std::function<void(const std::string& step, double done)>;
-
-double cpu_now_ms() {
-    timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+using StepProgress = std::function<void(const std::string& step, double done)>;
 
 /// One pass over the walk: keeps each frame's least time, milliseconds.
 void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, std::vector<double>& min_ms) {
@@ -62,7 +56,8 @@ struct Learned {
     double finest_ms = 0.0, cheapest_ms = 0.0; ///< 99th percentiles
 };
 
-Learned learn_times(CellSet& set, const std::vector<BenchPose>& poses, int passes, const Progress& progress) {
+Learned learn_times(CellSet& set, const std::vector<BenchPose>& poses, int passes,
+                    const StepProgress& progress) {
     std::vector<scene::QualityLevelTime> times;
     Learned learned;
     for (std::size_t k = 0; k < uniform_ways.size(); ++k) {
@@ -110,7 +105,7 @@ struct Step {
 
 /// The steps take turns, so that a disturbance of the machine meets none of them in all passes.
 void time_steps(std::span<Step* const> steps, const std::vector<BenchPose>& walk, int passes,
-                const Progress& progress) {
+                const StepProgress& progress) {
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t k = 0; k < steps.size(); ++k) {
             progress("times", (pass + static_cast<double>(k) / static_cast<double>(steps.size())) / passes);
@@ -154,7 +149,7 @@ struct WalkErrors {
 /// All steps side by side, so that each frame is cast once.
 Result<std::vector<WalkErrors>> measure_errors(CellSet& set, const Truth& truth, std::span<Step* const> steps,
                                                const std::vector<BenchPose>& walk, int error_every,
-                                               const Progress& progress) {
+                                               const StepProgress& progress) {
     std::vector<WalkErrors> errors(steps.size());
     for (Step* step : steps) {
         step->technique->begin();
@@ -202,7 +197,7 @@ PaperWeights weights_for(const CellSet& set, const std::vector<BenchPose>& poses
 
 Result<MixedResult> measure_mixed(const settings::Settings& settings, const std::filesystem::path& pack,
                                   const std::shared_ptr<const bake::SourceMesh>& mesh,
-                                  const MixedOptions& options, const Progress& progress) {
+                                  const MixedOptions& options, const StepProgress& progress) {
     TRY(const std::unique_ptr<CellSet> set, CellSet::open(settings, pack, options.samples));
     TRY(const std::vector<BenchPose> walk, draw_walk(settings, set->prop(), options.frames, options.seed));
     TRY(const std::vector<BenchPose> other,

@@ -120,7 +120,7 @@ scene::RenderNeeds needs_of(const std::vector<DrawnCell>& cells, int samples) {
     for (const DrawnCell& cell : cells) {
         if (cell.relief) {
             needs.draws.insert(scene::raster_shader());
-            ++needs.relief_draws;
+            needs.rasterizes = true;
             continue;
         }
         for (const bool lit : {false, true}) {
@@ -152,11 +152,7 @@ std::string described(const pack::PackWorld& world, const DrawnCell& cell, std::
 Result<PackCells> make_pack_cells(const Kiosk& kiosk, const std::filesystem::path& file,
                                   const pack::Pack& whole, const PictureOptions& options, std::string name) {
     TRY(const pack::PackWorld world, pack::world_of(whole));
-    std::vector<world::Cell> tree;
-    for (const pack::PackCell& cell : world.cells) {
-        tree.push_back(cell.cell);
-    }
-    const std::vector<world::CellPose> poses = world::poses_at_rest(tree);
+    const std::vector<world::CellPose> poses = world::poses_at_rest(pack::tree_of(world));
     const double metres_per_box = pack::place(whole, kiosk.prop).metres_per_box;
     TRY(const std::vector<DrawnCell> cells, read_cells(kiosk, file, world, poses, metres_per_box));
     const int samples = options.samples > 0 ? options.samples : whole.samples;

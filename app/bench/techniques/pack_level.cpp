@@ -253,7 +253,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Kiosk& kiosk, const pa
         needs = needs_of(layout.pinhole, samples_of(options, pack), shader);
     } else {
         needs.draws = {scene::raster_shader()};
-        needs.relief_draws = 1;
+        needs.rasterizes = true;
     }
     TRY(render::Renderer renderer,
         render::Renderer::create(layout.display.width, layout.display.height, needs));

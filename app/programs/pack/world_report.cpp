@@ -92,7 +92,7 @@ std::string world_text(const pack::PackDescription& pack, double mm_per_box) {
                 ? "  the cells are drawn at rest, too: together they are quicker than the whole\n"
                 : "";
     for (const pack::PackBehaviour& packed : world.behaviours) {
-        text += fmt::format("  behaviour {}: {} s, trigger {}", packed.behaviour.name,
+        text += fmt::format("  behaviour {}: {:.3g} s, trigger {}", packed.behaviour.name,
                             packed.behaviour.seconds, name_of(packed.behaviour.trigger));
         for (const pack::PackLabel& title : packed.titles) {
             text += fmt::format("; {}: {}", title.language, title.text);
