@@ -137,7 +137,7 @@ TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
     ::waitpid(process, &status, WUNTRACED);
     EXPECT_FALSE(fed_within(seconds(4)));
     ::kill(process, SIGKILL); // as a service manager would
-    EXPECT_EQ(ending(), -1);
+    EXPECT_EQ(ending(), -SIGKILL);
 }
 
 TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
@@ -165,7 +165,7 @@ TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
     EXPECT_EQ(errors(), "frustumscreen: display: /dev/dri/no-such-card cannot be opened: No such file or "
                         "directory; is it the card's name, and is its driver loaded?\n");
     ::kill(process, SIGTERM);
-    EXPECT_EQ(ending(), -1);
+    EXPECT_EQ(ending(), -SIGTERM);
 }
 
 TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
@@ -187,7 +187,7 @@ TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
     fs::permissions(card, fs::perms::all); // udev has set the permissions; the file still is no card
     EXPECT_TRUE(comes("err.txt", "has no connectors")) << errors();
     ::kill(process, SIGTERM);
-    EXPECT_EQ(ending(), -1);
+    EXPECT_EQ(ending(), -SIGTERM);
 }
 
 TEST_F(RunService, ARecordingThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
