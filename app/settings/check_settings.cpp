@@ -3,6 +3,7 @@
 #include "app/geometry/table_plane.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/table_reader.h"
+#include "firmware_host/base/pixel_rectangle.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -135,22 +136,58 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     check_picture(settings, fitness);
 }
 
-/// The two eyes' pictures share the projector's columns, or its rows, in halves.
-void check_stereo(const Settings& settings, Fitness& fitness) {
-    const Stereo stereo = stereo_of(settings);
-    const geometry::Pinhole& picture = settings.projector.pinhole;
-    const std::string_view key =
-        settings.projector.stereo == ProjectorStereo::AsEye ? "eye.stereo" : "projector.stereo";
+/// The two eyes' pictures share the output's columns, or its rows, in halves. `output`: "projector" or "screen".
+void check_stereo(Stereo stereo, OutputStereo asked, std::string_view output, PixelSize picture,
+                  Fitness& fitness) {
+    const std::string key =
+        asked == OutputStereo::AsEye ? "eye.stereo" : fmt::format("{}.stereo", output);
     fitness.require(
         "settings.stereo_odd_width", stereo != Stereo::SideBySide || picture.width % 2 == 0, key,
-        fmt::format("is \"side_by_side\", and projector.width is {}; each eye gets half of the columns: "
+        fmt::format("is \"side_by_side\", and {}.width is {}; each eye gets half of the columns: "
                     "take an even width, or another layout",
-                    picture.width));
+                    output, picture.width));
     fitness.require(
         "settings.stereo_odd_height", stereo != Stereo::TopBottom || picture.height % 2 == 0, key,
-        fmt::format("is \"top_bottom\", and projector.height is {}; each eye gets half of the rows: "
+        fmt::format("is \"top_bottom\", and {}.height is {}; each eye gets half of the rows: "
                     "take an even height, or another layout",
-                    picture.height));
+                    output, picture.height));
+}
+
+void check_screen(const Settings& settings, Fitness& fitness) {
+    const ScreenSettings& screen = settings.screen;
+    if (!screen.exists()) {
+        return;
+    }
+    constexpr double min_m = 0.05;
+    constexpr double max_skew = 2e-3; // of the longer side
+    const auto& [top_left, top_right, bottom_right, bottom_left] = screen.corners_m;
+    const glm::dvec3 across = top_right - top_left;
+    const glm::dvec3 down = bottom_left - top_left;
+    const double shorter = std::fmin(glm::length(across), glm::length(down));
+    const double longer = std::fmax(glm::length(across), glm::length(down));
+    fitness.require("settings.screen_size", shorter >= min_m, "screen.corners_m",
+                    fmt::format("has sides of {:.3f} and {:.3f} metres; allowed are at least {} each",
+                                glm::length(across), glm::length(down), min_m));
+    const double off = std::fmax(glm::distance(bottom_right, top_right + down),
+                                 std::fabs(glm::dot(across, down)) / std::fmax(shorter, min_m));
+    fitness.require("settings.screen_no_rectangle", off <= max_skew * longer, "screen.corners_m",
+                    fmt::format("is no rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
+                                "is top left, top right, bottom right, bottom left",
+                                1e3 * off, 1e3 * max_skew * longer));
+    check_stereo(screen_stereo_of(settings), screen.stereo, "screen", {screen.width, screen.height}, fitness);
+    const bool named = settings.display.kind != DisplayKind::Kms ||
+                       (settings.display.connector != "any" && screen.connector != "any");
+    fitness.require("settings.screen_any_connector", named, "screen.connector",
+                    "has a projector beside it, and one of the two connectors is \"any\"; name both, "
+                    "screen.connector and display.connector, as in /sys/class/drm");
+    fitness.require("settings.screen_same_connector",
+                    settings.display.kind != DisplayKind::Kms ||
+                        settings.display.connector != screen.connector ||
+                        (settings.display.card != screen.card && screen.card != "any" &&
+                         settings.display.card != "any"),
+                    "screen.connector",
+                    fmt::format("is \"{}\", and display.connector is the same; name two connectors",
+                                printable(screen.connector, 60)));
 }
 
 void check_eye(const Settings& settings, Fitness& fitness) {
@@ -357,7 +394,10 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     check_prop(settings, fitness);
     check_projector(settings, fitness);
     check_eye(settings, fitness);
-    check_stereo(settings, fitness);
+    const geometry::Pinhole& picture = settings.projector.pinhole;
+    check_stereo(stereo_of(settings), settings.projector.stereo, "projector",
+                 {picture.width, picture.height}, fitness);
+    check_screen(settings, fitness);
     check_devices(settings, fitness);
     check_camera(settings, fitness);
     check_sound(settings, fitness);

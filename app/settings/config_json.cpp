@@ -44,6 +44,12 @@ public:
     void vector(const char* key, const glm::dvec3& value, const Range&, std::string_view) {
         json_[key] = list_of(value);
     }
+    void points(const char* key, std::span<const glm::dvec3> values, const Range&, std::string_view) {
+        json_[key] = Json::array();
+        for (const glm::dvec3& value : values) {
+            json_[key].push_back(list_of(value));
+        }
+    }
     /// An input is not reported: the settings that were computed from it are.
     void input(const char*, const auto&, const Range&, std::string_view) {}
     void rigid(const char* key, const geometry::RigidTransform& value, const Range&, std::string_view) {
@@ -200,6 +206,8 @@ std::string config_json(const CheckedSettings& checked) {
                 }
             }
             json[name]["faces"] = faces_json(make_prop(checked->prop));
+        } else if (name == "screen" && !checked->screen.exists()) {
+            continue; // its keys mean nothing
         } else if (name == "calibration") {
             json[name] = table;
             if (checked->calibration.used) {

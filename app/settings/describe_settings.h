@@ -48,7 +48,7 @@ inline constexpr Range near_the_table{-10.0, 10.0, "metres"};
 inline constexpr std::array<std::string_view, 2> display_names{"kms", "surfaceless"};
 inline constexpr std::array<std::string_view, 5> stereo_names{"off", "side_by_side", "top_bottom",
                                                               "frame_sequential", "anaglyph"};
-inline constexpr std::array<std::string_view, 6> projector_stereo_names{
+inline constexpr std::array<std::string_view, 6> output_stereo_names{
     "as_eye", "off", "side_by_side", "top_bottom", "frame_sequential", "anaglyph"};
 inline constexpr std::array<std::string_view, 3> prop_names{"frustum", "cube", "solid"};
 inline constexpr std::array<std::string_view, 2> unit_names{"mm", "m"};
@@ -128,7 +128,7 @@ void projector_settings(auto& fields, auto& projector) {
     fields.number(
         "refresh_hz", projector.refresh_hz, {10.0, 480.0, "hertz"},
         "pictures a second; with \"frame_sequential\" both eyes' are counted: half of them for each");
-    fields.choice("stereo", projector.stereo, projector_stereo_names,
+    fields.choice("stereo", projector.stereo, output_stereo_names,
                   "layout of the two eyes' pictures for this projector; \"as_eye\": that of eye.stereo");
     fields.number(
         "aperture_mm", projector.aperture_mm, {0.1, 200.0, "millimetres"},
@@ -249,6 +249,23 @@ void eye_settings(auto& fields, auto& eye) {
         "\"off\": one picture, without glasses");
     fields.number("interocular_mm", eye.interocular_mm, {0.0, 200.0, "millimetres"},
                   "stereo: distance between the pupils; 63 suits most adults, 55 children");
+}
+
+void screen_settings(auto& fields, auto& screen) {
+    fields.path("room", screen.room,
+                "what stands in the room behind the screen (docs/room.md); left out: there is no screen, and "
+                "none of the keys below counts");
+    fields.points("corners_m", screen.corners_m, near_the_table,
+                  "corners of the lit area, as people before it see it: top left, top right, bottom right, "
+                  "bottom left");
+    fields.integer("width", screen.width, 64, 8192, "columns of the picture; the screen's own");
+    fields.integer("height", screen.height, 64, 8192, "rows of the picture; the screen's own");
+    fields.number("refresh_hz", screen.refresh_hz, {10.0, 480.0, "hertz"}, "pictures a second");
+    fields.text("card", screen.card, "kms: \"card1\" or a path; \"any\": the card of the connector");
+    fields.text("connector", screen.connector,
+                "kms: as in /sys/class/drm, \"DP-1\"; it differs from display.connector");
+    fields.choice("stereo", screen.stereo, output_stereo_names,
+                  "layout of the two eyes' pictures for this screen; \"as_eye\": that of eye.stereo");
 }
 
 void registration_settings(auto& fields, auto& registration) {
@@ -511,6 +528,8 @@ void all_settings(auto& file, auto& settings) {
           [&](auto& fields) { prop_settings(fields, settings.prop); });
     table("table", "The table's top.", [&](auto& fields) { table_settings(fields, settings.table); });
     table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });
+    table("screen", "A flat screen behind the table, and the room in it.",
+          [&](auto& fields) { screen_settings(fields, settings.screen); });
     table("tracker", "The tracker of the prop and of the visitor's head.",
           [&](auto& fields) { tracker_settings(fields, settings.tracker); });
     table("calibration", "The measured projector and tracker.",

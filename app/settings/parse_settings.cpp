@@ -93,6 +93,24 @@ void use_newest_calibration(Settings& settings, const ReadState& state) {
     settings.calibration.unused = std::move(unused);
 }
 
+Stereo stereo_of(OutputStereo output, Stereo of_eye) {
+    switch (output) {
+    case OutputStereo::AsEye:
+        return of_eye;
+    case OutputStereo::Off:
+        return Stereo::Off;
+    case OutputStereo::SideBySide:
+        return Stereo::SideBySide;
+    case OutputStereo::TopBottom:
+        return Stereo::TopBottom;
+    case OutputStereo::FrameSequential:
+        return Stereo::FrameSequential;
+    case OutputStereo::Anaglyph:
+        return Stereo::Anaglyph;
+    }
+    return Stereo::Off;
+}
+
 } // namespace
 
 std::string_view name_of(Stereo stereo) {
@@ -100,21 +118,11 @@ std::string_view name_of(Stereo stereo) {
 }
 
 Stereo stereo_of(const Settings& settings) {
-    switch (settings.projector.stereo) {
-    case ProjectorStereo::AsEye:
-        return settings.eye.stereo;
-    case ProjectorStereo::Off:
-        return Stereo::Off;
-    case ProjectorStereo::SideBySide:
-        return Stereo::SideBySide;
-    case ProjectorStereo::TopBottom:
-        return Stereo::TopBottom;
-    case ProjectorStereo::FrameSequential:
-        return Stereo::FrameSequential;
-    case ProjectorStereo::Anaglyph:
-        return Stereo::Anaglyph;
-    }
-    return Stereo::Off;
+    return stereo_of(settings.projector.stereo, settings.eye.stereo);
+}
+
+Stereo screen_stereo_of(const Settings& settings) {
+    return stereo_of(settings.screen.stereo, settings.eye.stereo);
 }
 
 std::string_view name_of(DisplayKind kind) {

@@ -22,6 +22,7 @@
 #include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -36,7 +37,7 @@ namespace frustumscreen::settings {
 enum class Stereo { Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
 [[nodiscard]] std::string_view name_of(Stereo stereo);
 /// AsEye: the layout of EyeSettings. The others: as Stereo, for this output.
-enum class ProjectorStereo { AsEye, Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
+enum class OutputStereo { AsEye, Off, SideBySide, TopBottom, FrameSequential, Anaglyph };
 
 struct ProjectorSettings {
     geometry::Pinhole pinhole{
@@ -44,7 +45,7 @@ struct ProjectorSettings {
     /// Above the table's centre, looking straight down; the picture's right is +X, its top +Y.
     geometry::RigidTransform table_from_projector{glm::dquat(0.0, 1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.5)};
     double refresh_hz = 60.0;
-    ProjectorStereo stereo = ProjectorStereo::AsEye;
+    OutputStereo stereo = OutputStereo::AsEye;
     double aperture_mm = 10.0; ///< diameter of the lens's opening: sets how fast focus is lost with depth
 };
 
@@ -220,6 +221,21 @@ struct CameraSettings {
     geometry::RigidTransform table_from_camera; ///< identity: not measured
 };
 
+/// A flat screen behind the table, the second output, and the room that it shows.
+struct ScreenSettings {
+    std::filesystem::path room; ///< empty: there is no screen
+    /// Of its lit area: top left, top right, bottom right, bottom left, as people before it see it.
+    std::array<glm::dvec3, 4> corners_m{
+        {{-0.6, 0.7, 0.85}, {0.6, 0.7, 0.85}, {0.6, 0.7, 0.175}, {-0.6, 0.7, 0.175}}};
+    int width = 1920, height = 1080; ///< pixels
+    double refresh_hz = 60.0;
+    std::string card = "any";
+    std::string connector = "any";
+    OutputStereo stereo = OutputStereo::AsEye;
+
+    [[nodiscard]] bool exists() const { return !room.empty(); }
+};
+
 struct RenderSettings {
     double error_tolerance_px = 0.5;
     int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
@@ -244,6 +260,7 @@ struct Settings {
     PropSettings prop;
     TableSettings table;
     EyeSettings eye;
+    ScreenSettings screen;
     TrackerSettings tracker;
     CalibrationSettings calibration;
     PanelSettings panel;
@@ -255,6 +272,8 @@ struct Settings {
 
 /// The layout of the projector's picture.
 [[nodiscard]] Stereo stereo_of(const Settings& settings);
+/// The layout of the screen's picture.
+[[nodiscard]] Stereo screen_stereo_of(const Settings& settings);
 
 /// A prop in the hand has no zone on the table, and a prop that is not tracked never leaves its zone.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {

@@ -37,6 +37,15 @@ public:
         row(key, fmt::format("`[{}, {}, {}]`", value.x, value.y, value.z),
             "3 numbers, each " + words_of(range), sentence);
     }
+    void points(const char* key, std::span<const glm::dvec3> values, const Range& range,
+                std::string_view sentence) {
+        std::vector<std::string> texts;
+        for (const glm::dvec3& value : values) {
+            texts.push_back(fmt::format("[{}, {}, {}]", value.x, value.y, value.z));
+        }
+        row(key, fmt::format("`[{}]`", fmt::join(texts, ", ")),
+            fmt::format("{} points, each number {}", values.size(), words_of(range)), sentence);
+    }
     void input(const char* key, double value, const Range& range, std::string_view sentence) {
         number(key, value, range, sentence);
     }

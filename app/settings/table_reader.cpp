@@ -263,20 +263,47 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& values, 
     values = std::move(read);
 }
 
+bool TableReader::point_of(const toml::array& array, const std::string& name, glm::dvec3& value,
+                           const Range& range) {
+    for (int i = 0; i < 3; ++i) {
+        if (!number_of(*array.get(static_cast<std::size_t>(i)), fmt::format("{}[{}]", name, i), value[i],
+                       range)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& range,
                          std::string_view /*sentence*/) {
     const toml::array* array = list_of(key, 3, 3, "3 numbers, [x, y, z]");
+    glm::dvec3 read(0.0);
+    if (array != nullptr && point_of(*array, full_name(key), read, range)) {
+        value = read;
+    }
+}
+
+void TableReader::points(std::string_view key, std::span<glm::dvec3> values, const Range& range,
+                         std::string_view /*sentence*/) {
+    const std::string allowed = fmt::format("{} points, each of 3 numbers, [x, y, z]", values.size());
+    const toml::array* array = list_of(key, values.size(), values.size(), allowed);
     if (array == nullptr) {
         return;
     }
-    glm::dvec3 read(0.0);
-    for (int i = 0; i < 3; ++i) {
-        if (!number_of(*array->get(static_cast<std::size_t>(i)), fmt::format("{}[{}]", full_name(key), i),
-                       read[i], range)) {
+    std::vector<glm::dvec3> read(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const toml::array* point = array->get(k)->as_array();
+        if (point == nullptr || point->size() != 3) {
+            refuse("settings.points", key,
+                   fmt::format("has {} as number {}; allowed is a list of {}", found(*array->get(k)), k + 1,
+                               allowed));
+            return;
+        }
+        if (!point_of(*point, fmt::format("{}[{}]", full_name(key), k), read[k], range)) {
             return;
         }
     }
-    value = read;
+    std::copy(read.begin(), read.end(), values.begin());
 }
 
 void TableReader::rigid(std::string_view key, geometry::RigidTransform& value, const Range& range,

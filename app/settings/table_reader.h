@@ -54,6 +54,9 @@ public:
     [[nodiscard]] bool has(std::string_view key) const;
     void number(std::string_view key, double& value, const Range& range, std::string_view sentence = {});
     void vector(std::string_view key, glm::dvec3& value, const Range& range, std::string_view sentence = {});
+    /// As many points as `values` has.
+    void points(std::string_view key, std::span<glm::dvec3> values, const Range& range,
+                std::string_view sentence = {});
     void input(std::string_view key, double& value, const Range& range, std::string_view /*sentence*/) {
         number(key, value, range);
     }
@@ -157,6 +160,7 @@ private:
     const toml::node* take(std::string_view key);
     void read_matrix(std::string_view key, glm::dmat4& value, const Range& range);
     bool number_of(const toml::node& node, const std::string& name, double& value, const Range& range);
+    bool point_of(const toml::array& array, const std::string& name, glm::dvec3& value, const Range& range);
     bool text_of(const toml::node& node, const std::string& name, std::string& value);
     void refuse_text(std::string_view key, std::string_view found, std::string_view allowed);
     /// The index of the word found; `usual` if the key is missing.

@@ -112,7 +112,7 @@ settings::Settings sized(const OfflineSetup& setup) {
     const auto& [checked, options] = setup;
     settings::Settings settings = *checked;
     if (!options.both_eyes) {
-        settings.projector.stereo = settings::ProjectorStereo::Off;
+        settings.projector.stereo = settings::OutputStereo::Off;
     }
     if (options.width > 0 && options.height > 0) {
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(options.width, options.height);

@@ -132,7 +132,7 @@ TEST(TwoEyes, ComeFromTheTrackedStateInStereoAlone) {
     const GuidedState guided = exhibit::guided_state(exhibit::guidance_setup(settings), state);
     EXPECT_EQ(guided.eye_m, state.eye_m);
     EXPECT_LT(glm::distance(guided.to_right_eye_m, glm::dvec3(0.0, 0.015, 0.0)), 1e-15);
-    settings.projector.stereo = settings::ProjectorStereo::Off; // this output shows one picture
+    settings.projector.stereo = settings::OutputStereo::Off; // this output shows one picture
     EXPECT_EQ(exhibit::guided_state(exhibit::guidance_setup(settings), state).to_right_eye_m,
               glm::dvec3(0.0));
 }

@@ -39,9 +39,9 @@ TEST(OutputRequestOfSettings, AsksForTheModeOfTheProjectorAndTheLayoutOfThePictu
 
 TEST(OutputRequestOfSettings, AProjectorsOwnLayoutGoesBeforeThatOfTheEyes) {
     settings::Settings settings = settings_with(settings::Stereo::SideBySide);
-    settings.projector.stereo = settings::ProjectorStereo::TopBottom;
+    settings.projector.stereo = settings::OutputStereo::TopBottom;
     EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::TopBottom);
-    settings.projector.stereo = settings::ProjectorStereo::Off;
+    settings.projector.stereo = settings::OutputStereo::Off;
     EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::One);
 }
 

@@ -368,12 +368,12 @@ TEST_F(Eyes, TheStaffAreToldHowTheyAreCheckedAndThatStereoMeasuresNothing) {
     const auto facts = [&] { return staff_facts({}, settings, "a driver", exhibit::State::View, 0); };
     for (const Stereo on_eye : {Stereo::Off, Stereo::SideBySide}) {
         settings.eye.stereo = on_eye;
-        settings.projector.stereo = settings::ProjectorStereo::Off;
+        settings.projector.stereo = settings::OutputStereo::Off;
         EXPECT_FALSE(facts().stereo);
         EXPECT_TRUE(facts().measures_pixels);
         EXPECT_TRUE(exhibit_place(settings).staff_stays);
     }
-    settings.projector.stereo = settings::ProjectorStereo::AsEye;
+    settings.projector.stereo = settings::OutputStereo::AsEye;
     for (const StereoCase& at : cases) {
         settings.eye.stereo = at.stereo;
         EXPECT_TRUE(facts().stereo);

@@ -16,7 +16,7 @@ constexpr std::array layouts{settings::Stereo::SideBySide, settings::Stereo::Top
 
 settings::Settings in_layout(settings::Settings settings, settings::Stereo stereo) {
     settings.eye.stereo = stereo;
-    settings.projector.stereo = settings::ProjectorStereo::AsEye;
+    settings.projector.stereo = settings::OutputStereo::AsEye;
     return settings;
 }
 

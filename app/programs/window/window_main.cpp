@@ -114,7 +114,7 @@ Result<void> run(const Request& request) {
     settings.tracker.kind = settings::TrackerKind::Simulated;
     settings.tracker.display_latency_ms = 0.0;
     settings.eye.tracked = true;
-    settings.projector.stereo = settings::ProjectorStereo::Off; // the visitor's half shows what one eye sees
+    settings.projector.stereo = settings::OutputStereo::Off; // the visitor's half shows what one eye sees
     TRY(window::WindowHelp help, help_picture());
     const VisitorHalf visitor(settings);
     TRY(window::Window window, window::open_window(set_up_of(settings, visitor, std::move(help))));
