@@ -6,6 +6,7 @@
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/render/eye_choice.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/programs/frustumscreen/render/screen_pictures.h"
 #include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
@@ -31,6 +32,7 @@ struct Request {
     std::filesystem::path pack;
     std::filesystem::path poses;
     std::filesystem::path out;
+    std::string output = "prop";
     std::string view = "projector";
     std::string eye; ///< empty: as the settings show it
     int width = 0;   ///< width of the written pictures; 0: the view's
@@ -43,7 +45,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CommandLine app("Draws the pictures of a pose file: DIR/frame_00000.png ... and DIR/frames.csv.",
                     "frustumscreen render");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--pack", request.pack, "pack of the artifact, *.fspack").required();
+    app.add_option("--pack", request.pack, "pack of the artifact, *.fspack; the screen's pictures need none");
     app.add_option("--poses", request.poses, "pose file, CSV").required();
     app.add_option("--out", request.out, "folder for the pictures; created if missing").required();
     app.add_option("--technique", request.options.technique,
@@ -59,6 +61,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
             .within(1, 16384);
     width.needs(height);
     height.needs(width);
+    app.add_option(
+           "--output", request.output,
+           "whose pictures: the projector's, of the artifact in the prop, or those of the screen behind "
+           "the table, of the room in the settings")
+        .one_of({"prop", "screen"})
+        .capture_default_str();
     app.add_option("--view", request.view,
                    "picture to draw: the projector's, or the visitor's view, which is half as wide and high "
                    "unless --width and --height are given")
@@ -164,13 +172,48 @@ show::OfflineOptions options_for(const Request& request, EyeChoice eye, const se
     return options;
 }
 
-Result<void> render(const Request& request) {
-    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+Result<void> make_folder(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        return bad_input("render.no_folder", "{}: the folder cannot be made: {}", folder.string(),
+                         failed.message());
+    }
+    return {};
+}
+
+/// An option that the screen's pictures do not use.
+void say_unused(std::string_view option, bool given) {
+    if (given) {
+        say_line("frustumscreen",
+                 fmt::format("{} is not used: --output screen draws the room alone", option));
+    }
+}
+
+Result<void> render_screen(const Request& request, const settings::Settings& settings,
+                           std::span<const tracking::TrackedState> frames) {
+    say_unused("--pack", !request.pack.empty());
+    say_unused("--technique", request.options.technique != "auto");
+    say_unused("--behaviour", !request.options.behaviour.empty());
+    say_unused("--view", request.view != "projector");
+    TRY_VOID(make_folder(request.out));
+    return write_screen_pictures(settings,
+                                 {.eye = request.eye,
+                                  .width = request.width,
+                                  .height = request.height,
+                                  .hit_points = request.options.hit_points,
+                                  .out = request.out},
+                                 frames);
+}
+
+Result<void> render_prop(const Request& request, const settings::CheckedSettings& settings,
+                         const std::vector<tracking::TrackedState>& frames) {
+    if (request.pack.empty()) {
+        return bad_input("render.no_pack",
+                         "--pack is missing: the projector's pictures show a pack's artifact");
+    }
     TRY(const EyeChoice eye, choose_eye(request.eye, settings::stereo_of(*settings),
                                         request.options.hit_points || request.view == "visitor"));
-    TRY(const std::vector<tracking::TrackedState> frames,
-        load_pose_frames(request.poses, settings->eye.default_m));
-    say_off_the_table(frames, settings->table);
     const show::OfflineSetup setup{settings, options_for(request, eye, settings->eye, frames)};
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
@@ -178,12 +221,7 @@ Result<void> render(const Request& request) {
                                                  pack::outline_of(*scene.pack), scene.plan)) {
         say_line("frustumscreen", *note);
     }
-    std::error_code failed;
-    std::filesystem::create_directories(request.out, failed);
-    if (failed) {
-        return bad_input("render.no_folder", "{}: the folder cannot be made: {}", request.out.string(),
-                         failed.message());
-    }
+    TRY_VOID(make_folder(request.out));
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
     const Studio studio{.request = request,
                         .settings = *settings,
@@ -198,6 +236,7 @@ Result<void> render(const Request& request) {
         csv += line;
         progress.show(frame + 1, frames.size());
     }
+    std::error_code failed;
     std::filesystem::remove(request.out / simulation::visitor_cameras_name,
                             failed); // left by an earlier call
     if (!visitor_frames.empty()) {
@@ -205,6 +244,15 @@ Result<void> render(const Request& request) {
                             as_bytes(simulation::visitor_cameras_json(visitor_frames))));
     }
     return write_file(request.out / "frames.csv", as_bytes(csv));
+}
+
+Result<void> render(const Request& request) {
+    TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
+    TRY(const std::vector<tracking::TrackedState> frames,
+        load_pose_frames(request.poses, settings->eye.default_m));
+    say_off_the_table(frames, settings->table);
+    return request.output == "screen" ? render_screen(request, *settings, frames)
+                                      : render_prop(request, settings, frames);
 }
 
 } // namespace
