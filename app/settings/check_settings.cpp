@@ -139,18 +139,15 @@ void check_projector(const Settings& settings, Fitness& fitness) {
 /// The two eyes' pictures share the output's columns, or its rows, in halves. `output`: "projector" or "screen".
 void check_stereo(Stereo stereo, OutputStereo asked, std::string_view output, PixelSize picture,
                   Fitness& fitness) {
-    const std::string key =
-        asked == OutputStereo::AsEye ? "eye.stereo" : fmt::format("{}.stereo", output);
-    fitness.require(
-        "settings.stereo_odd_width", stereo != Stereo::SideBySide || picture.width % 2 == 0, key,
-        fmt::format("is \"side_by_side\", and {}.width is {}; each eye gets half of the columns: "
-                    "take an even width, or another layout",
-                    output, picture.width));
-    fitness.require(
-        "settings.stereo_odd_height", stereo != Stereo::TopBottom || picture.height % 2 == 0, key,
-        fmt::format("is \"top_bottom\", and {}.height is {}; each eye gets half of the rows: "
-                    "take an even height, or another layout",
-                    output, picture.height));
+    const std::string key = asked == OutputStereo::AsEye ? "eye.stereo" : fmt::format("{}.stereo", output);
+    fitness.require("settings.stereo_odd_width", stereo != Stereo::SideBySide || picture.width % 2 == 0, key,
+                    fmt::format("is \"side_by_side\", and {}.width is {}; each eye gets half of the columns: "
+                                "take an even width, or another layout",
+                                output, picture.width));
+    fitness.require("settings.stereo_odd_height", stereo != Stereo::TopBottom || picture.height % 2 == 0, key,
+                    fmt::format("is \"top_bottom\", and {}.height is {}; each eye gets half of the rows: "
+                                "take an even height, or another layout",
+                                output, picture.height));
 }
 
 void check_screen(const Settings& settings, Fitness& fitness) {
@@ -170,24 +167,19 @@ void check_screen(const Settings& settings, Fitness& fitness) {
                                 glm::length(across), glm::length(down), min_m));
     const double off = std::fmax(glm::distance(bottom_right, top_right + down),
                                  std::fabs(glm::dot(across, down)) / std::fmax(shorter, min_m));
-    fitness.require("settings.screen_no_rectangle", off <= max_skew * longer, "screen.corners_m",
-                    fmt::format("is no rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
-                                "is top left, top right, bottom right, bottom left",
-                                1e3 * off, 1e3 * max_skew * longer));
+    fitness.require(
+        "settings.screen_no_rectangle", off <= max_skew * longer, "screen.corners_m",
+        fmt::format("is no rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
+                    "is top left, top right, bottom right, bottom left",
+                    1e3 * off, 1e3 * max_skew * longer));
     check_stereo(screen_stereo_of(settings), screen.stereo, "screen", {screen.width, screen.height}, fitness);
-    const bool named = settings.display.kind != DisplayKind::Kms ||
-                       (settings.display.connector != "any" && screen.connector != "any");
-    fitness.require("settings.screen_any_connector", named, "screen.connector",
-                    "has a projector beside it, and one of the two connectors is \"any\"; name both, "
-                    "screen.connector and display.connector, as in /sys/class/drm");
-    fitness.require("settings.screen_same_connector",
-                    settings.display.kind != DisplayKind::Kms ||
-                        settings.display.connector != screen.connector ||
-                        (settings.display.card != screen.card && screen.card != "any" &&
-                         settings.display.card != "any"),
-                    "screen.connector",
-                    fmt::format("is \"{}\", and display.connector is the same; name two connectors",
-                                printable(screen.connector, 60)));
+    fitness.require(
+        "settings.screen_same_connector",
+        settings.display.connector != screen.connector || screen.connector == "any" ||
+            (settings.display.card != screen.card && screen.card != "any" && settings.display.card != "any"),
+        "screen.connector",
+        fmt::format("is \"{}\", and display.connector is the same; name two connectors",
+                    printable(screen.connector, 60)));
 }
 
 void check_eye(const Settings& settings, Fitness& fitness) {
@@ -395,8 +387,8 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     check_projector(settings, fitness);
     check_eye(settings, fitness);
     const geometry::Pinhole& picture = settings.projector.pinhole;
-    check_stereo(stereo_of(settings), settings.projector.stereo, "projector",
-                 {picture.width, picture.height}, fitness);
+    check_stereo(stereo_of(settings), settings.projector.stereo, "projector", {picture.width, picture.height},
+                 fitness);
     check_screen(settings, fitness);
     check_devices(settings, fitness);
     check_camera(settings, fitness);
