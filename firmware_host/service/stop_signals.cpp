@@ -1,5 +1,7 @@
 #include "firmware_host/service/stop_signals.h"
 
+#include "firmware_host/base/device_thread.h"
+
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -32,13 +34,14 @@ bool StopSignals::received() const {
     return ::sigtimedwait(&set_, nullptr, &at_once) > 0;
 }
 
-StopSignals::AtOnce::AtOnce(const StopSignals& signals) : signals_(signals) {
-    ::pthread_sigmask(SIG_UNBLOCK, &signals_.set_, nullptr);
-}
-
-StopSignals::AtOnce::~AtOnce() {
-    ::pthread_sigmask(SIG_BLOCK, &signals_.set_, nullptr);
-}
+StopSignals::AtOnce::AtOnce(const StopSignals& signals)
+    : thread_([set = signals.set_](const std::stop_token& stop) {
+          begin_device_thread("stop at once");
+          ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+          while (!stop.stop_requested()) {
+              sleep_until_stop(stop, std::chrono::hours(1));
+          }
+      }) {}
 
 void end_within(Nanoseconds time, int status) {
     status_of_end = status;

@@ -8,6 +8,7 @@
 #include "firmware_host/base/time.h"
 
 #include <csignal>
+#include <thread>
 
 namespace frustumscreen::service {
 
@@ -20,16 +21,16 @@ public:
     /// Whether a signal has come since the last call.
     [[nodiscard]] bool received() const;
 
-    /// During its lifetime a stop signal ends the process at once.
+    /// During its lifetime a stop signal ends the process at once. A thread of its own takes the signal: if the caller
+    /// took it, each thread started meanwhile would inherit that, and a later signal could end the process there.
     class AtOnce {
     public:
         explicit AtOnce(const StopSignals& signals);
-        ~AtOnce();
         AtOnce(const AtOnce&) = delete;
         AtOnce& operator=(const AtOnce&) = delete;
 
     private:
-        const StopSignals& signals_;
+        std::jthread thread_;
     };
 
 private:
