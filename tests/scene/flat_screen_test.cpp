@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -128,6 +129,55 @@ TEST(FlatScreen, OfMeasuredCornersIsARectangleWithinTheirErrors) {
         const std::array<glm::dvec2, 4> pictures{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
         for (std::size_t which = 0; which < 4; ++which) {
             EXPECT_LT(glm::distance(pixel_of(screen, found[which]), pictures[which] * size), 1e-9);
+        }
+    }
+}
+
+/// A tetrahedron that fills a box of 1 m, scaled and placed.
+Part solid_at(const glm::dvec3& place_m, double size_m, int samples) {
+    pack::PackLevel level;
+    for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}) {
+        level.vertices.push_back(
+            {{static_cast<std::uint16_t>(65535 * x), static_cast<std::uint16_t>(65535 * y),
+              static_cast<std::uint16_t>(65535 * z)},
+             0,
+             {}});
+    }
+    level.indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3, 0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}; // both sides
+    pack::PackCluster all;
+    all.index_count = static_cast<std::uint32_t>(level.indices.size());
+    all.centre = {0.0F, 0.0F, 0.5F};
+    all.radius = 0.87F;
+    level.clusters = {all};
+    PlacedLevel placed{.triangles = std::make_shared<LevelTriangles>(triangles_of(level, glm::dvec3(1.0))),
+                       .box_size = glm::dvec3(1.0),
+                       .metres_per_box = size_m,
+                       .drawable = {MeshId{1}, {TextureId{2}}},
+                       .samples = samples};
+    placed.prop_from_placed[3] = glm::dvec4(place_m, 1.0);
+    return {std::move(placed), std::nullopt};
+}
+
+/// However deep in the room the objects are: the screen's pixels are as many, and so are their samples.
+TEST(FlatScreen, TakesTheSamplesThatWereAskedForAtAnyDepth) {
+    const FlatScreen screen =
+        flat_screen(rectangle({0.0, 0.7, 0.5}, {1.2, 0.675}, glm::dquat(1, 0, 0, 0)), 1920, 1080);
+    for (const double eye_y : {-2.0, 0.0, 0.4, 0.6}) {
+        for (const double depth_m : {0.05, 0.1, 0.65, 0.75, 1.0, 3.0, 10.0, 90.0}) {
+            const glm::dvec3 eye(0.0, eye_y, 0.5);
+            if (depth_m < eye_y + 0.05) {
+                continue;
+            }
+            const Part part = solid_at({0.0, depth_m, 0.5}, 0.03, 2);
+            FramePlan plan = make_plan(screen.surface, part.level);
+            plan_frame(screen.surface, std::span(&part, 1),
+                       {.projector = screen.pinhole,
+                        .table_from_projector = screen.table_from_pinhole,
+                        .table_from_prop = {},
+                        .eyes_m = {&eye, 1}},
+                       plan);
+            ASSERT_EQ(plan.draws.size(), 1U) << eye_y << ' ' << depth_m;
+            EXPECT_EQ(plan.samples, 2) << eye_y << ' ' << depth_m;
         }
     }
 }
