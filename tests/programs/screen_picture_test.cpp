@@ -1,6 +1,7 @@
 // The picture of the screen behind the table, made only by the programs, against rays through its pixels: objects before and
 // behind its plane, boxes that interlock, one that moves, for any eye and for both.
 
+#include "app/image/image.h"
 #include "tests/programs/program_folder.h"
 #include "tests/programs/room_rays.h"
 #include "tests/programs/solid_rays.h"
@@ -14,6 +15,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +74,7 @@ struct Compared {
     long wrong = 0;   ///< the others that differ
     double worst_m = 0.0;
     std::map<std::size_t, long> of_object{};
+    long miscoloured = 0;   ///< pixels of the picture that are dark on an object, or lit beside all
     long before_screen = 0; ///< hits nearer to the eye than the screen
 };
 
@@ -185,6 +188,28 @@ protected:
             }
         }
     }
+    /// The picture lights the pixels that show an object, and no other; those beside an outline may be mixed.
+    void compare_colours(const std::string& stem, Compared& sum) const {
+        const std::string png = text(stem + ".png");
+        const Result<image::Image8> picture = image::decode_png8(std::as_bytes(std::span(png)));
+        ASSERT_TRUE(picture) << picture.error().message;
+        const std::vector<glm::vec3> points = read_points(text(stem + ".pfm"), screen_.size);
+        const auto shows = [&](int x, int y) {
+            return !std::isnan(points[static_cast<std::size_t>(y * screen_.size.x + x)].x);
+        };
+        for (int y = 1; y + 1 < screen_.size.y; ++y) {
+            for (int x = 1; x + 1 < screen_.size.x; ++x) {
+                int hits = 0;
+                for (int k = 0; k < 9; ++k) {
+                    hits += shows(x + k % 3 - 1, y + k / 3 - 1) ? 1 : 0;
+                }
+                const auto& texel = picture->texels[static_cast<std::size_t>(y * screen_.size.x + x)];
+                const bool lit = texel[0] > 40 && texel[1] > 40 && texel[2] > 40;
+                const bool dark = texel[0] == 0 && texel[1] == 0 && texel[2] == 0;
+                sum.miscoloured += (hits == 9 && !lit) || (hits == 0 && !dark) ? 1 : 0;
+            }
+        }
+    }
     template <typename Truth>
     static void count(const glm::vec3& drawn, const std::optional<RoomHit>& hit, const Truth& beside,
                       Compared& sum) {
@@ -262,6 +287,7 @@ TEST_F(ScreenPicture, ShowsEachEyeWhatItsRaysSee) {
         for (std::size_t k = 0; k < heads.size(); ++k) {
             compare(read_points(text(fmt::format("out/frame_{:05}.pfm", k)), screen_.size),
                     heads[k].eye(side), 0.1 * static_cast<double>(k), sum);
+            compare_colours(fmt::format("out/frame_{:05}", k), sum);
         }
     }
     std::printf("%ld pixels of %zu objects, %ld of them before the screen; outline %ld px: %ld differ there, "
@@ -275,6 +301,7 @@ TEST_F(ScreenPicture, ShowsEachEyeWhatItsRaysSee) {
     }
     EXPECT_GT(sum.before_screen, 5000);
     EXPECT_EQ(sum.wrong, 0);
+    EXPECT_EQ(sum.miscoloured, 0);
     EXPECT_LE(sum.edge, sum.outline / 10);
     EXPECT_LE(sum.worst_m, 1e-4);
 }
