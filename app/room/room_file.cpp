@@ -16,13 +16,16 @@ namespace frustumscreen::room {
 
 namespace {
 
-constexpr std::uintmax_t max_bytes = std::uintmax_t{4} << 20; ///< some 400 bytes for each object
+constexpr std::uintmax_t max_bytes = std::uintmax_t{8} << 20; ///< some 800 bytes for each object
+constexpr std::size_t max_name_bytes = 80;
 constexpr settings::Range in_the_room{-100.0, 100.0, "metres"};
 
 /// An object as the file has it.
 struct WrittenObject {
     Object object;
     std::filesystem::path pack;
+    std::string pack_at; ///< as TableReader::place
+    std::string name_at;
 };
 
 void read_motion(settings::TableReader& keys, Motion& motion) {
@@ -34,38 +37,67 @@ void read_motion(settings::TableReader& keys, Motion& motion) {
 void read_object(settings::TableReader& keys, WrittenObject& written) {
     Object& object = written.object;
     keys.text("name", object.name);
+    written.name_at = keys.place("name");
     keys.path("pack", written.pack, {});
-    keys.require("room.no_pack", !written.pack.empty(), "pack",
-                 "is missing; name the object's pack, a file *.fspack from frustumscreen-bake");
+    written.pack_at = keys.place("pack");
     keys.vector("place_m", object.place_m, in_the_room);
     keys.number("turn_deg", object.turn_deg, {-360.0, 360.0, "degrees"});
     keys.number("size_m", object.size_m, {0.001, 100.0, "metres"});
     read_motion(keys, object.motion);
 }
 
-/// Objects without a name get their pack's, and a number from the second one on.
+/// Objects without a name get their pack's, and from the second one on a number that makes it their own.
 void name_objects(std::vector<WrittenObject>& objects) {
+    std::set<std::string> given;
+    for (const WrittenObject& each : objects) {
+        given.insert(each.object.name);
+    }
     std::map<std::string, std::size_t> counts;
     for (WrittenObject& each : objects) {
         if (each.object.name.empty()) {
-            const std::string stem = printable(each.pack.stem().string(), 80);
-            const std::size_t count = ++counts[stem];
-            each.object.name = count == 1 ? stem : fmt::format("{}-{}", stem, count);
+            const std::string stem = printable(each.pack.stem().string(), max_name_bytes);
+            std::size_t& count = counts[stem];
+            do {
+                ++count;
+                each.object.name = count == 1 ? stem : fmt::format("{}-{}", stem, count);
+            } while (given.count(each.object.name) != 0);
         }
     }
 }
 
+/// The first object that has no pack, or another's name.
+Result<void> check(const std::vector<WrittenObject>& objects) {
+    std::map<std::string, std::string> names; ///< and where they are
+    for (const WrittenObject& each : objects) {
+        if (each.pack.empty()) {
+            return bad_input("room.no_pack",
+                             "{} is missing; name the object's pack, a file *.fspack from frustumscreen-bake",
+                             each.pack_at);
+        }
+        const std::string& name = each.object.name;
+        if (name.size() > max_name_bytes) {
+            return bad_input("room.long_name", "{} has {} bytes; allowed are at most {}", each.name_at,
+                             name.size(), max_name_bytes);
+        }
+        const auto [first, is_new] = names.emplace(name, each.name_at);
+        if (!name.empty() && !is_new) {
+            return bad_input("room.name_twice", "{} is \"{}\", as at {}; give each object a name of its own",
+                             each.name_at, printable(name, 80), first->second);
+        }
+    }
+    return {};
+}
+
 Result<Room> room_of(std::vector<WrittenObject> objects, const std::string& file) {
+    if (objects.empty()) {
+        return bad_input("room.empty",
+                         "{}: object is missing; write at least one table [[object]] with its pack", file);
+    }
+    TRY_VOID(check(objects));
     name_objects(objects);
     Room room;
     std::map<std::filesystem::path, std::size_t> packs;
-    std::set<std::string> names;
     for (WrittenObject& each : objects) {
-        if (!names.insert(each.object.name).second) {
-            return bad_input("room.name_twice",
-                             "{}: two objects have the name \"{}\"; give each a name of its own", file,
-                             each.object.name);
-        }
         const auto [at, is_new] = packs.emplace(each.pack, room.packs.size());
         if (is_new) {
             room.packs.push_back(each.pack);
@@ -74,10 +106,21 @@ Result<Room> room_of(std::vector<WrittenObject> objects, const std::string& file
         room.objects.push_back(std::move(each.object));
     }
     if (room.packs.size() > max_packs) {
-        return bad_input("room.packs", "{}: its objects name {} different packs; allowed are at most {}",
+        return bad_input("room.packs",
+                         "{}: its objects name {} different packs; allowed are at most {}: let objects share "
+                         "packs",
                          file, room.packs.size(), max_packs);
     }
     return room;
+}
+
+Result<void> check_size(std::uintmax_t bytes, const std::string& file) {
+    if (bytes > max_bytes) {
+        return bad_input("room.too_large",
+                         "{}: is {} bytes; allowed are at most {} bytes and {} objects: write fewer objects",
+                         file, bytes, max_bytes, max_objects);
+    }
+    return {};
 }
 
 } // namespace
@@ -87,14 +130,13 @@ Result<Room> parse_room(std::string_view text, const std::filesystem::path& file
                               .folder = file.parent_path(),
                               .lines = {},
                               .error = std::nullopt};
+    TRY_VOID(check_size(text.size(), state.file));
     std::vector<WrittenObject> objects;
     settings::read_toml(state, text, max_bytes, [&](const toml::table& root) {
         settings::TableReader keys(state, &root, "");
         keys.tables("object", objects, max_objects,
                     [](settings::TableReader& item, WrittenObject& object) { read_object(item, object); },
                     {});
-        keys.require("room.empty", !objects.empty(), "object",
-                     "is missing; a room has at least one table [[object]]");
         keys.finish();
     });
     if (state.error) {
@@ -104,6 +146,10 @@ Result<Room> parse_room(std::string_view text, const std::filesystem::path& file
 }
 
 Result<Room> read_room(const std::filesystem::path& file) {
+    std::error_code failed;
+    if (const std::uintmax_t bytes = std::filesystem::file_size(file, failed); !failed) {
+        TRY_VOID(check_size(bytes, printable(file.string(), 4096)));
+    }
     TRY(const Bytes bytes, read_file(file, max_bytes));
     return parse_room(as_text(bytes), file);
 }

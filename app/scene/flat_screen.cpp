@@ -26,7 +26,9 @@ FlatScreen flat_screen(const std::array<glm::dvec3, 4>& corners_m, int width, in
     screen.surface.corners.assign(face.corners.begin(), face.corners.end());
     screen.surface.middle = middle;
 
-    const double distance = glm::length(across) + glm::length(along); // any would do
+    // Any maps the panel exactly. From nearer than every eye, an object deep in the room does not count as shown by fewer
+    // pixels than the panel has (pixel_density.h), so its samples stay those that were asked for.
+    const double distance = 0.01 * (glm::length(across) + glm::length(along));
     screen.pinhole = {.width = width,
                       .height = height,
                       .fx = width * distance / glm::length(across),

@@ -172,6 +172,11 @@ void check_screen(const Settings& settings, Fitness& fitness) {
         fmt::format("is no rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
                     "is top left, top right, bottom right, bottom left",
                     1e3 * off, 1e3 * max_skew * longer));
+    const glm::dvec3 out = glm::cross(down, across); // of the screen, towards the people before it
+    fitness.require("settings.screen_looks_away", glm::dot(out, settings.eye.default_m - top_left) > 0.0,
+                    "screen.corners_m",
+                    "looks away from eye.default_m, so people there see its back; allowed are top left, top "
+                    "right, bottom right, bottom left, as they see the screen");
     check_stereo(screen_stereo_of(settings), screen.stereo, "screen", {screen.width, screen.height}, fitness);
     fitness.require(
         "settings.screen_same_connector",

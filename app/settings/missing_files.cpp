@@ -29,6 +29,10 @@ std::vector<std::string> missing_files(const Settings& settings) {
         look("exhibit.words", settings.exhibit.words,
              "make it with frustumscreen-bake --words, or leave the line out");
     }
+    if (settings.screen.exists()) {
+        look("screen.room", settings.screen.room,
+             "write it (docs/room.md), or leave the line out: then there is no screen");
+    }
     if (settings.tracker.kind == TrackerKind::Replay) {
         look(settings.tracker.poses_key, settings.tracker.poses,
              "make it with frustumscreen record, or choose another tracker.kind");

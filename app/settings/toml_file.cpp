@@ -57,12 +57,25 @@ std::size_t end_of_text(std::string_view text, std::size_t at) {
     return text.size();
 }
 
-/// The dots of keys and numbers; strings and comments may have any number of dots.
-std::size_t dots_outside_texts(std::string_view text) {
+/// Whether the dot at `at` is a number's and no key's: "1.5" before a comma, a bracket or the line's end. The last dot of
+/// a header, "[1.5]", counts as a number's too.
+bool is_decimal_point(std::string_view text, std::size_t at) {
+    const auto is_digit = [&](std::size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
+    if (at == 0 || !is_digit(at - 1) || !is_digit(at + 1)) {
+        return false;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("0123456789_eE+-", at + 1), text.size());
+    const std::size_t next = text.find_first_not_of(" \t", end);
+    return next == std::string_view::npos ||
+           std::string_view(",]}\r\n#").find(text[next]) != std::string_view::npos;
+}
+
+/// The dots of keys; strings, comments and numbers may have any number of dots.
+std::size_t dots_of_keys(std::string_view text) {
     std::size_t dots = 0;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = end_of_text(text, at);
-        dots += end == at && text[at] == '.' ? 1 : 0;
+        dots += end == at && text[at] == '.' && !is_decimal_point(text, at) ? 1 : 0;
         at = std::max(end, at + 1);
     }
     return dots;
@@ -82,10 +95,9 @@ void read_toml(ReadState& state, std::string_view text, std::uintmax_t max_bytes
                      "is not UTF-8; save the file as UTF-8");
         return;
     }
-    if (const std::size_t dots = dots_outside_texts(text); dots > max_dots) {
-        state.refuse(
-            "toml.too_many_dots", 0,
-            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, max_dots));
+    if (const std::size_t dots = dots_of_keys(text); dots > max_dots) {
+        state.refuse("toml.too_many_dots", 0,
+                     fmt::format("holds {} dots in keys; allowed are at most {}", dots, max_dots));
         return;
     }
     try {
