@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <span>
 #include <utility>
@@ -126,13 +127,21 @@ void RasterPass::find_meeting(const scene::FramePlan& plan) {
     if (nearness_.texels.empty()) {
         return;
     }
+    std::array<PixelRectangle, geometry::max_faces> on_face{}; // all that is rasterized
+    for (const scene::Draw& raster : plan.draws) {
+        if (raster.shader.pass == scene::ShaderKey::Pass::Raster) {
+            PixelRectangle& all = on_face[static_cast<std::size_t>(raster.face)];
+            all = united(all, pixels_of(plan, raster));
+        }
+    }
     for (const scene::Draw& surface : plan.draws) {
         if (surface.shader.pass != scene::ShaderKey::Pass::Surface) {
             continue;
         }
-        PixelRectangle reliefs;
+        PixelRectangle reliefs =
+            surface.shader.dithered ? PixelRectangle{} : on_face[static_cast<std::size_t>(surface.face)];
         for (const scene::Draw& raster : plan.draws) {
-            if (raster.shader.pass == scene::ShaderKey::Pass::Raster &&
+            if (surface.shader.dithered && raster.shader.pass == scene::ShaderKey::Pass::Raster &&
                 may_share_pixels(surface, raster, plan.relief_draws[raster.relief_draw].dither)) {
                 reliefs = united(reliefs, pixels_of(plan, raster));
             }

@@ -27,6 +27,7 @@ struct Shared {
     glm::dvec3 projector_in_prop{0.0};
     geometry::RigidTransform prop_from_table = {};
     geometry::Box box = {}; ///< around all parts, prop frame
+    bool one_part = true;
 
     [[nodiscard]] glm::dvec3 eye(std::size_t face) const {
         const std::size_t which = view.eyes_m.size() == 1 ? 0 : std::min(face, view.eyes_m.size() - 1);
@@ -60,6 +61,7 @@ Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> part
     shared.clip_from_prop = view.projector.clip_from_point() * shared.projector_from_prop;
     shared.projector_in_prop = projector_from_prop.inverse().translation;
     shared.prop_from_table = view.table_from_prop.inverse();
+    shared.one_part = parts.size() == 1;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const geometry::Box box = box_of(parts[k].level);
         shared.box =
@@ -134,9 +136,23 @@ Draw draw_level(const Part& part, const glm::dmat4& clip_from_placed, const glm:
     return draw;
 }
 
+/// The pixels of a relief on a face. One that is alone takes all that shows the box: its own.
+PixelRectangle bounds_of_relief(const relief::RasterView& view, std::size_t face, const FaceView& through,
+                                const Shared& shared) {
+    if (shared.one_part) {
+        return through.bounds;
+    }
+    const auto seen =
+        std::find_if(view.faces.begin(), view.faces.end(), [face](const relief::RasterFace& each) {
+            return each.face == static_cast<int>(face);
+        });
+    return seen != view.faces.end() ? intersected(through.bounds, seen->lit) : PixelRectangle{};
+}
+
 /// The draw of a part on a face; nullopt if the face shows nothing of it.
-std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, const FaceView& through,
+std::optional<Draw> draw_part(const Part& part, std::size_t index, const FaceView& through,
                               const Shared& shared, FramePlan& plan) {
+    const geometry::PropFace& face = shared.prop.faces[index];
     const PlacedLevel& level = part.level;
     const double scale = level.metres_per_box;
     const glm::dmat4 clip_from_placed = through.clip_from_prop * level.prop_from_placed;
@@ -153,9 +169,9 @@ std::optional<Draw> draw_part(const Part& part, const geometry::PropFace& face, 
             draw.shader = raster_shader();
         }
         draw.relief_draw = plan.relief_draw_count - 1;
-        draw.bounds = through.bounds;
+        draw.bounds = bounds_of_relief(plan.relief_draws[draw.relief_draw].view, index, through, shared);
         plan.lit.light(draw.bounds);
-        return draw;
+        return draw.bounds.empty() ? std::nullopt : std::optional(draw);
     }
     draw.shader.cut_out = level.drawable.material.cut_out;
     const glm::dmat4 placed_from_prop = glm::affineInverse(level.prop_from_placed);
@@ -224,7 +240,7 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
                 continue;
             }
             open |= std::uint32_t{1} << face;
-            std::optional<Draw> draw = draw_part(part, shared.prop.faces[face], *through[face], shared, plan);
+            std::optional<Draw> draw = draw_part(part, face, *through[face], shared, plan);
             if (!draw) {
                 continue;
             }

@@ -3,6 +3,7 @@
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/exhibit_place.h"
+#include "app/show/room_show.h"
 
 #include <algorithm>
 #include <iterator>
@@ -106,7 +107,8 @@ Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, c
         set->browser = exhibit::lay_out_catalogue(set->catalogue, exhibit_place(settings));
         expect(*frames, opened.known.front(), opened.first->levels);
     }
-    const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
+    const double share = settings.screen.exists() ? 1.0 - RoomShow::room_share : 1.0;
+    const auto budget = static_cast<std::uint64_t>(share * 1e6 * settings.exhibit.memory_mb);
     const std::uint64_t stays = options.gpu_bytes_that_stay + set->planned_gpu_bytes();
     set->artifact_cache = std::make_unique<residency::ArtifactCache>(
         residency::ArtifactCacheSetUp{.artifacts = std::move(opened.known),

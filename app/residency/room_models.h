@@ -1,0 +1,122 @@
+/// The packs of the room behind the screen in memory: at the start only their manifests, then each way to draw one that the
+/// picture wants, within a budget of memory.
+///
+/// Order    by urgency, as the picture says in each frame. What nothing wants is unloaded first, then what is less urgent than
+///          what needs its memory; never what the picture shows.
+/// Frame    some megabytes are uploaded, one way at a time; nothing is read. Without a thread of its own (offline) everything
+///          that is wanted and fits is read and uploaded at once.
+///
+/// Units    bytes of main and GPU memory.
+/// Threads  the render thread, with the display's context current, including destruction; one thread of its own reads packs.
+/// Errors   a pack that cannot be read is missing; one sentence, once, says why (`faults`).
+#pragma once
+
+#include "app/render/gpu_store.h"
+#include "app/residency/background_reader.h"
+#include "app/residency/known_model.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace frustumscreen::residency {
+
+struct RoomModelsOptions {
+    std::uint64_t max_bytes = 96'000'000;
+    std::uint64_t max_upload_bytes = 4'000'000; ///< in a frame
+    bool waits = true;                          ///< reads at once, without a thread
+};
+
+class RoomModels {
+public:
+    using Options = RoomModelsOptions;
+    static constexpr std::size_t no_way = ~std::size_t{0};
+
+    /// `models`: nothing for a pack that could not be opened. `store` must outlive this.
+    RoomModels(std::vector<std::optional<KnownModel>> models, const Options& options,
+               render::GpuStore& store);
+    RoomModels(const RoomModels&) = delete;
+    RoomModels& operator=(const RoomModels&) = delete;
+
+    /// Null if the pack is missing.
+    [[nodiscard]] const KnownModel* find(std::size_t model) const {
+        return entries_[model].is_missing ? nullptr : &*entries_[model].known;
+    }
+    /// Null unless the way is in memory.
+    [[nodiscard]] const scene::PlacedLevel* find(std::size_t model, std::size_t way) const;
+    /// Nothing if it is unknown yet, too.
+    [[nodiscard]] const std::optional<scene::BoxCorners>& solid(std::size_t model) const {
+        return entries_[model].solid;
+    }
+
+    /// Before the wants of a frame.
+    void begin_frame();
+    /// `urgency`: larger is more urgent, above 0.
+    void want(std::size_t model, std::size_t way, double urgency);
+    void want_solid(std::size_t model, double urgency);
+    /// The picture shows it: it stays in memory.
+    void keep(std::size_t model, std::size_t way);
+    /// After the wants: reads, uploads, unloads.
+    void go_on();
+
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    /// True while something is wanted that is not in memory and can be.
+    [[nodiscard]] bool is_loading() const { return reading_.has_value() || upload_.has_value(); }
+    /// What was read, in order; for tests and reports.
+    [[nodiscard]] std::span<const std::string> loaded() const { return loaded_; }
+    [[nodiscard]] std::span<const std::string> faults() const { return faults_; }
+
+private:
+    using Item = std::variant<ReadWay, std::optional<scene::BoxCorners>>;
+    struct Way {
+        scene::PlacedLevel placed;
+        bool is_there = false;
+        bool is_shown = false;
+        double urgency = 0.0; ///< 0: not wanted
+    };
+    struct Entry {
+        std::optional<KnownModel> known;
+        bool is_missing = false;
+        std::vector<Way> ways;
+        std::optional<scene::BoxCorners> solid;
+        bool is_solid_known = false;
+        double solid_urgency = 0.0;
+    };
+    /// `way` is the number of the ways: the solid.
+    struct Place {
+        std::size_t model = 0, way = 0;
+        [[nodiscard]] bool operator==(const Place&) const = default;
+    };
+    struct Upload {
+        Place place;
+        render::LevelUpload upload;
+        std::shared_ptr<const scene::LevelTriangles> triangles;
+        std::shared_ptr<const relief::BlockRelief> relief;
+    };
+    [[nodiscard]] Result<Item> read(const Place& place) const;
+    [[nodiscard]] std::optional<Place> most_urgent() const;
+    /// Unloads less urgent ways until the bytes fit; false if they cannot.
+    [[nodiscard]] bool make_space(std::uint64_t bytes, double urgency);
+    void unload(const Place& place);
+    void receive(const Place& place, Result<Item> item);
+    void go_on_uploading(std::uint64_t max_bytes);
+    void give_up(const Place& place, const Error& error);
+    [[nodiscard]] std::size_t number_of(const Place& place) const;
+    [[nodiscard]] Place place_of(std::size_t number) const;
+
+    Options options_;
+    render::GpuStore& store_;
+    std::vector<Entry> entries_;
+    std::vector<std::size_t> first_; ///< number of each model's first item
+    std::uint64_t bytes_ = 0;        ///< of what is there, and on its way
+    std::optional<Place> reading_;
+    std::optional<Upload> upload_;
+    std::vector<std::string> loaded_, faults_;
+    std::unique_ptr<BackgroundReader<Item>> reader_; ///< last: its thread uses `entries_`' files
+};
+
+} // namespace frustumscreen::residency
