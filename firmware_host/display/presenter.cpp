@@ -13,19 +13,13 @@ namespace frustumscreen::display {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
-constexpr std::string_view projector_is_elsewhere =
-    "a projector is at another graphics card; the exhibit must be restarted to take it up";
-
-DeviceState asleep() {
-    return {{DeviceHealth::Well, "display.asleep"}, Sentence("the projector is dark on purpose")};
-}
 
 } // namespace
 
 Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request)
     : device_(device), make_scanout_(std::move(make_scanout)),
       request_(std::move(request)), state_{{DeviceHealth::Away, "display.looked_for"},
-                                           Sentence("the projector is being looked for")} {}
+                                           format_sentence("the {} is being looked for", request_.noun())} {}
 
 void Presenter::connected(CardSeen seen) {
     seen_ = std::move(seen);
@@ -33,13 +27,13 @@ void Presenter::connected(CardSeen seen) {
     try_again_.reset();
     unfit_.clear();
     if (seen_.state == CardState::Elsewhere) {
-        lose("display.elsewhere", projector_is_elsewhere);
+        lose("display.elsewhere", is_elsewhere(request_));
     } else if (seen_.state != CardState::There) {
         lose_card();
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = sleep_ != Sleep::None ? asleep() : why_dark(seen_, request_);
+        state_ = sleep_ != Sleep::None ? asleep(request_) : why_dark(seen_, request_);
     }
 }
 
@@ -51,16 +45,9 @@ Result<void> Presenter::check_card() {
     }
     if (seen_.state == CardState::Elsewhere) {
         return fail(ErrorKind::DeviceLost, "display.projector_elsewhere", "display: {}",
-                    projector_is_elsewhere);
+                    is_elsewhere(request_).view());
     }
     return {};
-}
-
-void Presenter::take_flips() {
-    while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
-        take(*flipped);
-    }
-    wait_for_flip();
 }
 
 /// A picture is due, so the projector is lit with it.
@@ -83,7 +70,8 @@ Result<void> Presenter::stay_dark(bool may_set) {
         sleep_ = Sleep::Wanted;
         try_again_.reset();
     }
-    take_flips();
+    take_ready_flips();
+    wait_for_flip();
     const bool may_try = !(try_again_ && device_.now() < *try_again_);
     if (sleep_ == Sleep::Wanted && seen_.state == CardState::There && !queued_ && may_set && may_try) {
         darken();
@@ -106,7 +94,8 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     for (PixelRectangle& stale : stale_) {
         stale = united(stale, changed);
     }
-    take_flips();
+    take_ready_flips();
+    wait_for_flip();
     if (seen_.state == CardState::There && !queued_) {
         if (darken_ && may_set) {
             darken();
@@ -128,66 +117,6 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
         return queued_ ? expected : flipped->time; // an emulated card's flip comes at once
     }
     return expected;
-}
-
-bool Presenter::wait_until_shown() {
-    wait_for_flip();
-    return lit_ && lit_->shown && !queued_;
-}
-
-bool Presenter::read_shown(std::span<std::byte> rgba) const {
-    return lit_ && lit_->shown && scanout_ &&
-           scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
-}
-
-/// Waits only once for each flip: a card that hangs must not delay every frame.
-void Presenter::wait_for_flip() {
-    if (!queued_) {
-        return;
-    }
-    if (!late_) {
-        const MonotonicTime patience_ends = device_.now() + flip_patience;
-        while (queued_ && device_.now() < patience_ends) {
-            if (const std::optional<Flipped> flipped = device_.wait_flip(patience_ends - device_.now())) {
-                take(*flipped);
-            }
-        }
-        late_ = queued_.has_value();
-        if (late_) {
-            state_ = {{DeviceHealth::Impaired, "display.late"},
-                      Sentence("the graphics card does not show the last picture; the exhibit waits for it")};
-        }
-    }
-    if (queued_ && device_.now() - queued_->at >= flip_given_up) {
-        const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("display.no_flip", "the graphics card does not answer; the projector will be lit again");
-        try_again_ = device_.now();
-        stuck_since_ = since;
-    }
-}
-
-void Presenter::take(const Flipped& flipped) {
-    if (!queued_ || flipped.ticket != queued_->ticket) {
-        return; // the flip of a picture that was given up
-    }
-    if (flipped.answer != KmsAnswer::Done) {
-        queued_.reset();
-        late_ = false;
-        flip_failed(flipped.answer);
-        return;
-    }
-    if (device_.flips_keep_time()) {
-        clock_.flipped(flipped.time);
-    }
-    free_ = 1 - queued_->framebuffer;
-    queued_.reset();
-    stuck_since_.reset();
-    shown_before_.reset();
-    const bool first = !std::exchange(lit_->shown, true);
-    lit_->flips = !first;
-    if (std::exchange(late_, false) || first || lit_->in_turn != device_.in_turn()) {
-        say_lit();
-    }
 }
 
 bool Presenter::still_right() const {
@@ -227,7 +156,7 @@ void Presenter::darken() {
         went_wrong(answer);
     } else if (sleep_ != Sleep::None) {
         sleep_ = Sleep::Dark;
-        state_ = asleep();
+        state_ = asleep(request_);
     } else {
         state_ = why_dark(seen_, request_);
     }
@@ -284,7 +213,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         state_ = {{DeviceHealth::Well, "display.first_picture"},
-                  format_sentence("the projector at {} is about to be lit", connector.name)};
+                  format_sentence("the {} at {} is about to be lit", request_.noun(), connector.name)};
         return true;
     }
     if (answer == KmsAnswer::Refused) {
@@ -352,12 +281,14 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Refused:
         lose("display.picture_refused",
-             "the graphics card refused a picture; the projector will be lit again");
+             format_sentence("the graphics card refused a picture; the {} will be lit again",
+                             request_.noun()));
         try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:
         lose("display.held_by_another",
-             "another program holds the screen; the exhibit goes on in the dark until it lets go");
+             format_sentence("another program holds the screen; the exhibit goes on {} until it lets go",
+                             request_.without()));
         master_ = false;
         break;
     case KmsAnswer::Gone:
@@ -367,10 +298,11 @@ void Presenter::went_wrong(KmsAnswer answer) {
 }
 
 void Presenter::lose_card() {
-    lose("display.card_gone", "the graphics card is gone; the exhibit goes on in the dark");
+    lose("display.card_gone",
+         format_sentence("the graphics card is gone; the exhibit goes on {}", request_.without()));
 }
 
-void Presenter::lose(MessageId id, std::string_view why) {
+void Presenter::lose(MessageId id, const Sentence& why) {
     lit_.reset();
     if (queued_) {
         free_ = 1 - queued_->framebuffer; // the card took the flip: only its report is missing
@@ -381,7 +313,7 @@ void Presenter::lose(MessageId id, std::string_view why) {
     clock_ = {};
     stuck_since_.reset();
     try_again_ = device_.now() + between_tries;
-    state_ = {{DeviceHealth::Away, id}, Sentence(why)};
+    state_ = {{DeviceHealth::Away, id}, why};
 }
 
 void Presenter::say_lit() {
@@ -393,6 +325,7 @@ void Presenter::say_lit() {
                        .shortcoming = device_.shortcoming(),
                        .eyes = request_.eyes,
                        .in_turn = lit_->in_turn,
+                       .noun = request_.noun(),
                        .card = device_.card()});
 }
 
