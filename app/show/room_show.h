@@ -40,6 +40,8 @@ public:
     [[nodiscard]] render::DrawResult draw(double seconds, std::span<const glm::dvec3> eyes_m,
                                           const render::RenderTarget& target, render::Redraw redraw);
 
+    /// Factor of all light, 0..1, from the next `draw` on.
+    void set_light(double light) { light_ = light; }
     /// Of the whole picture, both eyes' included.
     [[nodiscard]] PixelSize size() const { return layout_.display; }
     [[nodiscard]] const scene::FlatScreen& screen() const { return screen_; }
@@ -67,6 +69,7 @@ private:
     std::vector<scene::Part> parts_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     double error_mm_ = 0.0;
+    double light_ = 1.0;
 };
 
 } // namespace frustumscreen::show

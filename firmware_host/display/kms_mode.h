@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace frustumscreen::display {
@@ -98,11 +97,6 @@ struct OutputRequest {
     double picture_hz = 60.0; ///< of the screen
     EyeLayout eyes = EyeLayout::One;
     bool fast = false; ///< without a requested mode, one of at least `min_in_turn_hz` goes before all others
-    bool is_screen = false; ///< the output is the screen behind the table, not the projector
-
-    /// For sentences.
-    [[nodiscard]] std::string_view noun() const { return is_screen ? "screen" : "projector"; }
-    [[nodiscard]] std::string_view without() const { return is_screen ? "without it" : "in the dark"; }
 };
 
 /// Whether this connector is lit by force although it reports that nothing is connected.

@@ -53,7 +53,7 @@ EyeClause clause_of(const LitOutput& output) {
             return {.words = fmt::format("; HDMI tells it that the picture is 3D, {}", layout)};
         }
         return {{DeviceHealth::Well, "display.choose_layout"},
-                fmt::format("; choose 3D, {}, in the {}'s own menu", layout, output.noun)};
+                fmt::format("; choose 3D, {}, in the projector's own menu", layout)};
     }
     return {};
 }
@@ -78,20 +78,10 @@ DeviceState state_of(const LitOutput& output) {
     }
     const bool other_mode = !output.as_requested && eyes.condition.health == DeviceHealth::Well;
     return {other_mode ? DeviceCondition{DeviceHealth::Impaired, "display.other_mode"} : eyes.condition,
-            format_sentence("the {} at {} is lit, {} x {} at {:.4g} Hz{}{}{}{}", output.noun,
-                            output.connector, mode.width, mode.height, hz,
+            format_sentence("the projector at {} is lit, {} x {} at {:.4g} Hz{}{}{}{}", output.connector,
+                            mode.width, mode.height, hz,
                             output.as_requested ? "" : ", because it cannot do the mode in the settings",
                             eyes.words, output.shortcoming.empty() ? "" : "; ", output.shortcoming)};
-}
-
-DeviceState asleep(const OutputRequest& request) {
-    return {{DeviceHealth::Well, "display.asleep"},
-            format_sentence("the {} is dark on purpose", request.noun())};
-}
-
-Sentence is_elsewhere(const OutputRequest& request) {
-    return format_sentence("a {} is at another graphics card; the exhibit must be restarted to take it up",
-                           request.noun());
 }
 
 DeviceState why_dark(const CardSeen& card, const OutputRequest& request) {
@@ -103,13 +93,12 @@ DeviceState why_dark(const CardSeen& card, const OutputRequest& request) {
     const auto mute = std::find_if(all.begin(), all.end(), plugged);
     if (choose_connector(card, request) != nullptr) {
         return {{DeviceHealth::Well, "display.soon_lit"},
-                format_sentence("the {} is about to be lit", request.noun())};
+                format_sentence("the projector is about to be lit")};
     }
     if (mute != all.end()) {
-        return dark(
-            "display.no_mode",
-            format_sentence("the {} at {} names no mode; {}", request.noun(), mute->name,
-                            request.is_screen ? "try another cable" : "set display.mode and display.force"));
+        return dark("display.no_mode",
+                    format_sentence("the projector at {} names no mode; set display.mode and display.force",
+                                    mute->name));
     }
     if (!request.connector.empty() && std::none_of(all.begin(), all.end(), named)) {
         std::string names;
@@ -123,7 +112,7 @@ DeviceState why_dark(const CardSeen& card, const OutputRequest& request) {
     return dark(
         "display.no_projector",
         format_sentence(
-            "no {} is connected{}{}, or it is off; the exhibit lights it when it comes{}", request.noun(),
+            "no projector is connected{}{}, or it is off; the exhibit lights it when it comes{}",
             request.connector.empty() ? "" : " to ", request.connector,
             request.force ? "; set display.connector to light a projector that does not report itself" : ""));
 }
@@ -139,10 +128,10 @@ DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& req
                         connector.name, before, reason,
                         kernel_argument(connector.name, request.width, request.height, request.refresh_hz)));
     }
-    return dark(
-        "display.no_mode_taken",
-        format_sentence("the graphics card refuses every mode of the {} at {}{}{}; the exhibit goes on {}",
-                        request.noun(), connector.name, before, reason, request.without()));
+    return dark("display.no_mode_taken",
+                format_sentence("the graphics card refuses every mode of the projector at {}{}{}; the "
+                                "exhibit goes on in the dark",
+                                connector.name, before, reason));
 }
 
 } // namespace frustumscreen::display

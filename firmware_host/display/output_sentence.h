@@ -17,16 +17,10 @@ struct LitOutput {
     bool blindly = false;         ///< the connector reports that nothing is connected
     std::string_view shortcoming; ///< possible fault, from KmsDevice::shortcoming
     EyeLayout eyes = EyeLayout::One;
-    bool in_turn = false;                ///< of EyeLayout::InTurn, both eyes' pictures are shown
-    std::string_view noun = "projector"; ///< as OutputRequest::noun
-    std::string_view card{};             ///< the graphics card's name
+    bool in_turn = false;  ///< of EyeLayout::InTurn, both eyes' pictures are shown
+    std::string_view card; ///< the graphics card's name
 };
 [[nodiscard]] DeviceState state_of(const LitOutput& output);
-
-/// It is dark on purpose.
-[[nodiscard]] DeviceState asleep(const OutputRequest& request);
-/// CardState::Elsewhere.
-[[nodiscard]] Sentence is_elsewhere(const OutputRequest& request);
 
 /// Why nothing is lit, or that it is about to be.
 [[nodiscard]] DeviceState why_dark(const CardSeen& card, const OutputRequest& request);

@@ -13,13 +13,19 @@ namespace frustumscreen::display {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
+constexpr std::string_view projector_is_elsewhere =
+    "a projector is at another graphics card; the exhibit must be restarted to take it up";
+
+DeviceState asleep() {
+    return {{DeviceHealth::Well, "display.asleep"}, Sentence("the projector is dark on purpose")};
+}
 
 } // namespace
 
 Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request)
     : device_(device), make_scanout_(std::move(make_scanout)),
       request_(std::move(request)), state_{{DeviceHealth::Away, "display.looked_for"},
-                                           format_sentence("the {} is being looked for", request_.noun())} {}
+                                           Sentence("the projector is being looked for")} {}
 
 void Presenter::connected(CardSeen seen) {
     seen_ = std::move(seen);
@@ -27,13 +33,13 @@ void Presenter::connected(CardSeen seen) {
     try_again_.reset();
     unfit_.clear();
     if (seen_.state == CardState::Elsewhere) {
-        lose("display.elsewhere", is_elsewhere(request_));
+        lose("display.elsewhere", projector_is_elsewhere);
     } else if (seen_.state != CardState::There) {
         lose_card();
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = sleep_ != Sleep::None ? asleep(request_) : why_dark(seen_, request_);
+        state_ = sleep_ != Sleep::None ? asleep() : why_dark(seen_, request_);
     }
 }
 
@@ -45,7 +51,7 @@ Result<void> Presenter::check_card() {
     }
     if (seen_.state == CardState::Elsewhere) {
         return fail(ErrorKind::DeviceLost, "display.projector_elsewhere", "display: {}",
-                    is_elsewhere(request_).view());
+                    projector_is_elsewhere);
     }
     return {};
 }
@@ -156,7 +162,7 @@ void Presenter::darken() {
         went_wrong(answer);
     } else if (sleep_ != Sleep::None) {
         sleep_ = Sleep::Dark;
-        state_ = asleep(request_);
+        state_ = asleep();
     } else {
         state_ = why_dark(seen_, request_);
     }
@@ -213,7 +219,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
         state_ = {{DeviceHealth::Well, "display.first_picture"},
-                  format_sentence("the {} at {} is about to be lit", request_.noun(), connector.name)};
+                  format_sentence("the projector at {} is about to be lit", connector.name)};
         return true;
     }
     if (answer == KmsAnswer::Refused) {
@@ -281,14 +287,12 @@ void Presenter::went_wrong(KmsAnswer answer) {
         break;
     case KmsAnswer::Refused:
         lose("display.picture_refused",
-             format_sentence("the graphics card refused a picture; the {} will be lit again",
-                             request_.noun()));
+             "the graphics card refused a picture; the projector will be lit again");
         try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:
         lose("display.held_by_another",
-             format_sentence("another program holds the screen; the exhibit goes on {} until it lets go",
-                             request_.without()));
+             "another program holds the screen; the exhibit goes on in the dark until it lets go");
         master_ = false;
         break;
     case KmsAnswer::Gone:
@@ -298,11 +302,10 @@ void Presenter::went_wrong(KmsAnswer answer) {
 }
 
 void Presenter::lose_card() {
-    lose("display.card_gone",
-         format_sentence("the graphics card is gone; the exhibit goes on {}", request_.without()));
+    lose("display.card_gone", "the graphics card is gone; the exhibit goes on in the dark");
 }
 
-void Presenter::lose(MessageId id, const Sentence& why) {
+void Presenter::lose(MessageId id, std::string_view why) {
     lit_.reset();
     if (queued_) {
         free_ = 1 - queued_->framebuffer; // the card took the flip: only its report is missing
@@ -313,7 +316,7 @@ void Presenter::lose(MessageId id, const Sentence& why) {
     clock_ = {};
     stuck_since_.reset();
     try_again_ = device_.now() + between_tries;
-    state_ = {{DeviceHealth::Away, id}, why};
+    state_ = {{DeviceHealth::Away, id}, Sentence(why)};
 }
 
 void Presenter::say_lit() {
@@ -325,7 +328,6 @@ void Presenter::say_lit() {
                        .shortcoming = device_.shortcoming(),
                        .eyes = request_.eyes,
                        .in_turn = lit_->in_turn,
-                       .noun = request_.noun(),
                        .card = device_.card()});
 }
 

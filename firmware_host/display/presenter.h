@@ -113,7 +113,7 @@ private:
     [[nodiscard]] FramebufferId fill();
     /// Acts on any answer other than Done.
     void went_wrong(KmsAnswer answer);
-    void lose(MessageId id, const Sentence& why);
+    void lose(MessageId id, std::string_view why);
     void lose_card();
     void say_lit();
 

@@ -1,5 +1,4 @@
 // Presenter: the flips of pictures that were handed to the card.
-#include "firmware_host/base/format_sentence.h"
 #include "firmware_host/display/presenter.h"
 
 #include <utility>
@@ -50,8 +49,7 @@ void Presenter::note_late() {
 void Presenter::give_up_flip() {
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
         const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("display.no_flip",
-             format_sentence("the graphics card does not answer; the {} will be lit again", request_.noun()));
+        lose("display.no_flip", "the graphics card does not answer; the projector will be lit again");
         try_again_ = device_.now();
         stuck_since_ = since;
     }
