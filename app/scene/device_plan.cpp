@@ -43,6 +43,7 @@ DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool s
     };
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
+    plan.screen = settings.screen.exists();
     plan.head = settings.eye.tracked && plan.tracker != settings::TrackerKind::None;
     plan.tags = settings.camera.tags;
     plan.visitor = settings.camera.visitor;
@@ -74,6 +75,9 @@ DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool s
     }
     if (!settings.eye.tracked) {
         plan.left_out.emplace_back("No head is followed: the viewer is fixed.");
+    }
+    if (!plan.screen) {
+        plan.left_out.emplace_back("No screen is opened and no room is read: the settings have no screen.");
     }
     if (!plan.panel) {
         plan.left_out.emplace_back("No button panel is opened: no button is configured.");

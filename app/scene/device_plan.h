@@ -18,6 +18,7 @@ struct DevicePlan {
     bool tags = false;        ///< a camera follows the prop's tags
     bool visitor = false;     ///< a camera sees who stands at the table
     bool drift = false;       ///< a camera checks that the picture has not drifted since calibration
+    bool screen = false;      ///< there is a screen behind the table
     bool panel = false;       ///< there are buttons
     bool other_packs = false; ///< a button or the table leads to artifacts other than the first
     bool language = false;    ///< a button leads to another language

@@ -375,7 +375,8 @@ render::DrawResult RoomShow::draw(double seconds, std::span<const glm::dvec3> ey
     const scene::PlanView view{.projector = screen_.pinhole,
                                .table_from_projector = screen_.table_from_pinhole,
                                .table_from_prop = {},
-                               .eyes_m = {}};
+                               .eyes_m = {},
+                               .brightness = light_};
     const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
     for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
         scene::plan_frame(screen_.surface, parts_, views[eye], plans_[eye]);

@@ -76,6 +76,8 @@ public:
     /// The latest `draw` took `ms` until its picture was complete: later choices count with a machine that is as slow.
     void record_time(double ms);
 
+    /// Factor of all light, 0..1, from the next `draw` on.
+    void set_light(double light) { light_ = light; }
     /// Of the whole picture, both eyes' included.
     [[nodiscard]] PixelSize size() const { return layout_.display; }
     [[nodiscard]] const scene::FlatScreen& screen() const { return screen_; }
@@ -148,6 +150,7 @@ private:
     double expected_ms_ = 0.0;
     double error_mm_ = 0.0;
     Counts counts_;
+    double light_ = 1.0;
 };
 
 } // namespace frustumscreen::show

@@ -3,6 +3,7 @@
 #include "app/counts/visit_counter.h"
 #include "app/render/probe.h"
 #include "app/show/device_intake.h"
+#include "app/show/screen_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,9 @@ public:
           intake_(settings, inputs), stills_(options.stills, options.length, start, display),
           times_(window_frames), presented_(start), artifact_since_(start) {
         visit_pieces_.reserve(max_visit_pieces);
+        if (options.screen != nullptr) {
+            options.screen->keep_stills(options.stills, options.length);
+        }
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         result_.status.copies = static_cast<bool>(options.copy);
         result_.status.camera_for = camera_uses(inputs);
@@ -86,6 +90,9 @@ public:
             stills_.keep(now, shown_); // a short run leaves its last picture
         }
         result_.stills = std::move(stills_).finish();
+        if (options_.screen != nullptr) {
+            result_.screen_stills = options_.screen->finish_stills(now, shown_);
+        }
         return std::move(result_);
     }
 
@@ -124,6 +131,7 @@ private:
         }
         watch_.look(now, display_, inputs_);
         count(drawn.presented, drawn.changed, now, ms);
+        step_screen(now, tracked_state);
         result_.status.prop_known = tracked_state.prop_known;
         result_.status.head_known = tracked_state.head_known;
         const ShowState state = show_.state();
@@ -149,7 +157,23 @@ private:
         if (!shows_camera_) {
             stills_.take(now, shown_, state.settled);
         }
+        if (options_.screen != nullptr) {
+            options_.screen->take_still(now, shown_, state.settled);
+        }
         return {};
+    }
+
+    /// The screen's turn, after the projector's picture.
+    void step_screen(MonotonicTime now, const tracking::TrackedState& tracked_state) {
+        if (options_.screen != nullptr) {
+            watch_.enters("draws the screen");
+            options_.screen->step({.now = now,
+                                   .tracked_state = tracked_state,
+                                   .light = hours_ != nullptr ? hours_->light() : 1.0,
+                                   .asleep = asleep_,
+                                   .unused = attracts_,
+                                   .redraw = options_.redraw});
+        }
     }
 
     struct Drawn {
@@ -276,6 +300,7 @@ private:
         watch_.asleep(now);
         watch_.look(now, display_, inputs_);
         count(false, false, now, milliseconds_since(begin));
+        step_screen(now, tracked_state);
         result_.status.prop_known = tracked_state.prop_known;
         result_.status.head_known = tracked_state.head_known;
         if (inputs_.panel) {
@@ -348,6 +373,9 @@ private:
         status.health = service::word_of(watch_.health());
         status.display = Sentence(display_.state());
         status.devices.display = status::DeviceReport(display_.condition());
+        if (options_.screen != nullptr) {
+            options_.screen->tell(status);
+        }
         status.mode = options_.mode;
         status.settings = options_.settings;
         status.hour_of_day = local_hour();

@@ -30,6 +30,8 @@ namespace frustumscreen::show {
 /// After this time without an artifact the run ends, so that a restart looks for packs again.
 inline constexpr Nanoseconds longest_fault = std::chrono::minutes(1);
 
+class ScreenOutput;
+
 struct LoopOptions {
     std::optional<Nanoseconds> length; ///< nothing: until stopped
     bool fast = false;
@@ -45,12 +47,14 @@ struct LoopOptions {
     std::function<void()> reset = {}; ///< begins the way back to the state of delivery; none: not available
     std::function<void()> copy = {};  ///< has a copy written to the stick that waits; none: not available
     counts::VisitBook* visits = nullptr; ///< counts visits; none: they are not counted, as in a fast run
+    ScreenOutput* screen = nullptr;      ///< behind the table; none: the settings have none
     RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern
 };
 
 struct LoopResult {
     RunStatus status;
     std::vector<Still> stills;
+    std::vector<Still> screen_stills;
     std::vector<FrameRow> rows;
     double first_resident_mib = 0.0; ///< after the first tenth of the run
 };

@@ -125,6 +125,7 @@ void RunWatch::note(const RunStatus& status) {
         note_state(service::LogPriority::Info, "exhibit", shows.view(), shows);
     }
     note_device("display", status.display, display_);
+    note_device("screen", status.screen, screen_);
     note_device("tracker", status.tracker, tracker_);
     note_device("camera", status.camera, camera_);
     note_device("drift", status.drift, drift_);
@@ -152,9 +153,10 @@ void RunWatch::note(const RunStatus& status) {
     });
     // Most important to a technician first, as a long line is cut.
     const auto comma = [](const Sentence& state) { return state.view().empty() ? "" : "; "; };
-    manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_), tracker_.view(),
-                                    comma(tracker_), panel_.view(), comma(panel_), sound_.view(),
-                                    comma(sound_), shows.view()));
+    manager_.status(format_sentence("{}{}{}{}{}{}{}{}{}{}{}", display_.view(), comma(display_),
+                                    screen_.view(), comma(screen_), tracker_.view(), comma(tracker_),
+                                    panel_.view(), comma(panel_), sound_.view(), comma(sound_),
+                                    shows.view()));
 }
 
 void RunWatch::note_device(std::string_view device, const Sentence& state, Sentence& noted) {

@@ -275,12 +275,14 @@ void condition_fields(auto& fields, const char* device, auto& report) {
 void device_fields(auto& fields, auto& status) {
     fields.object(
         "devices",
-        "`display`, `tracker`, `camera`, `panel` and `sound`, of each `ok`, whether it can be used (`null`: "
+        "`display`, `screen`, `tracker`, `camera`, `panel` and `sound`, of each `ok`, whether it can be used "
+        "(`null`: "
         "the "
         "settings ask for none); `impaired`, it can, and something about it is to be put right; `id`, the "
         "short name of the sentence that it says below",
         [&](auto& devices) {
             condition_fields(devices, "display", status.devices.display);
+            condition_fields(devices, "screen", status.devices.screen);
             condition_fields(devices, "tracker", status.devices.tracker);
             condition_fields(devices, "camera", status.devices.camera);
             condition_fields(devices, "panel", status.devices.panel);
@@ -288,6 +290,31 @@ void device_fields(auto& fields, auto& status) {
         });
     fields.field("display", status.display,
                  "how the projector is, in one sentence; empty: there is nothing to say");
+    fields.field(
+        "screen", status.screen,
+        "how the screen behind the table is, in one sentence; empty: there is none, or nothing to say");
+    fields.object_or_null(
+        "screen_picture", status.screen_picture,
+        "what the screen shows: `health`, as above, of this output alone; `code` and `shown_code`, as of the "
+        "projector's picture; pictures `presented`, and of these `drawn` anew; `held_up`, display times at "
+        "which it had "
+        "not shown the picture before; `frame_ms`, as above. `null`: the settings have no screen",
+        Metric{}, [](auto& inner, auto& picture) {
+            inner.field("health", picture.health);
+            inner.field("code", picture.code);
+            inner.field("shown_code", picture.shown_code);
+            inner.field(
+                "presented", picture.presented, {},
+                Metric{"screen_pictures_total", "Pictures presented to the screen behind the table."});
+            inner.field("drawn", picture.drawn);
+            inner.field("held_up", picture.held_up, {},
+                        Metric{"screen_held_up_total", "Display times at which the screen was not ready."});
+            inner.object("frame_ms", {}, [&](auto& times) {
+                times.field("p50", picture.frame_ms.p50);
+                times.field("p95", picture.frame_ms.p95);
+                times.field("p99", picture.frame_ms.p99);
+            });
+        });
     fields.field("tracker", status.tracker,
                  "how the tracker is, or what moves the prop in its place; empty: the prop stands");
     fields.field("tracker_hangs", status.tracker_hangs,

@@ -95,8 +95,9 @@ std::pair<Complaints, Complaints> complaints_of(const StatusReport& status) {
     std::pair<Complaints, Complaints> found;
     auto& [missing, impaired] = found;
     const DeviceReports& devices = status.devices;
-    const std::array<std::pair<const DeviceReport&, std::string_view>, 5> all{
+    const std::array<std::pair<const DeviceReport&, std::string_view>, 6> all{
         {{devices.display, status.display.view()},
+         {devices.screen, status.screen.view()},
          {devices.tracker, status.tracker.view()},
          {devices.camera, status.camera.view()},
          {devices.panel, status.panel.view()},

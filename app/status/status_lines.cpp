@@ -324,12 +324,24 @@ std::string versions_line(const StatusReport* status, const std::string& system)
                : fmt::format("FrustumScreen {}, {}", project_version(), system);
 }
 
+/// Empty without a screen.
+std::string screen_output_line(const StatusReport& status) {
+    if (!status.screen_picture) {
+        return {};
+    }
+    const ScreenReport& screen = *status.screen_picture;
+    return fmt::format("{}; {} pictures, {} of them anew, 95 of 100 within {:.1f} ms",
+                       or_else(status.screen.view(), "drawn, on no screen"), screen.presented, screen.drawn,
+                       screen.frame_ms.p95.value_or(0.0));
+}
+
 void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double> age_s, std::time_t now) {
     lines.add("on the screen", screen_line(status, age_s, now));
     lines.add("state", state_line(status), false);
     lines.add("picture", picture_line(status));
     lines.add("frame times", frames_line(status));
     lines.add("projector", or_else(status.display.view(), "nothing to say"));
+    lines.add("screen", screen_output_line(status));
     lines.add("tracker", or_else(status.tracker.view(), "there is none"));
     lines.add("places", places_line(status));
     lines.add("camera", camera_line(status));

@@ -80,7 +80,7 @@ struct DeviceReport {
           impaired(condition.health == DeviceHealth::Impaired), id(condition.id.view()) {}
 };
 struct DeviceReports {
-    DeviceReport display, tracker, camera, panel, sound;
+    DeviceReport display, screen, tracker, camera, panel, sound;
 };
 
 /// Visitors as numbers alone (app/counts).
@@ -144,10 +144,23 @@ struct LookCounts {
     std::uint64_t device_errors = 0; ///< samples that were no pose; polls answered with an error
 };
 
+/// The pictures on the screen behind the table.
+struct ScreenReport {
+    std::string health{"well"};             ///< word_of(Health), of this output alone
+    std::optional<std::uint8_t> code;       ///< as PresentedPicture
+    std::optional<std::uint8_t> shown_code; ///< as ShownStatus
+    std::uint64_t presented = 0;
+    std::uint64_t drawn = 0;   ///< pictures that differ from the one before
+    std::uint64_t held_up = 0; ///< frames in which the screen had not shown the picture before
+    FrameQuantiles frame_ms;   ///< of the drawn pictures
+};
+
 /// State of the devices.
 struct DeviceStatus {
     DeviceReports devices;
     Sentence display; ///< state of the device, as those below; empty: nothing to report
+    Sentence screen;
+    std::optional<ScreenReport> screen_picture; ///< nothing: the settings have no screen
     Sentence tracker;
     bool tracker_hangs = false; ///< Tracker::hangs
     tracker::TrackerCounts tracker_counts;

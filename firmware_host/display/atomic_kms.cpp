@@ -1,69 +1,15 @@
 #include "firmware_host/display/atomic_kms.h"
 
+#include "firmware_host/display/kms_commit.h"
 #include "firmware_host/display/kms_handles.h"
 #include "firmware_host/display/kms_route.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <memory>
 #include <vector>
-
-extern "C" {
-#include <drm_fourcc.h>
-}
 
 namespace frustumscreen::display {
 
 namespace {
-
-using PlaneList = std::unique_ptr<drmModePlaneRes, decltype(&drmModeFreePlaneResources)>;
-using Plane = std::unique_ptr<drmModePlane, decltype(&drmModeFreePlane)>;
-
-/// Properties to set in one commit. Properties that an object lacks are skipped; `reset` also skips those
-/// that already have their value.
-class Commit {
-public:
-    explicit Commit(int file) : file_(file), request_(drmModeAtomicAlloc(), drmModeAtomicFree) {}
-
-    void set(const KmsProperties& object, std::string_view name, std::uint64_t value) {
-        if (const KmsProperty* property = object.find(name); property != nullptr && !property->immutable) {
-            set(object.object(), property->id, value);
-        }
-    }
-    void reset(const KmsProperties& object, std::string_view name, std::uint64_t value) {
-        if (object.value(name) != value) {
-            set(object, name, value);
-        }
-    }
-    void set(std::uint32_t object, std::uint32_t property, std::uint64_t value) {
-        if (count_ >= 0) {
-            count_ = drmModeAtomicAddProperty(request_.get(), object, property, value);
-        }
-    }
-    /// Sends only a complete request; libdrm would report success for an empty one.
-    [[nodiscard]] KmsAnswer send(std::uint32_t flags, std::uint64_t ticket) const {
-        if (count_ <= 0) {
-            return answer_to_a_lack(file_);
-        }
-        return kms_answer(drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK,
-                                              bits_given_back(ticket)));
-    }
-
-private:
-    int file_;
-    int count_ = 0; ///< number of properties; negative: one could not be added
-    std::unique_ptr<drmModeAtomicReq, decltype(&drmModeAtomicFree)> request_;
-};
-
-void turn_off_plane(Commit& commit, const KmsProperties& plane) {
-    commit.set(plane, "FB_ID", 0);
-    commit.set(plane, "CRTC_ID", 0);
-}
-
-void turn_off_crtc(Commit& commit, const KmsProperties& crtc) {
-    commit.set(crtc, "ACTIVE", 0);
-    commit.set(crtc, "MODE_ID", 0);
-}
 
 /// A number of pixels in the plane's fixed point.
 std::uint64_t fixed_point(int pixels) {
@@ -71,7 +17,8 @@ std::uint64_t fixed_point(int pixels) {
 }
 
 /// Shows the framebuffer from its first row on the plane, whatever an earlier program has set there.
-void show_on_plane(Commit& commit, const KmsProperties& plane, std::uint32_t crtc, const ScannedOut& shown) {
+void show_on_plane(KmsCommit& commit, const KmsProperties& plane, std::uint32_t crtc,
+                   const ScannedOut& shown) {
     const auto number = [](int pixels) { return static_cast<std::uint64_t>(pixels); };
     commit.set(plane, "FB_ID", shown.framebuffer);
     commit.set(plane, "CRTC_ID", crtc);
@@ -85,36 +32,6 @@ void show_on_plane(Commit& commit, const KmsProperties& plane, std::uint32_t crt
     commit.set(plane, "CRTC_H", number(shown.place.height));
     commit.reset(plane, "rotation", DRM_MODE_ROTATE_0);
     commit.reset(plane, "alpha", 0xFFFF);
-}
-
-std::vector<Plane> planes_of(int file) {
-    std::vector<Plane> planes;
-    const PlaneList list(drmModeGetPlaneResources(file), drmModeFreePlaneResources);
-    for (std::uint32_t k = 0; list && k < list->count_planes; ++k) {
-        if (Plane plane(drmModeGetPlane(file, list->planes[k]), drmModeFreePlane); plane) {
-            planes.push_back(std::move(plane));
-        }
-    }
-    return planes;
-}
-
-bool shows_our_format(const drmModePlane& plane) {
-    const std::uint32_t* first = plane.formats;
-    const std::uint32_t* end = first + plane.count_formats;
-    return std::find(first, end, std::uint32_t{DRM_FORMAT_XRGB8888}) != end;
-}
-
-/// The CRTC's primary plane; 0 = none.
-std::uint32_t primary_plane(int file, const std::vector<Plane>& planes, int crtc_index) {
-    for (const Plane& plane : planes) {
-        const bool fits = ((plane->possible_crtcs >> static_cast<unsigned>(crtc_index)) & 1U) != 0;
-        if (fits && shows_our_format(*plane) &&
-            KmsProperties(file, plane->plane_id, DRM_MODE_OBJECT_PLANE).value("type") ==
-                DRM_PLANE_TYPE_PRIMARY) {
-            return plane->plane_id;
-        }
-    }
-    return 0;
 }
 
 } // namespace
@@ -131,8 +48,11 @@ void AtomicKms::forget_mode() {
 }
 
 std::optional<AtomicKms::Route> AtomicKms::route_to(std::uint32_t connector) const {
-    const std::vector<Plane> planes = planes_of(file_);
+    const std::vector<KmsPlane> planes = planes_of(file_);
     for (const KmsCrtc& crtc : crtcs_for(file_, connector)) {
+        if (card_.has_leased(crtc.id)) {
+            continue;
+        }
         if (const std::uint32_t plane = primary_plane(file_, planes, crtc.index); plane != 0) {
             const KmsProperties properties(file_, plane, DRM_MODE_OBJECT_PLANE);
             const auto number_of = [&properties](std::string_view name) {
@@ -180,11 +100,13 @@ KmsAnswer AtomicKms::light(const Route& route, const ScannedOut& shown, std::uin
     if (!resources) {
         return kms_answer(-errno);
     }
-    Commit commit(file_);
+    KmsCommit commit(file_);
     for (int k = 0; k < resources->count_connectors; ++k) {
         const KmsProperties connector(file_, resources->connectors[k], DRM_MODE_OBJECT_CONNECTOR);
         if (connector.object() != route.connector) {
-            commit.reset(connector, "CRTC_ID", 0);
+            if (!card_.has_leased(connector.object())) {
+                commit.reset(connector, "CRTC_ID", 0);
+            }
             continue;
         }
         commit.set(connector, "CRTC_ID", route.crtc);
@@ -201,16 +123,16 @@ KmsAnswer AtomicKms::light(const Route& route, const ScannedOut& shown, std::uin
             for (const std::string_view colours : {"GAMMA_LUT", "DEGAMMA_LUT", "CTM", "VRR_ENABLED"}) {
                 commit.reset(crtc, colours, 0);
             }
-        } else if (crtc.value("ACTIVE") != 0) {
-            turn_off_crtc(commit, crtc);
+        } else if (crtc.value("ACTIVE") != 0 && !card_.has_leased(crtc.object())) {
+            commit.turn_off_crtc(crtc);
         }
     }
-    for (const Plane& plane : planes_of(file_)) {
+    for (const KmsPlane& plane : planes_of(file_)) {
         const KmsProperties properties(file_, plane->plane_id, DRM_MODE_OBJECT_PLANE);
         if (plane->plane_id == route.plane) {
             show_on_plane(commit, properties, route.crtc, shown);
-        } else if (properties.value("CRTC_ID") != 0) {
-            turn_off_plane(commit, properties);
+        } else if (properties.value("CRTC_ID") != 0 && !card_.has_leased(plane->plane_id)) {
+            commit.turn_off_plane(properties);
         }
     }
     return commit.send(DRM_MODE_ATOMIC_ALLOW_MODESET | DRM_MODE_PAGE_FLIP_EVENT, ticket);
@@ -220,7 +142,7 @@ KmsAnswer AtomicKms::flip(FramebufferId shown, std::uint64_t ticket) {
     if (!route_) {
         return KmsAnswer::Refused;
     }
-    Commit commit(file_);
+    KmsCommit commit(file_);
     commit.set(route_->plane, route_->plane_framebuffer, shown);
     return commit.send(DRM_MODE_PAGE_FLIP_EVENT, ticket);
 }
@@ -229,7 +151,7 @@ KmsAnswer AtomicKms::flip_from(int first_row, FramebufferId shown, std::uint64_t
     if (!route_) {
         return KmsAnswer::Refused;
     }
-    Commit commit(file_);
+    KmsCommit commit(file_);
     commit.set(route_->plane, route_->plane_framebuffer, shown);
     commit.set(route_->plane, route_->plane_row, fixed_point(first_row));
     return commit.send(DRM_MODE_PAGE_FLIP_EVENT, ticket);
@@ -239,9 +161,9 @@ KmsAnswer AtomicKms::darken() {
     if (!route_) {
         return KmsAnswer::Done;
     }
-    Commit commit(file_);
-    turn_off_plane(commit, KmsProperties(file_, route_->plane, DRM_MODE_OBJECT_PLANE));
-    turn_off_crtc(commit, KmsProperties(file_, route_->crtc, DRM_MODE_OBJECT_CRTC));
+    KmsCommit commit(file_);
+    commit.turn_off_plane(KmsProperties(file_, route_->plane, DRM_MODE_OBJECT_PLANE));
+    commit.turn_off_crtc(KmsProperties(file_, route_->crtc, DRM_MODE_OBJECT_CRTC));
     commit.set(KmsProperties(file_, route_->connector, DRM_MODE_OBJECT_CONNECTOR), "CRTC_ID", 0);
     const KmsAnswer answer = commit.send(DRM_MODE_ATOMIC_ALLOW_MODESET, 0);
     if (answer == KmsAnswer::Done) {

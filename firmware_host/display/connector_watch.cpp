@@ -18,9 +18,10 @@ constexpr Nanoseconds longest_glance = std::chrono::milliseconds(500);
 
 } // namespace
 
-ConnectorWatch::ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug)
-    : look_(std::move(look)), hotplug_(std::move(hotplug)), heartbeat_(monotonic_now() + longest_look),
-      thread_([this] { run(); }) {}
+ConnectorWatch::ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug,
+                               std::shared_ptr<CardTurns> turns)
+    : look_(std::move(look)), hotplug_(std::move(hotplug)), turns_(std::move(turns)),
+      heartbeat_(monotonic_now() + longest_look), thread_([this] { run(); }) {}
 
 ConnectorWatch::~ConnectorWatch() {
     stop_ = true;
@@ -39,10 +40,12 @@ void ConnectorWatch::run() {
     bool plugged = true; // the connectors at the start are news
     while (!stop_) {
         const bool thoroughly = plugged || !lit_;
-        heartbeat_.promise(monotonic_now() + (thoroughly ? longest_look : longest_glance));
+        const Nanoseconds longest = thoroughly ? longest_look : longest_glance;
+        const Nanoseconds others = turns_->has_lease ? longest_look : Nanoseconds(0);
+        heartbeat_.promise(monotonic_now() + longest + others);
         CardSeen seen;
         {
-            const std::lock_guard asking(asking_);
+            const std::lock_guard asking(turns_->asking);
             seen = look_(thoroughly);
         }
         if (plugged || seen != last) {
@@ -51,7 +54,7 @@ void ConnectorWatch::run() {
             last = std::move(seen);
         }
         const Nanoseconds pause = lit_ ? between_looks_while_lit : between_looks_in_the_dark;
-        heartbeat_.promise(monotonic_now() + pause + longest_glance);
+        heartbeat_.promise(monotonic_now() + pause + longest_glance + others);
         plugged = hotplug_->wait(pause);
     }
 }

@@ -20,21 +20,31 @@
 
 namespace frustumscreen::display {
 
+/// What two outputs of one card share.
+struct CardTurns {
+    std::mutex asking;                   ///< held while a connector is probed or a mode is set
+    std::atomic<bool> has_lease = false; ///< a probe for one output holds the other's up, also in the kernel
+};
+
 /// As KmsCard::look.
 using LookAtCard = std::function<CardSeen(bool thoroughly)>;
 
 class ConnectorWatch {
 public:
-    ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug);
+    /// `turns`: of the card; while it has a lease, another watch may hold this one's looks up.
+    ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug,
+                   std::shared_ptr<CardTurns> turns = std::make_shared<CardTurns>());
     ~ConnectorWatch();
     ConnectorWatch(const ConnectorWatch&) = delete;
     ConnectorWatch& operator=(const ConnectorWatch&) = delete;
 
     /// The state of the card, if it changed or an event came, and it was not returned yet.
     [[nodiscard]] std::optional<CardSeen> news();
-    /// While the returned lock is held, this class does not ask the card. If the lock does not own its mutex,
-    /// the card is being asked now.
-    [[nodiscard]] std::unique_lock<std::mutex> quiet() { return std::unique_lock(asking_, std::try_to_lock); }
+    /// While the returned lock is held, no watch of this card asks it. If the lock does not own its mutex, the
+    /// card is being asked now.
+    [[nodiscard]] std::unique_lock<std::mutex> quiet() {
+        return std::unique_lock(turns_->asking, std::try_to_lock);
+    }
     /// Time until which the thread has promised a sign of life.
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
     /// Tells the watch whether a projector is lit.
@@ -45,10 +55,10 @@ private:
 
     LookAtCard look_;
     std::unique_ptr<Hotplug> hotplug_;
+    std::shared_ptr<CardTurns> turns_;
     Heartbeat heartbeat_;
     std::atomic<bool> lit_{false};
     std::atomic<bool> stop_{false};
-    std::mutex asking_;
     std::mutex news_mutex_;
     std::optional<CardSeen> news_;
     std::thread thread_; ///< last: it uses all members above

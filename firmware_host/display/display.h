@@ -1,6 +1,7 @@
-/// The display: a GL ES context and the picture that the projector shows.
+/// The display: a GL ES context and the picture that an output shows, the projector or the screen.
 ///
-/// Threads  the render thread only; construction makes the context current on it.
+/// Threads  the render thread only; construction makes the context current on it. With several displays, the context of one
+///          is current at a time.
 #pragma once
 
 #include "firmware_host/base/device_state.h"
@@ -19,6 +20,8 @@ namespace frustumscreen::display {
 class Display {
 public:
     virtual ~Display() = default;
+    /// Makes its context current, for drawing, presenting and destruction. False: the driver refuses.
+    [[nodiscard]] virtual bool make_current() const { return true; }
     [[nodiscard]] virtual int width() const = 0;
     [[nodiscard]] virtual int height() const = 0;
     /// GL name of the framebuffer for the next picture: the colour attachment is a texture, 8-bit sRGB; depth
@@ -31,6 +34,9 @@ public:
     virtual void changed(const PixelRectangle& /*part*/) {}
     /// Shows the drawn picture; returns the time at which it was (or will be) lit.
     [[nodiscard]] virtual Result<MonotonicTime> present(MonotonicTime now) = 0;
+    /// Whether `present` would not wait for the previous picture; never waits itself. Call it in each frame in which
+    /// neither `present` nor `stay_dark` is called.
+    [[nodiscard]] virtual bool takes_picture() { return true; }
     /// Keeps the projector dark on purpose. Call it in every frame in place of `present`, which lights the
     /// projector again.
     [[nodiscard]] virtual Result<void> stay_dark() { return {}; }

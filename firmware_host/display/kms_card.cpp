@@ -3,6 +3,7 @@
 #include "firmware_host/display/atomic_kms.h"
 #include "firmware_host/display/connected_elsewhere.h"
 #include "firmware_host/display/kms_handles.h"
+#include "firmware_host/display/kms_lease.h"
 #include "firmware_host/display/kms_properties.h"
 #include "firmware_host/display/legacy_kms.h"
 
@@ -14,7 +15,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 namespace frustumscreen::display {
 
@@ -53,6 +53,10 @@ std::vector<std::string> card_paths(const std::filesystem::path& folder) {
 }
 
 } // namespace
+
+OwnedFile::~OwnedFile() {
+    ::close(file_);
+}
 
 Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request,
                               const std::string& folder) {
@@ -95,55 +99,59 @@ Result<KmsCard> KmsCard::open_path(const std::string& path, const OutputRequest&
         return fail(ErrorKind::DeviceLost, "display.no_connectors", // a card with connectors may come later
                     "display: the graphics card {} has no connectors; name another one", path);
     }
-    card.atomic_ = drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
-                   drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) == 0;
-    if (request.eyes == EyeLayout::SideBySide || request.eyes == EyeLayout::TopBottom) {
-        static_cast<void>(drmSetClientCap(file, DRM_CLIENT_CAP_STEREO_3D, 1)); // else no such mode is listed
-    }
+    card.set_capabilities(request);
     return card;
 }
 
-KmsCard::~KmsCard() {
-    if (file_ >= 0) {
-        ::close(file_);
+void KmsCard::set_capabilities(const OutputRequest& request) {
+    atomic_ = drmSetClientCap(file(), DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
+              drmSetClientCap(file(), DRM_CLIENT_CAP_ATOMIC, 1) == 0;
+    if (request.eyes == EyeLayout::SideBySide || request.eyes == EyeLayout::TopBottom) {
+        static_cast<void>(
+            drmSetClientCap(file(), DRM_CLIENT_CAP_STEREO_3D, 1)); // else no such mode is listed
     }
 }
 
-KmsCard::KmsCard(KmsCard&& other) noexcept
-    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)), any_(other.any_),
-      atomic_(other.atomic_) {}
+Result<KmsCard> KmsCard::lease(const OutputRequest& request, std::string_view stays) {
+    const std::lock_guard quiet(turns_->asking);
+    leased_.clear();
+    TRY(KmsLease lease, lease_output(*this, request.connector, stays));
+    leased_ = std::move(lease.objects);
+    KmsCard output(lease.file, path_);
+    output.set_capabilities(request);
+    output.whole_ = file_;
+    output.turns_ = turns_;
+    turns_->has_lease = true;
+    return output;
+}
 
-KmsCard& KmsCard::operator=(KmsCard&& other) noexcept {
-    std::swap(file_, other.file_);
-    std::swap(path_, other.path_);
-    std::swap(any_, other.any_);
-    std::swap(atomic_, other.atomic_);
-    return *this;
+bool KmsCard::become_master() const {
+    return take_screen(memory_file());
 }
 
 CardSeen KmsCard::look(bool thoroughly) const {
     CardSeen seen;
-    const KmsResources resources = resources_of(file_);
+    const KmsResources resources = resources_of(file());
     if (!resources) {
         seen.state = state();
         return seen;
     }
     for (int k = 0; k < resources->count_connectors; ++k) {
         const std::uint32_t id = resources->connectors[k];
-        const KmsConnector connector(thoroughly ? drmModeGetConnector(file_, id)
-                                                : drmModeGetConnectorCurrent(file_, id),
+        const bool probes = thoroughly && !has_leased(id); // the lease's own watch probes that one
+        const KmsConnector connector(probes ? drmModeGetConnector(file(), id)
+                                            : drmModeGetConnectorCurrent(file(), id),
                                      drmModeFreeConnector);
         if (!connector || connector->connector_type == DRM_MODE_CONNECTOR_WRITEBACK) {
             continue;
         }
-        const char* kind = drmModeGetConnectorTypeName(connector->connector_type);
         ConnectorSeen one;
         one.id = id;
-        one.name = fmt::format("{}-{}", kind != nullptr ? kind : "Unknown", connector->connector_type_id);
+        one.name = connector_name(*connector);
         one.plugged = plugged(connector->connection);
         one.built_in = is_built_in(connector->connector_type);
         one.link_bad =
-            KmsProperties(file_, id, DRM_MODE_OBJECT_CONNECTOR).value("link-status") == link_is_bad;
+            KmsProperties(file(), id, DRM_MODE_OBJECT_CONNECTOR).value("link-status") == link_is_bad;
         for (int m = 0; m < connector->count_modes; ++m) {
             one.modes.push_back(timing_of(connector->modes[m]));
         }

@@ -1,14 +1,21 @@
 /// An open graphics card: its file, its name, and its connectors.
 ///
+/// Lease    two outputs of one card are two cards to this program: the second has a lease of its connector, with a CRTC
+///          and its planes (kms_lease.h), and so its own file, its own flips and its own modes. What is leased is left
+///          alone by the first. Memory and framebuffers are on the file of the whole card for both: a driver may keep
+///          one table of memory for all files of a card.
 /// Threads  `look` on any one thread while the render thread sets modes; the kernel allows both.
 /// Errors   BadConfiguration: no permission (a person must act, or udev is not done yet). DeviceLost: no
 ///          card, or one without connectors.
 #pragma once
 
 #include "firmware_host/base/result.h"
+#include "firmware_host/display/connector_watch.h"
 #include "firmware_host/display/kms_device.h"
 #include "firmware_host/display/kms_mode.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,19 +23,40 @@
 
 namespace frustumscreen::display {
 
+/// A file that is closed with its last owner.
+class OwnedFile {
+public:
+    explicit OwnedFile(int file) : file_(file) {}
+    ~OwnedFile();
+    OwnedFile(const OwnedFile&) = delete;
+    OwnedFile& operator=(const OwnedFile&) = delete;
+    [[nodiscard]] int get() const { return file_; }
+
+private:
+    int file_;
+};
+
 class KmsCard {
 public:
     /// `name`: a path, or "card1", or empty for the first card of the best `CardRank` in `folder`. Only for a request of
     /// two halves does the kernel list HDMI's 3D modes, where the projector has them.
     [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request,
                                               const std::string& folder = "/dev/dri");
-    ~KmsCard();
-    KmsCard(KmsCard&& other) noexcept;
-    KmsCard& operator=(KmsCard&& other) noexcept;
-    KmsCard(const KmsCard&) = delete;
-    KmsCard& operator=(const KmsCard&) = delete;
+    /// The output of `request` as a card of its own; `stays`: name of the connector that this one keeps. A later lease
+    /// replaces an earlier one, which must be closed. Waits for a probe of the connectors that is under way.
+    [[nodiscard]] Result<KmsCard> lease(const OutputRequest& request, std::string_view stays);
+    /// Whether a lease of this card holds this connector, CRTC or plane.
+    [[nodiscard]] bool has_leased(std::uint32_t object) const {
+        return std::find(leased_.begin(), leased_.end(), object) != leased_.end();
+    }
 
-    [[nodiscard]] int file() const { return file_; }
+    /// For modes and flips.
+    [[nodiscard]] int file() const { return file_->get(); }
+    /// For memory and framebuffers.
+    [[nodiscard]] int memory_file() const { return whole_ ? whole_->get() : file(); }
+    /// As take_screen, of the whole card.
+    [[nodiscard]] bool become_master() const;
+    [[nodiscard]] const std::shared_ptr<CardTurns>& turns() const { return turns_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// False: modes are set by the kernel's legacy calls.
     [[nodiscard]] bool is_atomic() const { return atomic_; }
@@ -38,12 +66,19 @@ public:
 
 private:
     friend class OtherCards;
-    KmsCard(int file, std::string path) : file_(file), path_(std::move(path)) {}
+    KmsCard(int file, std::string path)
+        : file_(std::make_shared<OwnedFile>(file)), turns_(std::make_shared<CardTurns>()),
+          path_(std::move(path)) {}
+    /// Switches on what the kernel offers to a file that asks for it.
+    void set_capabilities(const OutputRequest& request);
     [[nodiscard]] static Result<KmsCard> open_path(const std::string& path, const OutputRequest& request);
     /// The state of a card that does not answer: it, or another one, may be back.
     [[nodiscard]] CardState state() const;
 
-    int file_ = -1;
+    std::shared_ptr<const OwnedFile> whole_; ///< of a lease, the whole card's; null: this is the whole card
+    std::shared_ptr<const OwnedFile> file_;  ///< a lease is closed before its card
+    std::shared_ptr<CardTurns> turns_;
+    std::vector<std::uint32_t> leased_; ///< objects that a lease of this card holds
     std::string path_;
     bool any_ = false; ///< any other card would do
     bool atomic_ = false;

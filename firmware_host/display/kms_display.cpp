@@ -6,9 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace frustumscreen::display {
+
+namespace {
+
+/// Also if one path is a link, as in /dev/dri/by-path.
+bool same_card(const std::string& one, const std::string& other) {
+    std::error_code failed;
+    return one == other || std::filesystem::equivalent(one, other, failed);
+}
+
+} // namespace
 
 std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes) {
     std::unique_ptr<KmsDevice> device = make_kms_device(card);
@@ -28,15 +40,33 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
         }
         return tl::unexpected<Error>(std::move(error));
     }
-    if (!take_screen(card->file())) {
+    return on(std::move(*card), card_name.empty(), request);
+}
+
+Result<std::unique_ptr<KmsDisplay>>
+KmsDisplay::create_beside(KmsDisplay& projector, std::string_view card_name, const OutputRequest& request) {
+    Result<KmsCard> card = KmsCard::open(card_name, request);
+    if (card && !same_card(card->path(), projector.card_.path())) {
+        return on(std::move(*card), card_name.empty(), request);
+    }
+    if (!card) {
+        return tl::unexpected<Error>(card.error());
+    }
+    TRY(KmsCard lease, projector.card_.lease(request, projector.request_.connector));
+    return on(std::move(lease), false, request);
+}
+
+Result<std::unique_ptr<KmsDisplay>> KmsDisplay::on(KmsCard card, bool any_card,
+                                                   const OutputRequest& request) {
+    if (!card.become_master()) {
         return fail(ErrorKind::DeviceLost, "display.screen_held", // it may be free at a later attempt
                     "display: another program holds the screen of {}; end it, or run with --headless",
-                    card->path());
+                    card.path());
     }
     TRY(std::unique_ptr<CardScreen> screen,
-        CardScreen::create(card->file(), {request.picture_width, request.picture_height}, request.eyes));
-    return std::unique_ptr<KmsDisplay>(
-        new KmsDisplay(std::move(*card), card_name.empty(), std::move(screen), request));
+        CardScreen::create(card.memory_file(), {request.picture_width, request.picture_height},
+                           request.eyes));
+    return std::unique_ptr<KmsDisplay>(new KmsDisplay(std::move(card), any_card, std::move(screen), request));
 }
 
 KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen,
@@ -50,7 +80,7 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
           [this](bool thoroughly) {
               return look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, request_, thoroughly);
           },
-          make_udev_hotplug()) {}
+          make_udev_hotplug(), card_.turns()) {}
 
 std::optional<MonotonicTime> KmsDisplay::alive_until() const {
     return std::min(watch_.alive_until(), kms_->alive_until().value_or(MonotonicTime::max()));
@@ -60,6 +90,13 @@ void KmsDisplay::take_news() {
     if (std::optional<CardSeen> seen = watch_.news()) {
         presenter_.connected(std::move(*seen));
     }
+}
+
+bool KmsDisplay::takes_picture() {
+    take_news();
+    const bool takes = presenter_.takes_picture();
+    watch_.set_lit(presenter_.lit());
+    return takes;
 }
 
 /// A projector that sleeps is not probed, because that wakes some.

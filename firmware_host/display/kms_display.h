@@ -34,6 +34,12 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>> create(std::string_view card,
                                                                     const OutputRequest& request);
 
+    /// The screen's output beside the projector's: on its card by a lease, or on another card. `projector` may be closed
+    /// first.
+    [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>>
+    create_beside(KmsDisplay& projector, std::string_view card, const OutputRequest& request);
+
+    [[nodiscard]] bool make_current() const override { return screen_->gpu().context().make_current(); }
     [[nodiscard]] int width() const override { return screen_->picture().width(); }
     [[nodiscard]] int height() const override { return screen_->picture().height(); }
     [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
@@ -41,6 +47,7 @@ public:
     void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
     /// Waits until the picture is drawn, and at most `flip_patience` for the previous flip.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
+    [[nodiscard]] bool takes_picture() override;
     [[nodiscard]] Result<void> stay_dark() override;
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
         return presenter_.next_frame(now, period);
@@ -56,6 +63,8 @@ public:
 
 private:
     void take_news();
+    [[nodiscard]] static Result<std::unique_ptr<KmsDisplay>> on(KmsCard card, bool any_card,
+                                                                const OutputRequest& request);
 
     KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen, const OutputRequest& request);
 

@@ -1,9 +1,16 @@
 #include "firmware_host/display/kms_handles.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cmath>
 
 namespace frustumscreen::display {
+
+std::string connector_name(const drmModeConnector& connector) {
+    const char* kind = drmModeGetConnectorTypeName(connector.connector_type);
+    return fmt::format("{}-{}", kind != nullptr ? kind : "Unknown", connector.connector_type_id);
+}
 
 bool is_hdmi(int card, std::uint32_t connector_id) {
     const KmsConnector connector(drmModeGetConnectorCurrent(card, connector_id), drmModeFreeConnector);

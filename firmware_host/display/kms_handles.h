@@ -4,6 +4,7 @@
 #include "firmware_host/display/kms_device.h"
 
 #include <memory>
+#include <string>
 
 extern "C" {
 #include <xf86drm.h>
@@ -24,6 +25,8 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
 [[nodiscard]] inline void* bits_given_back(std::uint64_t ticket) {
     return reinterpret_cast<void*>(ticket); // NOLINT(performance-no-int-to-ptr)
 }
+/// The kernel's name, such as "HDMI-A-1".
+[[nodiscard]] std::string connector_name(const drmModeConnector& connector);
 [[nodiscard]] bool is_hdmi(int card, std::uint32_t connector);
 /// The answer for the negative error number of a call; 0 = done.
 [[nodiscard]] KmsAnswer kms_answer(int status);

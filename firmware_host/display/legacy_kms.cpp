@@ -27,12 +27,13 @@ bool set_properties(int card, const KmsProperties& connector) {
 
 } // namespace
 
-/// Shows a framebuffer only without scaling, and of a higher one its first rows. The connector's first CRTC is used; all others are turned off
-/// first, because they may hold resources that this mode needs.
+/// Shows a framebuffer only without scaling, and of a higher one its first rows. The connector's first CRTC is used; all others that are not leased are
+/// turned off first, because they may hold resources that this mode needs.
 KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                            std::uint64_t ticket) {
     const PixelSize screen{mode.width, mode.height};
-    const std::vector<KmsCrtc> crtcs = crtcs_for(file_, connector);
+    std::vector<KmsCrtc> crtcs = crtcs_for(file_, connector);
+    std::erase_if(crtcs, [this](const KmsCrtc& crtc) { return card_.has_leased(crtc.id); });
     if (crtcs.empty()) {
         return answer_to_a_lack(file_);
     }
@@ -42,7 +43,7 @@ KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     const std::uint32_t crtc = crtcs.front().id;
     const KmsResources resources = resources_of(file_);
     for (int k = 0; resources && k < resources->count_crtcs; ++k) {
-        if (resources->crtcs[k] != crtc) {
+        if (resources->crtcs[k] != crtc && !card_.has_leased(resources->crtcs[k])) {
             static_cast<void>(turn_off(file_, resources->crtcs[k]));
         }
     }

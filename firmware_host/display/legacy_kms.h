@@ -10,30 +10,29 @@
 #include "firmware_host/display/kms_card.h"
 #include "firmware_host/display/kms_device.h"
 
-#include <string>
-
 namespace frustumscreen::display {
 
 class LegacyKms final : public KmsDevice {
 public:
-    explicit LegacyKms(const KmsCard& card) : file_(card.file()), card_(card.path()), flips_(file_) {}
+    /// `card` must outlive the result.
+    explicit LegacyKms(const KmsCard& card) : card_(card), file_(card.file()), flips_(file_) {}
 
     [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket) override;
     [[nodiscard]] KmsAnswer darken() override;
-    [[nodiscard]] bool become_master() override { return take_screen(file_); }
+    [[nodiscard]] bool become_master() override { return card_.become_master(); }
     [[nodiscard]] std::optional<Flipped> wait_flip(Nanoseconds at_most) override {
         return flips_.wait(at_most);
     }
     [[nodiscard]] bool flips_keep_time() const override { return flips_.keep_time(); }
     [[nodiscard]] std::string_view shortcoming() const override { return shortcoming_; }
-    [[nodiscard]] std::string_view card() const override { return card_; }
+    [[nodiscard]] std::string_view card() const override { return card_.path(); }
     [[nodiscard]] MonotonicTime now() const override { return monotonic_now(); }
 
 private:
+    const KmsCard& card_;
     int file_;
-    std::string card_;
     FlipEvents flips_;
     std::uint32_t crtc_ = 0; ///< feeds the lit output; 0 = nothing is lit
     std::string_view shortcoming_;

@@ -56,13 +56,6 @@ Result<void> Presenter::check_card() {
     return {};
 }
 
-void Presenter::take_flips() {
-    while (const std::optional<Flipped> flipped = device_.wait_flip(Nanoseconds(0))) {
-        take(*flipped);
-    }
-    wait_for_flip();
-}
-
 /// A picture is due, so the projector is lit with it.
 void Presenter::wake() {
     if (sleep_ != Sleep::None) {
@@ -83,7 +76,8 @@ Result<void> Presenter::stay_dark(bool may_set) {
         sleep_ = Sleep::Wanted;
         try_again_.reset();
     }
-    take_flips();
+    take_ready_flips();
+    wait_for_flip();
     const bool may_try = !(try_again_ && device_.now() < *try_again_);
     if (sleep_ == Sleep::Wanted && seen_.state == CardState::There && !queued_ && may_set && may_try) {
         darken();
@@ -106,7 +100,8 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     for (PixelRectangle& stale : stale_) {
         stale = united(stale, changed);
     }
-    take_flips();
+    take_ready_flips();
+    wait_for_flip();
     if (seen_.state == CardState::There && !queued_) {
         if (darken_ && may_set) {
             darken();
@@ -128,66 +123,6 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
         return queued_ ? expected : flipped->time; // an emulated card's flip comes at once
     }
     return expected;
-}
-
-bool Presenter::wait_until_shown() {
-    wait_for_flip();
-    return lit_ && lit_->shown && !queued_;
-}
-
-bool Presenter::read_shown(std::span<std::byte> rgba) const {
-    return lit_ && lit_->shown && scanout_ &&
-           scanout_->read(1 - (queued_ ? queued_->framebuffer : free_), rgba);
-}
-
-/// Waits only once for each flip: a card that hangs must not delay every frame.
-void Presenter::wait_for_flip() {
-    if (!queued_) {
-        return;
-    }
-    if (!late_) {
-        const MonotonicTime patience_ends = device_.now() + flip_patience;
-        while (queued_ && device_.now() < patience_ends) {
-            if (const std::optional<Flipped> flipped = device_.wait_flip(patience_ends - device_.now())) {
-                take(*flipped);
-            }
-        }
-        late_ = queued_.has_value();
-        if (late_) {
-            state_ = {{DeviceHealth::Impaired, "display.late"},
-                      Sentence("the graphics card does not show the last picture; the exhibit waits for it")};
-        }
-    }
-    if (queued_ && device_.now() - queued_->at >= flip_given_up) {
-        const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("display.no_flip", "the graphics card does not answer; the projector will be lit again");
-        try_again_ = device_.now();
-        stuck_since_ = since;
-    }
-}
-
-void Presenter::take(const Flipped& flipped) {
-    if (!queued_ || flipped.ticket != queued_->ticket) {
-        return; // the flip of a picture that was given up
-    }
-    if (flipped.answer != KmsAnswer::Done) {
-        queued_.reset();
-        late_ = false;
-        flip_failed(flipped.answer);
-        return;
-    }
-    if (device_.flips_keep_time()) {
-        clock_.flipped(flipped.time);
-    }
-    free_ = 1 - queued_->framebuffer;
-    queued_.reset();
-    stuck_since_.reset();
-    shown_before_.reset();
-    const bool first = !std::exchange(lit_->shown, true);
-    lit_->flips = !first;
-    if (std::exchange(late_, false) || first || lit_->in_turn != device_.in_turn()) {
-        say_lit();
-    }
 }
 
 bool Presenter::still_right() const {

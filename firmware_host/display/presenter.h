@@ -49,6 +49,9 @@ public:
     /// because no other thread is asking the card.
     [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
 
+    /// Whether `present` would not wait. A flip that does not come is noticed here too, as in `present`.
+    [[nodiscard]] bool takes_picture();
+
     /// Keeps the projector dark; call it in place of `present`. `may_set` and errors as there.
     [[nodiscard]] Result<void> stay_dark(bool may_set);
 
@@ -88,9 +91,11 @@ private:
         return !try_again_ && choose_connector(seen_, request_) != nullptr;
     }
     [[nodiscard]] Result<void> check_card();
-    void take_flips();
+    void take_ready_flips();
     void wake();
     void wait_for_flip();
+    void note_late();
+    void give_up_flip();
     void take(const Flipped& flipped);
     /// Whether the lit output is still the right one.
     [[nodiscard]] bool still_right() const;

@@ -19,6 +19,7 @@ class SurfacelessDisplay final : public Display {
 public:
     [[nodiscard]] static Result<std::unique_ptr<SurfacelessDisplay>> create(int width, int height);
 
+    [[nodiscard]] bool make_current() const override { return context_.make_current(); }
     [[nodiscard]] int width() const override { return picture_.width(); }
     [[nodiscard]] int height() const override { return picture_.height(); }
     [[nodiscard]] unsigned framebuffer() const override { return picture_.name(); }

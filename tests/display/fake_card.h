@@ -23,6 +23,9 @@
 ///                               destroyed: EPERM
 ///          drm_connector.c      drm_mode_expose_to_userspace: HDMI's 3D modes are listed only for a file with
 ///                               DRM_CLIENT_CAP_STEREO_3D
+///          drm_lease.c          a lessee's file finds only the objects of its lease, and counts its CRTCs alone; it is
+///                               master while the lessor is; EBUSY for an object of another lease, EINVAL without
+///                               connector, CRTC or, with universal planes, a plane, and for a lease of a lease
 ///          drm_vblank.c         drm_crtc_get_sequence_ioctl: EOPNOTSUPP without vertical blanks, EINVAL
 ///                               while the CRTC is off
 #pragma once
@@ -58,6 +61,11 @@ struct FakeFile {
     bool was_master = false;
     std::string renderer; ///< of a render node: the GPU's name in OpenGL; empty: the processor draws
     std::set<std::uint32_t> framebuffers, blobs, handles;
+    FakeFile* lessor = nullptr;     ///< of a lease
+    std::set<std::uint32_t> leased; ///< its objects
+    [[nodiscard]] bool holds(std::uint32_t object) const {
+        return lessor == nullptr || leased.contains(object);
+    }
 };
 
 struct FakeProperty {
@@ -190,7 +198,17 @@ public:
     int destroy_buffer(FakeFile& file, std::uint32_t handle);
     [[nodiscard]] const FakeBuffer* buffer(const FakeFile& file, std::uint32_t handle) const;
     int become_master(FakeFile& file);
-    [[nodiscard]] bool is_master(const FakeFile& file) const { return master_ == &file; }
+    [[nodiscard]] bool is_master(const FakeFile& file) const {
+        return master_ == (file.lessor != nullptr ? file.lessor : &file);
+    }
+    /// Whether `lessor` may lease the objects; `held`: those of its other leases.
+    [[nodiscard]] int judge_lease(const FakeFile& lessor, std::span<const std::uint32_t> objects,
+                                  const std::set<std::uint32_t>& held) const;
+    /// The objects with those that the kernel adds.
+    [[nodiscard]] std::set<std::uint32_t> leased_with(const FakeFile& lessor,
+                                                      std::span<const std::uint32_t> objects) const;
+    /// The CRTCs of the mask as the file counts them.
+    [[nodiscard]] std::uint32_t counted(const FakeFile& file, std::uint32_t crtcs) const;
     void probe(FakeConnector& connector);
     void opened(FakeFile& file);
     /// Releases the file's remaining objects and returns their description.

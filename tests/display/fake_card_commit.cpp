@@ -136,10 +136,14 @@ int FakeCard::commit(FakeFile& file, std::span<const FakeChange> changes, std::u
     };
     for (const FakeChange& change : changes) {
         const auto object = next.find(change.object);
-        if (object == next.end() || !object->second.contains(change.property)) {
+        if (object == next.end() || !object->second.contains(change.property) || !file.holds(change.object)) {
             return -ENOENT;
         }
         const FakeProperty& property = properties_.at(change.property);
+        if (property.name == "CRTC_ID" && change.value != 0 &&
+            !file.holds(static_cast<std::uint32_t>(change.value))) {
+            return -EACCES;
+        }
         std::uint64_t& value = object->second.at(change.property);
         if (!takes(property, change.value) || (fixed.contains(property.name) && value != change.value)) {
             return -EINVAL;

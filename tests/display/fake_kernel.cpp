@@ -60,6 +60,7 @@ std::vector<int> FakeKernel::errors_of(std::string_view call) {
         {"drmModeAddFB2", {EINVAL, ENODEV, ENOENT, ENOMEM}},
         {"drmModeCreateDumbBuffer", {EINVAL, ENODEV, ENOMEM, ENOSPC, ENOSYS}},
         {"drmModeGetProperty", {ENOMEM}},
+        {"drmModeCreateLease", {EINVAL, EACCES, EBUSY, ENODEV, ENOENT, ENOMEM, EOPNOTSUPP}},
         {"drmCrtcGetSequence", {EINVAL, ENODEV, EOPNOTSUPP}},
         {"drmGetCap", {EINVAL, ENODEV}},
     };
@@ -110,10 +111,34 @@ int FakeKernel::open_file(FakeCard* card, const FakeGpu* gpu, int flags) {
     return ends[0];
 }
 
+int FakeKernel::lease(FakeFile& lessor, std::span<const std::uint32_t> objects) {
+    std::set<std::uint32_t> held;
+    for (const auto& [number, file] : files_) {
+        if (file.lessor == &lessor) {
+            held.insert(file.leased.begin(), file.leased.end());
+        }
+    }
+    if (const int refused = lessor.card->judge_lease(lessor, objects, held); refused != 0) {
+        return refused;
+    }
+    const int number = open_file(lessor.card, nullptr, O_NONBLOCK);
+    FakeFile& lessee = files_.at(number);
+    lessee.lessor = &lessor;
+    lessee.leased = lessor.card->leased_with(lessor, objects);
+    return number;
+}
+
 void FakeKernel::close_file(int number) {
     const auto found = files_.find(number);
     if (found == files_.end()) {
         return;
+    }
+    for (auto& [other, file] : files_) { // drm_lease_revoke
+        if (file.lessor == &found->second) {
+            file.lessor = nullptr;
+            file.leased.clear();
+            wrongs_ += "closed before its lease; ";
+        }
     }
     if (found->second.card != nullptr) {
         if (const std::string left = found->second.card->closed(found->second); !left.empty()) {

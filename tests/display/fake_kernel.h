@@ -57,6 +57,8 @@ public:
     [[nodiscard]] const std::vector<FakeGpu>& gpus() const { return gpus_; }
     /// True for a card, false for a GPU.
     int open_file(FakeCard* card, const FakeGpu* gpu, int flags);
+    /// A lease's file; a negative error number if it is refused.
+    int lease(FakeFile& lessor, std::span<const std::uint32_t> objects);
     void close_file(int number);
     void hand_out(const void* what, std::string kind, std::shared_ptr<void> memory = nullptr);
     void give_back(const void* what, std::string_view kind);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 
 using namespace frustumscreen;
 using namespace frustumscreen::display;
@@ -68,7 +69,8 @@ struct Call {
 drmModeConnectorPtr connector_of(const Call& call, std::uint32_t id, bool probes) {
     const auto& all = call.card().connectors();
     if (call.error == 0 &&
-        std::none_of(all.begin(), all.end(), [id](const FakeConnector& one) { return one.id == id; })) {
+        (!call.file->holds(id) ||
+         std::none_of(all.begin(), all.end(), [id](const FakeConnector& one) { return one.id == id; }))) {
         errno = ENOENT;
         return nullptr;
     }
@@ -151,9 +153,11 @@ drmModeResPtr drmModeGetResources(int number) {
         return nullptr;
     }
     const auto made = std::make_shared<WithLists<drmModeRes>>();
-    made->first = call.card().crtcs();
+    std::copy_if(call.card().crtcs().begin(), call.card().crtcs().end(), std::back_inserter(made->first),
+                 [&call](std::uint32_t crtc) { return call.file->holds(crtc); });
     for (const FakeConnector& connector : call.card().connectors()) {
-        if (connector.type != DRM_MODE_CONNECTOR_WRITEBACK) { // needs a separate client capability
+        if (connector.type != DRM_MODE_CONNECTOR_WRITEBACK &&
+            call.file->holds(connector.id)) { // needs a separate client capability
             made->second.push_back(connector.id);
         }
     }
@@ -193,8 +197,9 @@ drmModeEncoderPtr drmModeGetEncoder(int number, std::uint32_t id) {
     }
     const auto made = std::make_shared<WithLists<drmModeEncoder>>();
     made->value.encoder_id = id;
-    made->value.possible_crtcs = call.card().encoders().at(id);
-    made->value.crtc_id = call.card().crtc_of(id);
+    made->value.possible_crtcs = call.card().counted(*call.file, call.card().encoders().at(id));
+    const std::uint32_t crtc = call.card().crtc_of(id);
+    made->value.crtc_id = call.file->holds(crtc) ? crtc : 0;
     return hand_out(made, "encoder");
 }
 void drmModeFreeEncoder(drmModeEncoderPtr encoder) {
@@ -208,7 +213,8 @@ drmModePlaneResPtr drmModeGetPlaneResources(int number) {
     }
     const auto made = std::make_shared<WithLists<drmModePlaneRes>>();
     for (const FakePlane& plane : call.card().planes()) {
-        if (call.file->universal_planes || plane.type == DRM_PLANE_TYPE_OVERLAY) {
+        if ((call.file->universal_planes || plane.type == DRM_PLANE_TYPE_OVERLAY) &&
+            call.file->holds(plane.id)) {
             made->first.push_back(plane.id);
         }
     }
@@ -226,7 +232,7 @@ drmModePlanePtr drmModeGetPlane(int number, std::uint32_t id) {
         return nullptr;
     }
     for (const FakePlane& plane : call.card().planes()) {
-        if (plane.id == id) {
+        if (plane.id == id && call.file->holds(id)) {
             const auto made = std::make_shared<WithLists<drmModePlane>>();
             made->first = plane.formats;
             made->value.count_formats = static_cast<std::uint32_t>(made->first.size());
@@ -234,7 +240,7 @@ drmModePlanePtr drmModeGetPlane(int number, std::uint32_t id) {
             made->value.plane_id = id;
             made->value.crtc_id = static_cast<std::uint32_t>(call.card().value(id, "CRTC_ID"));
             made->value.fb_id = static_cast<std::uint32_t>(call.card().value(id, "FB_ID"));
-            made->value.possible_crtcs = plane.possible_crtcs;
+            made->value.possible_crtcs = call.card().counted(*call.file, plane.possible_crtcs);
             return hand_out(made, "plane");
         }
     }
@@ -248,7 +254,8 @@ void drmModeFreePlane(drmModePlanePtr plane) {
 drmModeObjectPropertiesPtr drmModeObjectGetProperties(int number, std::uint32_t object,
                                                       std::uint32_t /*kind*/) {
     const Call call("drmModeObjectGetProperties", number);
-    const auto* values = call.error == 0 ? call.card().values_of(object) : nullptr;
+    const auto* values =
+        call.error == 0 && call.file->holds(object) ? call.card().values_of(object) : nullptr;
     if (values == nullptr) {
         errno = call.error != 0 ? call.error : ENOENT;
         return nullptr;
@@ -359,6 +366,9 @@ int drmModeAtomicCommit(int number, drmModeAtomicReqPtr request, std::uint32_t f
 int drmModeSetCrtc(int number, std::uint32_t crtc, std::uint32_t framebuffer, std::uint32_t /*x*/,
                    std::uint32_t /*y*/, std::uint32_t* connectors, int how_many, drmModeModeInfoPtr mode) {
     const Call call("drmModeSetCrtc", number, true);
+    if (call.error == 0 && !call.file->holds(crtc)) {
+        return failed(ENOENT);
+    }
     return call.error != 0
                ? -call.error
                : Call::answer(call.card().set_crtc(
@@ -367,6 +377,9 @@ int drmModeSetCrtc(int number, std::uint32_t crtc, std::uint32_t framebuffer, st
 int drmModePageFlip(int number, std::uint32_t crtc, std::uint32_t framebuffer, std::uint32_t flags,
                     void* given_back) {
     const Call call("drmModePageFlip", number, true);
+    if (call.error == 0 && !call.file->holds(crtc)) {
+        return failed(ENOENT);
+    }
     return call.error != 0
                ? -call.error
                : Call::answer(call.card().page_flip(*call.file, crtc, framebuffer, flags,
@@ -425,6 +438,17 @@ int drmModeDestroyDumbBuffer(int number, std::uint32_t handle) {
     const Call call("drmModeDestroyDumbBuffer", number);
     const int refused = call.file->card->destroy_buffer(*call.file, handle);
     return call.error != 0 ? -call.error : Call::answer(refused);
+}
+
+int drmModeCreateLease(int number, const std::uint32_t* objects, int count, int /*flags*/,
+                       std::uint32_t* lessee) {
+    const Call call("drmModeCreateLease", number, true);
+    const int made =
+        call.error != 0
+            ? -call.error
+            : FakeKernel::instance().lease(*call.file, std::span(objects, static_cast<std::size_t>(count)));
+    *lessee = made > 0 ? 1 : 0;
+    return made < 0 ? failed(-made) : made;
 }
 
 int drmCrtcGetSequence(int number, std::uint32_t crtc, std::uint64_t* sequence, std::uint64_t* ns) {

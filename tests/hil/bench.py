@@ -196,12 +196,14 @@ class Bench:
 
     # The screen's picture.
 
-    def screendump(self):
-        self.machine.screendump(self._shot, self.looked_at)
+    def screendump(self, head=0):
+        """`head`: an output of the card that is looked at."""
+        self.machine.screendump(self._shot, self.looked_at, head)
         return screen.read_ppm(self._shot)
 
-    def second_viewer(self):
-        return VncViewer(self._sockets / "second")
+    def second_viewer(self, head=0):
+        """A window at an output of the second card."""
+        return VncViewer(self._sockets / ("second" if head == 0 else f"second-{head}"))
 
     def probe(self):
         return screen.probe(self.screendump())

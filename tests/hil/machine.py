@@ -163,8 +163,9 @@ class Machine:
             *self.lines(),
             "-vga", "none",
             "-device", f"bochs-display,id=screen,edid=on,xres={self.width},yres={self.height}",
-            "-device", f"virtio-gpu-pci,id=second,edid=on,xres={self.width},yres={self.height},addr={SECOND_SLOT:#x}",
+            "-device", f"virtio-gpu-pci,id=second,edid=on,xres={self.width},yres={self.height},max_outputs=2,addr={SECOND_SLOT:#x}",
             "-vnc", f"unix:{self.sockets}/second,display=second",
+            "-vnc", f"unix:{self.sockets}/second-1,display=second,head=1",
             "-audiodev", f"wav,id=heard,path={self.heard},out.frequency=48000,out.channels=2",
             "-device", "intel-hda", "-device", "hda-output,audiodev=heard",
             "-device", "qemu-xhci,id=usb,p2=12,p3=12",  # with fewer ports QEMU adds hubs, of the slowest kind
@@ -357,9 +358,9 @@ class Machine:
             if node.endswith("-slow"):
                 self.monitor("object-del", id=f"{name}-pace")
 
-    def screendump(self, path, screen="screen"):
-        """Writes what a screen shows now to a PPM file on the host."""
-        self.monitor("screendump", device=screen, filename=os.fspath(path))
+    def screendump(self, path, screen="screen", head=0):
+        """Writes what a card's output shows now to a PPM file on the host."""
+        self.monitor("screendump", device=screen, head=head, filename=os.fspath(path))
 
     def stop(self):
         if self._process.poll() is None:

@@ -37,6 +37,31 @@ TEST(OutputRequestOfSettings, AsksForTheModeOfTheProjectorAndTheLayoutOfThePictu
     }
 }
 
+TEST(OutputRequestOfSettings, TheScreenHasItsOwnConnectorSizeRateAndLayout) {
+    settings::Settings settings = settings_with(settings::Stereo::SideBySide);
+    settings.screen.room = "room.toml";
+    settings.screen.connector = "DP-1";
+    settings.screen.width = 320;
+    settings.screen.height = 180;
+    settings.screen.refresh_hz = 50.0;
+    settings.screen.stereo = settings::OutputStereo::FrameSequential;
+    const display::OutputRequest request = screen_request(settings);
+    EXPECT_EQ(request.connector, "DP-1");
+    EXPECT_EQ(request.width, 0) << "another mode is scaled";
+    EXPECT_EQ(request.picture_width, 320);
+    EXPECT_EQ(request.picture_height, 180);
+    EXPECT_EQ(request.picture_hz, 100.0);
+    EXPECT_EQ(request.eyes, display::EyeLayout::InTurn);
+    EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::SideBySide);
+    const auto projector = make_display(settings, true);
+    ASSERT_TRUE(projector) << projector.error().message;
+    const auto screen = make_screen(settings, **projector);
+    ASSERT_TRUE(screen) << screen.error().message;
+    EXPECT_EQ((*screen)->width(), 320);
+    EXPECT_EQ((*screen)->height(), 2 * 180) << "both eyes' pictures";
+    EXPECT_TRUE((*projector)->make_current());
+}
+
 TEST(OutputRequestOfSettings, AProjectorsOwnLayoutGoesBeforeThatOfTheEyes) {
     settings::Settings settings = settings_with(settings::Stereo::SideBySide);
     settings.projector.stereo = settings::OutputStereo::TopBottom;

@@ -51,8 +51,8 @@ def device(ok, short_name, impaired=False):
 
 
 def devices(**changes):
-    """As an exhibit with all its devices has it; the settings ask for no camera."""
-    all_well = {"display": device(True, "display.lit"), "tracker": device(True, "tracker.streaming"),
+    """As an exhibit with all its devices has it; the settings ask for no camera and no screen."""
+    all_well = {"display": device(True, "display.lit"), "screen": device(None, ""), "tracker": device(True, "tracker.streaming"),
                 "camera": device(None, ""), "panel": device(True, "panel.well"), "sound": device(True, "sound.well")}
     return all_well | changes
 
@@ -441,6 +441,20 @@ class Prometheus(Status):
         self.assertEqual(self.value(families, "well"), 0)
         self.assertEqual({sample.labels["device"]: sample.value for sample in families["frustumscreen_device_ok"].samples},
                          {"display": 1, "tracker": 0, "panel": 1, "sound": 1})
+
+    def test_the_screen_behind_the_table(self):
+        picture = {"health": "well", "code": 7, "shown_code": 6, "presented": 7000, "drawn": 600, "held_up": 5,
+                   "frame_ms": {"p50": 4.5, "p95": 6.0, "p99": 9.25}}
+        lit = exhibit(devices=devices(screen=device(True, "display.lit")), screen="the screen at DP-1 is lit", screen_picture=picture)
+        self.write("status.json", lit)
+        self.assertIn("the screen at DP-1 is lit; 7000 pictures, 600 of them anew, 95 of 100 within 6.0 ms", self.text(0))
+        families = self.families(0)
+        self.assertEqual(self.value(families, "device_ok", device="screen"), 1)
+        self.assertEqual(self.value(families, "screen_pictures_total"), 7000)
+        away = {"devices": devices(screen=device(False, "display.no_projector")),
+                "screen": "no screen is connected to DP-1, or it is off; the exhibit lights it when it comes"}
+        self.write("status.json", lit | away)
+        self.assertTrue(self.text(1).startswith("The exhibit runs, but: no screen is connected to DP-1, or it is off.\n"))
 
     def test_the_machine_and_its_visitors(self):
         (self.folder / "data").mkdir()

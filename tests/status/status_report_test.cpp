@@ -66,12 +66,20 @@ StatusReport full_report() {
     report.skipped = 6;
     report.device_errors = 9;
     for (DeviceReport* const device :
-         {&report.devices.display, &report.devices.tracker, &report.devices.camera, &report.devices.panel,
-          &report.devices.sound}) {
+         {&report.devices.display, &report.devices.screen, &report.devices.tracker, &report.devices.camera,
+          &report.devices.panel, &report.devices.sound}) {
         *device = DeviceReport({DeviceHealth::Impaired, "device.impaired"});
     }
     report.visits = VisitsReport{34, 40, 7080.5, 8000.25, "the disk is full"};
     report.display = Sentence("lights HDMI-A-1");
+    report.screen = Sentence("lights DP-1");
+    report.screen_picture = ScreenReport{.health = "frozen",
+                                         .code = std::uint8_t{7},
+                                         .shown_code = std::uint8_t{6},
+                                         .presented = 7000,
+                                         .drawn = 600,
+                                         .held_up = 5,
+                                         .frame_ms = {4.5, 6.0, 9.25}};
     report.tracker = Sentence("a VIPER sends");
     report.tracker_hangs = true;
     report.tracker_counts = {2, 5000, 11, 1, 2, 3, 4, 5, 6, 25e-6};

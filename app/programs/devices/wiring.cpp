@@ -2,6 +2,7 @@
 
 #include "app/drift/drift_reference.h"
 #include "app/drift/mark_places.h"
+#include "app/scene/flat_screen.h"
 #include "app/scene/stereo.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
@@ -231,6 +232,34 @@ Result<std::unique_ptr<display::Display>> make_display(const settings::Settings&
         return display::KmsDisplay::create(or_any(settings.display.card), output_request(settings));
     }
     const PixelSize picture = scene::stereo_layout(settings).display;
+    return display::SurfacelessDisplay::create(picture.width, picture.height);
+}
+
+display::OutputRequest screen_request(const settings::Settings& settings) {
+    const settings::ScreenSettings& screen = settings.screen;
+    const settings::Stereo stereo = settings::screen_stereo_of(settings);
+    const bool in_turn = stereo == settings::Stereo::FrameSequential;
+    display::OutputRequest request;
+    request.connector = or_any(screen.connector);
+    request.picture_width = screen.width;
+    request.picture_height = screen.height;
+    request.picture_hz = (in_turn ? 2.0 : 1.0) * screen.refresh_hz; // each eye's pictures
+    request.eyes = eye_layout(stereo);
+    request.fast = in_turn;
+    return request;
+}
+
+Result<std::unique_ptr<display::Display>> make_screen(const settings::Settings& settings,
+                                                      display::Display& projector) {
+    if (auto* const on_card = dynamic_cast<display::KmsDisplay*>(&projector)) {
+        return display::KmsDisplay::create_beside(*on_card, or_any(settings.screen.card),
+                                                  screen_request(settings));
+    }
+    const settings::ScreenSettings& screen = settings.screen;
+    const PixelSize picture =
+        scene::stereo_layout(scene::flat_screen(screen.corners_m, screen.width, screen.height).pinhole,
+                             settings::screen_stereo_of(settings))
+            .display;
     return display::SurfacelessDisplay::create(picture.width, picture.height);
 }
 

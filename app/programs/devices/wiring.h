@@ -25,6 +25,10 @@ namespace frustumscreen::programs {
 [[nodiscard]] Result<std::unique_ptr<display::Display>> make_display(const settings::Settings& settings,
                                                                      bool headless);
 [[nodiscard]] display::OutputRequest output_request(const settings::Settings& settings);
+/// The screen behind the table, beside the projector's display, which `make_display` has made. The settings must have one.
+[[nodiscard]] Result<std::unique_ptr<display::Display>> make_screen(const settings::Settings& settings,
+                                                                    display::Display& projector);
+[[nodiscard]] display::OutputRequest screen_request(const settings::Settings& settings);
 
 /// Creates a new file for the tracker's packets.
 [[nodiscard]] Result<std::unique_ptr<tracker::PacketRecorder>>

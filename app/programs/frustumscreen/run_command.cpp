@@ -14,6 +14,7 @@
 #include "app/settings/settings.h"
 #include "app/show/run_loop.h"
 #include "app/show/run_report.h"
+#include "app/show/screen_output.h"
 #include "app/show/set_arrival.h"
 #include "app/status/known_exhibit.h"
 #include "firmware_host/base/file.h"
@@ -120,7 +121,21 @@ struct OpenExhibit {
     std::unique_ptr<show::SetArrival> arrival; ///< none: no set of packs can end the error screen
     MonotonicTime start;
     show::Inputs inputs;
+    std::unique_ptr<show::ScreenOutput> screen; ///< none: the settings have no screen
 };
+
+/// A screen that cannot be opened is told in the status; the projector does not wait for it. The alignment pattern has no room.
+std::unique_ptr<show::ScreenOutput> open_screen(const RunRequest& request, const settings::Settings& settings,
+                                                display::Display& projector, MonotonicTime start) {
+    if (!settings.screen.exists() || request.pattern) {
+        return nullptr;
+    }
+    return std::make_unique<show::ScreenOutput>(
+        settings,
+        show::ScreenParts{[&settings, &projector] { return make_screen(settings, projector); },
+                          show::room_of(settings)},
+        projector, start);
+}
 
 Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& settings,
                          const service::StopSignals& stop_signals, service::ServiceManager& manager,
@@ -148,6 +163,7 @@ Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& se
     }
     TRY_VOID(show);
     exhibit.show = std::move(*show);
+    exhibit.screen = open_screen(request, settings, *exhibit.display, now());
     std::optional<Nanoseconds> press_every;
     if (request.changes > 0) {
         press_every = nanoseconds(request.seconds / request.changes);
@@ -210,6 +226,7 @@ show::LoopOptions loop_options(const RunRequest& request, const RunMode& mode, c
             ask_for("a copy onto the stick", "stick", file, journal);
         };
     }
+    options.screen = exhibit.screen.get();
     options.mode = watch::word_of(mode.mode);
     options.settings = Sentence(mode.used.instead);
     return options;

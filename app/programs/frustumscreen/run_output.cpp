@@ -32,6 +32,10 @@ Result<void> write_pictures(const std::filesystem::path& folder, const show::Loo
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
         TRY_VOID(write_file(file, image::encode_png(still.picture)));
     }
+    for (std::size_t k = 0; k < result.screen_stills.size(); ++k) {
+        TRY_VOID(write_file(folder / fmt::format("screen_{:05}.png", k),
+                            image::encode_png(result.screen_stills[k].picture)));
+    }
     TRY_VOID(write_file(folder / "poses.csv", as_bytes(tracker::write_poses(poses))));
     return write_file(folder / "frames.csv", as_bytes(show::frames_csv(result.rows)));
 }

@@ -12,9 +12,9 @@ std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequ
     app.add_flag("--headless", request.headless, "run without a screen");
     const CommandOption seconds = app.add_option("--seconds", request.seconds, "stop after this many seconds")
                                       .check(seconds_between(0.01, 1e6));
-    app.add_option(
-           "--out", request.out,
-           "folder for pictures (frame_*.png, poses.csv) and frames.csv of all frames; created if missing")
+    app.add_option("--out", request.out,
+                   "folder for pictures (frame_*.png, screen_*.png, poses.csv) and frames.csv of all frames; "
+                   "created if missing")
         .needs(seconds);
     app.add_option("--stills", request.stills, "number of pictures in --out, spread over the run")
         .within(0, 64)
