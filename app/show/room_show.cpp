@@ -77,20 +77,27 @@ void RoomShow::place_objects(double seconds, const glm::dvec3& eye_m) {
     parts_.clear();
     double sum = 0.0;
     double weights = 0.0;
-    for (const room::Object& object : room_.objects) {
-        const geometry::RigidTransform table_from_object = room::table_from_object(object, seconds);
+    for (std::size_t k = 0; k < room_.objects.size(); ++k) {
+        const room::Object& object = room_.objects[k];
+        const room::TakenPose pose = room::pose_of(k, object, seconds, taken_);
+        if (pose.opacity <= 0.0) {
+            continue;
+        }
         const residency::RoomModel& model = models_[object.pack];
-        const glm::dvec3 middle = table_from_object.point({0.0, 0.0, 0.5 * object.size_m * model.box_size.z});
-        const double radius_m = 0.5 * object.size_m * glm::length(model.box_size);
+        const glm::dvec3 middle =
+            pose.table_from_object.point({0.0, 0.0, 0.5 * pose.size_m * model.box_size.z});
+        const double radius_m = 0.5 * pose.size_m * glm::length(model.box_size);
         const double away_m = std::fmax(glm::distance(middle, eye_m) - radius_m, 1e-3);
-        const residency::ModelWay& way = choose(model, object.size_m, away_m, tolerance_rad);
+        const residency::ModelWay& way = choose(model, pose.size_m, away_m, tolerance_rad);
         scene::PlacedLevel placed = way.placed;
-        placed.metres_per_box = object.size_m;
+        placed.metres_per_box = pose.size_m;
         placed.samples = options_.samples;
-        placed.prop_from_placed = table_from_object.matrix();
-        parts_.push_back({std::move(placed), std::nullopt});
-        const double weight = object.size_m * object.size_m / (away_m * away_m);
-        sum += weight * 1e3 * way.mean_box * object.size_m;
+        placed.prop_from_placed = pose.table_from_object.matrix();
+        parts_.push_back({std::move(placed),
+                          pose.opacity < 1.0 ? std::optional(relief::Dither{static_cast<float>(pose.opacity)})
+                                             : std::nullopt});
+        const double weight = pose.size_m * pose.size_m / (away_m * away_m);
+        sum += weight * 1e3 * way.mean_box * pose.size_m;
         weights += weight;
     }
     error_mm_ = weights > 0.0 ? sum / weights : 0.0;

@@ -10,6 +10,7 @@
 #include "app/render/renderer.h"
 #include "app/residency/room_model.h"
 #include "app/room/room.h"
+#include "app/room/taking.h"
 #include "app/scene/flat_screen.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/stereo.h"
@@ -36,6 +37,8 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<RoomShow>> create(const settings::Settings& settings,
                                                                   const RoomShowOptions& options);
 
+    /// The objects that are not in their places in the next picture (room/taking.h); valid until it is drawn.
+    void set_taken(std::span<const room::TakenPose> taken) { taken_ = taken; }
     /// `seconds`: since the objects began to move. `eyes_m`: one for each eye of the layout.
     [[nodiscard]] render::DrawResult draw(double seconds, std::span<const glm::dvec3> eyes_m,
                                           const render::RenderTarget& target, render::Redraw redraw);
@@ -66,6 +69,7 @@ private:
     std::vector<residency::RoomModel> models_; ///< one for each pack
     std::vector<scene::Part> parts_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
+    std::span<const room::TakenPose> taken_;
     double error_mm_ = 0.0;
 };
 
