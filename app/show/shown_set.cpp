@@ -98,6 +98,11 @@ Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, c
         const std::string& id = known.outline.description.id;
         set->names.push_back(id.empty() ? known.file.string() : id);
     }
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    for (std::size_t k = 0; k < opened.known.size(); ++k) {
+        const pack::PackDescription& description = opened.known[k].outline.description;
+        set->in_prop.push_back({set->names[k], pack::place(description, prop).metres_per_box});
+    }
     set->words = read_words(settings, options, request, *set);
     set->word_pictures = residency::LoadedTexts(std::exchange(set->words.pictures, {}));
     set->table = read_table(settings, options, opened.known);
