@@ -26,7 +26,8 @@ AdviceWords read_words(const settings::Settings& settings, const SetOptions& opt
                                   .languages = {settings.exhibit.language},
                                   .em_m = style.em_m,
                                   .texels_per_m = style.texels_per_m,
-                                  .spoken = settings.sound.kind != settings::SoundKind::None};
+                                  .spoken = settings.sound.kind != settings::SoundKind::None,
+                                  .room = settings.screen.exists()};
         for (const exhibit::CatalogueEntry& artifact : set.catalogue) {
             if (options.devices.language) {
                 wanted.languages.insert(wanted.languages.end(), artifact.languages.begin(),

@@ -7,6 +7,7 @@
 #include "app/show/room_show.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/exhibit/block_words.h"
 #include "tests/render/counted_new.h"
 #include "tests/show/shown_packs.h"
 
@@ -230,6 +231,35 @@ TEST_F(TakenFromRoom, APropHeldBeforeAnObjectTakesThatInstance) {
     ASSERT_EQ(live->taken().size(), 1U);
     EXPECT_EQ(live->taken().front().object, 2U);
     EXPECT_EQ(live->taken().front().opacity, 0.0);
+}
+
+/// The words' file has an invitation of 20 letters, and one of three where there is a room.
+TEST(InvitationToARoom, TakesThePlaceOfTheOtherWhereThereIsARoom) {
+    const TemporaryFolder folder;
+    pack::LanguageWords words = block_words("en", pack::TextDirection::LeftToRight);
+    for (const auto& [from, to] : {std::pair("stick.found", "attract_line"), {"stick.taken", "room_line"}}) {
+        for (std::size_t k = 0; k < words.words.size(); ++k) {
+            if (words.words[k].key == from) {
+                words.words[k].key = words.runs.texts[k].key = to;
+            }
+        }
+    }
+    const auto width_m = [&](bool room) {
+        EXPECT_TRUE(write_file(folder.path() / "own.fswords", *pack::write_words(std::array{words})));
+        const auto read = show::read_advice_words(
+            {.file = folder.path() / "own.fswords", .languages = {"en"}, .room = room});
+        EXPECT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->languages.at(0).texts.size(), 1U);
+        EXPECT_EQ(read->languages[0].texts.at(0).key, "attract_line");
+        return read->languages[0].texts[0].sizes_m[0].x;
+    };
+    EXPECT_LT(width_m(true), 0.4 * width_m(false));
+    words.words[5].key = words.runs.texts[5].key = "advice.other"; // a file of an earlier version
+    EXPECT_EQ(words.words[0].key, "attract_line");
+    const show::AdviceWordsRequest request{
+        .file = folder.path() / "own.fswords", .languages = {"en"}, .room = true};
+    EXPECT_TRUE(write_file(request.file, *pack::write_words(std::array{words})));
+    EXPECT_EQ(show::read_advice_words(request)->languages[0].texts[0].key, "attract_line");
 }
 
 TEST_F(TakenFromRoom, AStepAllocatesNothing) {
