@@ -46,7 +46,7 @@ public:
     [[nodiscard]] double seconds(MonotonicTime now) const { return taking_.seconds(now); }
 
 private:
-    /// Of a pack of the room.
+    /// A pack of the room.
     struct RoomPack {
         std::string id; ///< empty: it has none
         std::filesystem::path file;
