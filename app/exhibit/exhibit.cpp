@@ -34,7 +34,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
     const DrawnPose drawn =
         idle_pose_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
     side_.update(tracked_state.eye_m);
-    state_ = state_after(state_, observe(now, tracked_state, drawn));
+    state_ = state_after(state_, observe(now, tracked_state, drawn, pressed));
     set_change_.step(now, moment_for_set(now));
     if (state_ == State::Attract && selection_.turn_is_due(now) && !leaves_set()) {
         selection_.turn(now);
@@ -94,11 +94,12 @@ void Exhibit::rest(MonotonicTime now) {
 }
 
 Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                          const DrawnPose& drawn) {
+                          const DrawnPose& drawn, bool pressed) {
     Observed seen;
     seen.nothing_to_show = !catalogue_.offers_something();
     seen.tracker_lost = idle_pose_->lost();
     step_table(now, tracked_state, drawn, seen);
+    step_objects(now, tracked_state, pressed, seen);
     step_guide(now, tracked_state, drawn);
     seen.narration_sequencer = tells();
     seen.advice_due = guide_.guidance() != nullptr;
@@ -134,6 +135,25 @@ void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracke
     }
     caption_.set_obstacles(table_->obstacles());
     advice_.set_obstacles(table_->obstacles());
+}
+
+/// Pictures on the table come first: a prop that is on one rests before no object.
+void Exhibit::step_objects(MonotonicTime now, const tracking::TrackedState& tracked_state, bool pressed,
+                           Observed& seen) {
+    const bool free = tracked_state.prop_known && state_ != State::Attract && state_ != State::Staff &&
+                      !leaves_set() && !(table_ && table_->prop_is_on_picture());
+    const std::optional<RoomObject> chosen =
+        object_dwell_.step(now, {.object = free ? room_object_ : std::nullopt,
+                                 .prop_m = tracked_state.table_from_prop.point(place_.prop.middle),
+                                 .in_prop = selection_.artifact(),
+                                 .choose = presses_.choose(),
+                                 .other_press = pressed && !presses_.choose()});
+    seen.prop_rests = seen.prop_rests || object_dwell_.settled().has_value();
+    if (chosen) {
+        seen.artifact_chosen = true;
+        selection_.choose(chosen->artifact, now);
+        presses_.end_choose();
+    }
 }
 
 /// A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.

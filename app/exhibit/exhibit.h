@@ -12,6 +12,8 @@
 ///          Presses take effect at once, as a visitor's must. Presses that turn out to begin the staff's chord are
 ///          undone, so the staff picture leaves no trace. The staff may ask there for the table's calibration; the
 ///          program that runs the exhibit starts it, or does not.
+/// Room     with a screen behind the table, an object that the prop rests before is chosen as a picture on the table is
+///          (object_dwell.h). The caller says which object that is (note_object).
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -27,6 +29,7 @@
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/idle_pose.h"
 #include "app/exhibit/narrator.h"
+#include "app/exhibit/object_dwell.h"
 #include "app/exhibit/placeholder.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/presentation.h"
@@ -71,6 +74,8 @@ public:
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
         catalogue_.note_triangles(artifact, std::move(triangles));
     }
+    /// Sets the object of the room that the prop is before, as the eye sees it, for the next step; none: before none.
+    void note_object(const std::optional<RoomObject>& object) { room_object_ = object; }
     /// `speaking`: something is being spoken, so no spoken advice begins. `narration`: of the description being told.
     void hear(bool speaking, const SpeechProgress& narration = {});
     /// Announces another set of artifacts; `ready`: it can be shown. When it does not disturb the visitor, everything
@@ -112,7 +117,9 @@ private:
     /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
     [[nodiscard]] Observed observe(MonotonicTime now, const tracking::TrackedState& tracked_state,
-                                   const DrawnPose& drawn);
+                                   const DrawnPose& drawn, bool pressed);
+    void step_objects(MonotonicTime now, const tracking::TrackedState& tracked_state, bool pressed,
+                      Observed& seen);
     void step_table(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
                     Observed& seen);
     void step_guide(MonotonicTime now, const tracking::TrackedState& tracked_state, const DrawnPose& drawn);
@@ -187,6 +194,8 @@ private:
     // The presentation.
     Placeholder placeholder_;
     std::optional<TableBrowser> table_;
+    std::optional<RoomObject> room_object_; ///< that the prop is before, in the next step
+    ObjectDwell object_dwell_;
     ArtifactCaption caption_;
     HotspotLabels labels_;
     Narrator narrator_;

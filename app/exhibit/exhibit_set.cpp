@@ -36,6 +36,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
     presentation.set_share = share;
     presentation.settled = false;
     presentation.brightness *= share;
+    presentation.artifact_light *= share;
     const auto dim = [share](auto& part) {
         if (part && share > 0.0) {
             part->brightness *= share;
@@ -64,6 +65,7 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     presses_ = {};
     placeholder_ = Placeholder();
     table_ = std::move(table);
+    object_dwell_ = {};
     caption_ = ArtifactCaption(place_.picture_m);
     labels_ = HotspotLabels(place_.picture_m);
     narrator_ = Narrator();

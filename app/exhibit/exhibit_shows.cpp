@@ -15,6 +15,8 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     presentation.artifact = shown.artifact;
     const Placeholder::Output comes = placeholder(now, shown, drawn);
     presentation.brightness = comes.brightness * drawn.brightness;
+    presentation.artifact_light = comes.brightness;
+    presentation.before = object_dwell_.settled();
     presentation.placeholder = comes.picture;
     presentation.wanted = wanted();
     presentation.wanted_language = selection_.language();
@@ -258,10 +260,10 @@ std::uint32_t Exhibit::lamps() const {
     }
     const Tellable* const told =
         catalogue_.tellable(catalogue_.description(selection_.artifact(), selection_.language()));
-    const bool rests_on_picture = table_ && table_->presented().ring;
+    const bool rests = object_dwell_.settled() || (table_ && table_->presented().ring);
     const bool helps = guide_.guidance() != nullptr || (told != nullptr && !told->portions.empty());
     const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
-    lamps |= tells || rests_on_picture ? 1U << settings::button_of(settings::Command::Choose) : 0U;
+    lamps |= tells || rests ? 1U << settings::button_of(settings::Command::Choose) : 0U;
     const CatalogueEntry* const entry = catalogue_.captioned(selection_.artifact());
     const bool behaves = entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0);
     lamps |= behaves ? 1U << settings::button_of(settings::Command::Behaviour) : 0U;

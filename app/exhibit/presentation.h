@@ -10,6 +10,7 @@
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/narration_sequencer.h"
 #include "app/exhibit/notice_place.h"
+#include "app/exhibit/object_dwell.h"
 #include "app/exhibit/placeholder.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/staff_tool.h"
@@ -52,9 +53,10 @@ private:
 
 struct Presentation {
     State state = State::Attract;
-    std::size_t artifact = 0; ///< index into the catalogue
-    double brightness = 0.0;  ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
-    WantedArtifacts wanted;   ///< to load ahead
+    std::size_t artifact = 0;    ///< index into the catalogue
+    double brightness = 0.0;     ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
+    double artifact_light = 0.0; ///< as `brightness`, before it fades with an unknown pose
+    WantedArtifacts wanted;      ///< to load ahead
     std::optional<PresentedPlaceholder> placeholder; ///< in place of the chosen artifact until that is ready
     std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
@@ -71,6 +73,7 @@ struct Presentation {
     std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
     BehaviourEvents behaviours;               ///< that begin or end in this step
     std::optional<PresentedTitle> title;      ///< what the button for behaviours does now
+    std::optional<RoomObject> before;         ///< the object of the room that the prop has settled before
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit
     double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light

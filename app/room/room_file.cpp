@@ -43,6 +43,7 @@ void read_object(settings::TableReader& keys, WrittenObject& written) {
     keys.vector("place_m", object.place_m, in_the_room);
     keys.number("turn_deg", object.turn_deg, {-360.0, 360.0, "degrees"});
     keys.number("size_m", object.size_m, {0.001, 100.0, "metres"});
+    keys.text("artifact", object.artifact);
     read_motion(keys, object.motion);
 }
 

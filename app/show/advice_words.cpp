@@ -20,7 +20,8 @@ namespace {
 constexpr std::string_view advice_prefix = "advice.";
 /// Keys of the other texts that the exhibit shows.
 constexpr std::string_view attract_key = "attract_line";
-constexpr std::array<std::string_view, 2> other_keys{attract_key, "fault.no_artifact"};
+constexpr std::string_view room_key = "room_line"; ///< in place of the invitation, where there is a room
+constexpr std::string_view fault_key = "fault.no_artifact";
 /// Widths that a sentence is wrapped to, in type sizes and in falling preference: all widths that the words are set
 /// for.
 constexpr std::array<double, 3> widths_em{36.0, 18.0, 9.0};
@@ -35,22 +36,24 @@ std::set<std::string> nearest(const std::vector<pack::WordsLanguage>& listed,
     return chosen;
 }
 
-/// The exhibit's key of a word; nothing: the exhibit does not use it.
-std::optional<std::string> key_of(const pack::PlainWord& word) {
+/// The exhibit's key of a word; nothing: the exhibit does not use it. `invitation`: the file's key of the invitation.
+std::optional<std::string> key_of(const pack::PlainWord& word, std::string_view invitation) {
+    if (word.key == invitation) {
+        return std::string(attract_key);
+    }
     if (word.key.starts_with(advice_prefix)) {
         return word.key.substr(advice_prefix.size());
     }
-    return std::find(other_keys.begin(), other_keys.end(), word.key) != other_keys.end()
-               ? std::optional(word.key)
-               : std::nullopt;
+    return word.key == fault_key ? std::optional(word.key) : std::nullopt;
 }
 
 void add_language(const pack::LanguageWords& words, const AdviceWordsRequest& request, AdviceWords& all) {
     exhibit::AdviceLanguage language{words.language, {}};
     std::vector<AdviceWord> made;
+    const bool room = request.room && words.runs.find(room_key) != nullptr; // older files have none
     for (const pack::PlainWord& word : words.words) {
         const pack::GlyphText* const set = words.runs.find(word.key);
-        const std::optional<std::string> key = key_of(word);
+        const std::optional<std::string> key = key_of(word, room ? room_key : attract_key);
         if (!key || set == nullptr) {
             continue;
         }

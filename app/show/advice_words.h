@@ -36,6 +36,7 @@ struct AdviceWordsRequest {
     double em_m = 0.010;
     double texels_per_m = 2400.0;
     bool spoken = false;
+    bool room = false; ///< a screen behind the table shows a room: it has an invitation of its own
 };
 
 [[nodiscard]] Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request);

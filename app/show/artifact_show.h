@@ -90,6 +90,7 @@ public:
     [[nodiscard]] std::span<const exhibit::ArtifactState> artifacts() const override {
         return set_->artifact_cache->states();
     }
+    [[nodiscard]] std::span<const ArtifactInProp> in_prop() const override { return set_->in_prop; }
     [[nodiscard]] exhibit::ArtifactTriangles triangles(std::size_t artifact) const override {
         return set_->artifact_cache->triangles(artifact);
     }

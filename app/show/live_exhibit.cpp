@@ -75,18 +75,32 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
     set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
 }
 
+void LiveExhibit::set_room(std::unique_ptr<RoomTaking> room) {
+    room_ = std::move(room);
+    room_->set_artifacts(presentation_show_->in_prop());
+}
+
 void LiveExhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
                        const tracking::TrackedState& on_table) {
     const bool asleep = light_ <= 0.0;
     if (set_switch_ && !asleep && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // the previous presentation belongs to the old set
         speaker_.forget();
+        if (room_) {
+            room_->set_artifacts(presentation_show_->in_prop());
+        }
+    }
+    if (room_) {
+        exhibit_.note_object(room_->before(now, on_table));
     }
     exhibit_.note(presentation_show_->artifacts());
     exhibit_.note_triangles(presentation_.artifact, presentation_show_->triangles(presentation_.artifact));
     exhibit_.offer_reset(reset_.at(now));
     exhibit_.offer_copy(copy_.is_offered());
     presentation_ = exhibit_.step(now, left_by_notice(now, commands), on_table);
+    if (room_) {
+        room_->step(now, exhibit_.chosen(), presentation_);
+    }
     if (set_switch_ && !asleep) { // a set that was not visible is neither good nor bad
         set_switch_->report(now, presentation_.state);
     }

@@ -12,6 +12,7 @@
 #include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "app/show/notice_show.h"
+#include "app/show/room_taking.h"
 #include "app/show/set_switch.h"
 #include "app/show/show.h"
 #include "app/show/speaker.h"
@@ -36,6 +37,13 @@ public:
 
     /// Accepts other sets from here on; `artifacts` is the PresentationShow.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
+
+    /// From here on artifacts are taken out of the room behind the screen, and put back.
+    void set_room(std::unique_ptr<RoomTaking> room);
+    /// The room's objects that are not in their places, as of the latest step; for RoomShow::draw of the same time.
+    [[nodiscard]] std::span<const room::TakenPose> taken() const {
+        return room_ ? room_->poses() : std::span<const room::TakenPose>();
+    }
 
     void step(MonotonicTime now, std::span<const settings::Command> commands,
               const tracking::TrackedState& on_table) override;
@@ -72,6 +80,7 @@ private:
     std::unique_ptr<PresentationShow> presentation_show_;
     std::string driver_;
     std::unique_ptr<SetSwitch> set_switch_; ///< none: the set never changes
+    std::unique_ptr<RoomTaking> room_;      ///< none: no screen behind the table
     exhibit::Exhibit exhibit_;
     exhibit::Presentation presentation_; ///< of the latest step
     Speaker speaker_;

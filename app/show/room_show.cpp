@@ -17,7 +17,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 /// A plan of one eye's picture has room for the triangles of all parts, but for no more than this.
-constexpr std::size_t most_indices = 24'000'000;
+constexpr std::size_t max_plan_indices = 24'000'000;
 constexpr double us_per_part = 4.0;
 /// The first way of an object comes before a better one of another.
 constexpr double first_urgency = 1e6, solid_urgency = 1e3, unseen_urgency = 0.1;
@@ -86,7 +86,7 @@ void RoomShow::reserve(std::span<const std::optional<residency::KnownModel>> mod
             most = std::max(most, known.relief ? 0 : 3 * static_cast<std::size_t>(known.work));
         }
         ways += ways_of(models, object.pack);
-        max_indices_ = std::min(max_indices_ + most, most_indices);
+        max_indices_ = std::min(max_indices_ + most, max_plan_indices);
     }
     const std::size_t parts = room_.objects.size() + max_fades;
     seen_.reserve(room_.objects.size());
@@ -147,7 +147,8 @@ double RoomShow::pixels_of(std::uint32_t object) const {
 }
 
 double RoomShow::error_px(const residency::KnownWay& way, std::uint32_t object) const {
-    return way.mean_box * room_.objects[object].size_m / (view_.objects()[object].away_m * px_rad_);
+    const PlacedObject& placed = view_.objects()[object];
+    return way.mean_box * placed.size_m / (placed.away_m * px_rad_);
 }
 
 double RoomShow::cost_us(const residency::KnownWay& way, std::uint32_t object) const {
@@ -181,7 +182,7 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
     const double before_m = screen_.surface.faces.front().plane.distance(eyes_m.front());
     px_rad_ = pixel_m / std::max(before_m, pixel_m);
     view_.look(
-        seconds, eyes_m,
+        seconds, eyes_m, taken_,
         [this](std::uint32_t object) -> const std::optional<scene::BoxCorners>* {
             const std::size_t pack = room_.objects[object].pack;
             // What is missing, or comes just now, hides nothing.
@@ -315,7 +316,7 @@ void RoomShow::change(std::uint32_t object, double seconds) {
 void RoomShow::add_part(std::uint32_t object, std::uint32_t way, const std::optional<scene::Dither>& dither) {
     scene::Part& part = parts_.emplace_back();
     part.level = *models_->find(room_.objects[object].pack, way);
-    part.level.metres_per_box = room_.objects[object].size_m;
+    part.level.metres_per_box = view_.objects()[object].size_m;
     part.level.samples = options_.samples;
     part.level.prop_from_placed = view_.objects()[object].table_from_object;
     part.dither = dither;
@@ -340,7 +341,13 @@ void RoomShow::add_parts(double seconds) {
         change(each.object, seconds);
         counts_.fading += shown.coming != none ? 1 : 0;
         counts_.fading -= faded ? 1 : 0;
-        if (shown.coming != none) {
+        const double opacity = view_.objects()[each.object].opacity;
+        if (opacity < 1.0) { // one that is taken does not fade between two ways as well
+            const std::uint32_t way = shown.coming != none ? shown.coming : shown.way;
+            if (way != none) {
+                add_part(each.object, way, scene::Dither{static_cast<float>(opacity), false});
+            }
+        } else if (shown.coming != none) {
             const auto share =
                 static_cast<float>(geometry::ramp(seconds - shown.fade_start_s, residency::level_fade_s));
             if (shown.way != none) {
@@ -354,7 +361,7 @@ void RoomShow::add_parts(double seconds) {
         if (way != none) {
             const std::size_t pack = room_.objects[each.object].pack;
             sum += each.pixels * 1e3 * models_->find(pack)->ways[way].mean_box *
-                   room_.objects[each.object].size_m;
+                   view_.objects()[each.object].size_m;
             weights += each.pixels;
             ++counts_.drawn;
         }

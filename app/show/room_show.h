@@ -21,6 +21,7 @@
 #include "app/render/renderer.h"
 #include "app/residency/room_models.h"
 #include "app/room/room.h"
+#include "app/room/taking.h"
 #include "app/scene/flat_screen.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
@@ -70,6 +71,8 @@ public:
 
     /// For the next pictures, microseconds; infinite at first.
     void set_budget(double budget_us) { budget_us_ = budget_us; }
+    /// The objects that are not in their places in the next picture (room/taking.h); valid until it is drawn.
+    void set_taken(std::span<const room::TakenPose> taken) { taken_ = taken; }
     /// `seconds`: since the objects began to move. `eyes_m`: one for each eye of the layout.
     [[nodiscard]] render::DrawResult draw(double seconds, std::span<const glm::dvec3> eyes_m,
                                           const render::RenderTarget& target, render::Redraw redraw);
@@ -148,6 +151,7 @@ private:
     double budget_us_ = std::numeric_limits<double>::infinity();
     double log_load_ = 0.0;
     double expected_ms_ = 0.0;
+    std::span<const room::TakenPose> taken_;
     double error_mm_ = 0.0;
     Counts counts_;
     double light_ = 1.0;

@@ -28,19 +28,21 @@ RoomView::RoomView(const room::Room& room, const scene::FlatScreen& screen,
     solids_.reserve(objects_.size());
 }
 
-void RoomView::place(std::size_t object, double seconds) {
+void RoomView::place(std::size_t object, double seconds, std::span<const room::TakenPose> taken) {
     const room::Object& from = room_.objects[object];
     const glm::dvec3& box = box_sizes_[from.pack];
     PlacedObject& placed = objects_[object];
-    const geometry::RigidTransform table_from_object = room::table_from_object(from, seconds);
-    placed.table_from_object = table_from_object.matrix();
-    placed.middle_m = table_from_object.point({0.0, 0.0, 0.5 * from.size_m * box.z});
-    placed.radius_m = 0.5 * from.size_m * glm::length(box);
-    placed.silhouette_m2 = 0.5 * from.size_m * from.size_m * (box.x * box.y + box.y * box.z + box.z * box.x);
+    const room::TakenPose pose = room::pose_of(object, from, seconds, taken);
+    placed.table_from_object = pose.table_from_object.matrix();
+    placed.size_m = pose.size_m;
+    placed.opacity = pose.opacity;
+    placed.middle_m = pose.table_from_object.point({0.0, 0.0, 0.5 * pose.size_m * box.z});
+    placed.radius_m = 0.5 * pose.size_m * glm::length(box);
+    placed.silhouette_m2 = 0.5 * pose.size_m * pose.size_m * (box.x * box.y + box.y * box.z + box.z * box.x);
 }
 
 scene::BoxCorners RoomView::corners_of(std::size_t object, const geometry::Box& box) const {
-    const double size_m = room_.objects[object].size_m;
+    const double size_m = objects_[object].size_m;
     return scene::corners_of(size_m * box.low, size_m * box.high, objects_[object].table_from_object);
 }
 
@@ -51,7 +53,7 @@ void RoomView::look_with(const glm::dvec3& eye_m, const SolidOf& solid_of) {
     for (std::uint32_t k = 0; k < objects_.size(); ++k) {
         PlacedObject& object = objects_[k];
         const std::size_t pack = room_.objects[k].pack;
-        if (!culling_.in_view(object.middle_m, object.radius_m) ||
+        if (object.opacity <= 0.0 || !culling_.in_view(object.middle_m, object.radius_m) ||
             !culling_.in_view(corners_of(k, box_of(box_sizes_[pack])))) {
             continue;
         }
@@ -60,10 +62,10 @@ void RoomView::look_with(const glm::dvec3& eye_m, const SolidOf& solid_of) {
         const std::optional<scene::BoxCorners>* const solid = solid_of(k);
         const double away_m = glm::distance(eye_m, object.middle_m);
         const double size_rad = 2.0 * object.radius_m / away_m;
-        if (solid != nullptr && *solid && away_m > object.radius_m + min_solid_m &&
+        if (solid != nullptr && *solid && object.opacity >= 1.0 && away_m > object.radius_m + min_solid_m &&
             size_rad > min_solid_rad) {
             solids_.push_back({size_rad, {}});
-            const double size_m = room_.objects[k].size_m;
+            const double size_m = object.size_m;
             std::transform((*solid)->begin(), (*solid)->end(), solids_.back().corners.begin(),
                            [&](const glm::dvec3& corner) {
                                return glm::dvec3(object.table_from_object * glm::dvec4(size_m * corner, 1.0));
@@ -81,18 +83,22 @@ void RoomView::look_with(const glm::dvec3& eye_m, const SolidOf& solid_of) {
     }
 }
 
-void RoomView::look(double seconds, std::span<const glm::dvec3> eyes_m, const SolidOf& solid_of, bool culls) {
+void RoomView::look(double seconds, std::span<const glm::dvec3> eyes_m,
+                    std::span<const room::TakenPose> taken, const SolidOf& solid_of, bool culls) {
     for (std::size_t k = 0; k < objects_.size(); ++k) {
-        if (!placed_ || room_.objects[k].motion.moves()) {
-            place(k, seconds);
-        }
         PlacedObject& object = objects_[k];
+        const bool in_place = std::none_of(taken.begin(), taken.end(),
+                                           [k](const room::TakenPose& pose) { return pose.object == k; });
+        if (!placed_ || !in_place || !object.in_place || room_.objects[k].motion.moves()) {
+            place(k, seconds, taken);
+        }
+        object.in_place = in_place;
         object.away_m = std::numeric_limits<double>::infinity();
         for (const glm::dvec3& eye_m : eyes_m) {
             object.away_m = std::min(object.away_m, glm::distance(object.middle_m, eye_m) - object.radius_m);
         }
         object.away_m = std::max(object.away_m, 1e-3);
-        object.is_in_view = object.is_seen = !culls;
+        object.is_in_view = object.is_seen = !culls && object.opacity > 0.0;
     }
     placed_ = true;
     if (culls) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/room/room.h"
+#include "app/room/taking.h"
 #include "app/scene/room_culling.h"
 #include "app/scene/stereo.h"
 
@@ -23,6 +24,9 @@ namespace frustumscreen::show {
 /// An object as it stands in the latest frame.
 struct PlacedObject {
     glm::dmat4 table_from_object{1.0};
+    double size_m = 0.0;  ///< longest edge of its box
+    double opacity = 1.0; ///< share of its pixels that show it
+    bool in_place = true; ///< not taken, nor on its way
     glm::dvec3 middle_m{0.0};
     double radius_m = 0.0;      ///< of a ball around its box
     double silhouette_m2 = 0.0; ///< of its box, the mean over all directions
@@ -38,7 +42,9 @@ public:
 
     /// `solid_of`: of an object that is drawn, in the units of its box; null if none is known. `culls`: false: everything counts as seen.
     using SolidOf = std::function<const std::optional<scene::BoxCorners>*(std::uint32_t object)>;
-    void look(double seconds, std::span<const glm::dvec3> eyes_m, const SolidOf& solid_of, bool culls = true);
+    /// `taken`: the objects that are not in their places.
+    void look(double seconds, std::span<const glm::dvec3> eyes_m, std::span<const room::TakenPose> taken,
+              const SolidOf& solid_of, bool culls = true);
 
     [[nodiscard]] const std::vector<PlacedObject>& objects() const { return objects_; }
     /// Those that are seen, in the order of the room.
@@ -51,7 +57,7 @@ private:
         double size_rad = 0.0;
         scene::BoxCorners corners{};
     };
-    void place(std::size_t object, double seconds);
+    void place(std::size_t object, double seconds, std::span<const room::TakenPose> taken);
     void look_with(const glm::dvec3& eye_m, const SolidOf& solid_of);
     [[nodiscard]] scene::BoxCorners corners_of(std::size_t object, const geometry::Box& box) const;
 

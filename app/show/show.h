@@ -86,6 +86,12 @@ public:
     [[nodiscard]] virtual ShowState state() const = 0;
 };
 
+/// An artifact that the prop can show.
+struct ArtifactInProp {
+    std::string_view name;       ///< as ShownSet::names
+    double metres_per_box = 0.0; ///< longest edge of its box in the prop
+};
+
 /// Draws a Presentation.
 class PresentationShow {
 public:
@@ -103,6 +109,8 @@ public:
     [[nodiscard]] virtual bool speaks() const { return false; }
     /// State of each artifact; empty: all are ready.
     [[nodiscard]] virtual std::span<const exhibit::ArtifactState> artifacts() const { return {}; }
+    /// By index into the catalogue; valid until the set changes.
+    [[nodiscard]] virtual std::span<const ArtifactInProp> in_prop() const { return {}; }
     /// The triangles that hide an artifact's hotspots; none while it is not loaded.
     [[nodiscard]] virtual exhibit::ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
     /// Null: silent.

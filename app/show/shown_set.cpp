@@ -27,7 +27,8 @@ AdviceWords read_words(const settings::Settings& settings, const SetOptions& opt
                                   .languages = {settings.exhibit.language},
                                   .em_m = style.em_m,
                                   .texels_per_m = style.texels_per_m,
-                                  .spoken = settings.sound.kind != settings::SoundKind::None};
+                                  .spoken = settings.sound.kind != settings::SoundKind::None,
+                                  .room = settings.screen.exists()};
         for (const exhibit::CatalogueEntry& artifact : set.catalogue) {
             if (options.devices.language) {
                 wanted.languages.insert(wanted.languages.end(), artifact.languages.begin(),
@@ -98,6 +99,11 @@ Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, c
     for (const residency::KnownArtifact& known : opened.known) {
         const std::string& id = known.outline.description.id;
         set->names.push_back(id.empty() ? known.file.string() : id);
+    }
+    const geometry::PropShape prop = settings::make_prop(settings.prop);
+    for (std::size_t k = 0; k < opened.known.size(); ++k) {
+        const pack::PackDescription& description = opened.known[k].outline.description;
+        set->in_prop.push_back({set->names[k], pack::place(description, prop).metres_per_box});
     }
     set->words = read_words(settings, options, request, *set);
     set->word_pictures = residency::LoadedTexts(std::exchange(set->words.pictures, {}));

@@ -22,6 +22,7 @@
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
+#include "app/show/show.h"
 #include "app/show/table_show.h"
 #include "firmware_host/base/result.h"
 
@@ -68,9 +69,10 @@ struct ShownSet {
     exhibit::Catalogue catalogue; ///< as opened; the exhibit has its own
     std::vector<std::string>
         names; ///< by artifact: its id, or its file without one; equal names in two sets mean the same artifact
-    std::vector<std::string> languages; ///< of all captions
-    std::string trouble;                ///< why the set cannot be shown; empty: it can
-    std::vector<std::string> notes;     ///< sentences about settings that may be unintended
+    std::vector<ArtifactInProp> in_prop; ///< by artifact
+    std::vector<std::string> languages;  ///< of all captions
+    std::string trouble;                 ///< why the set cannot be shown; empty: it can
+    std::vector<std::string> notes;      ///< sentences about settings that may be unintended
     scene::RenderNeeds needs;
     std::unique_ptr<residency::ArtifactCache> artifact_cache;
     AdviceWords words;

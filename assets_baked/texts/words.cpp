@@ -28,6 +28,7 @@ constexpr std::size_t max_named_keys = 5; ///< in one sentence
 constexpr auto keys = std::to_array<std::string_view>({
     "name",
     "attract_line",
+    "room_line",
     "advice.slide_left",
     "advice.slide_left_a_little",
     "advice.slide_right",

@@ -99,9 +99,8 @@ TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so
     ASSERT_EQ((*collected)[1].notes.size(), 1U);
     EXPECT_EQ(
         (*collected)[1].notes[0],
-        "the language 'nl' has no text for advice.slide_left, advice.slide_left_a_little, "
-        "advice.slide_right, "
-        "advice.slide_right_a_little, advice.slide_nearer and 97 more; there the exhibit speaks 'de': write "
+        "the language 'nl' has no text for room_line, advice.slide_left, advice.slide_left_a_little, "
+        "advice.slide_right, advice.slide_right_a_little and 98 more; there the exhibit speaks 'de': write "
         "them into nl.toml");
 }
 
