@@ -77,7 +77,7 @@ vec3 floor_colour(float u, float v) {
                                 (p.y - 1700.0F) * (p.y - 1700.0F) / (2300.0F * 2300.0F));
     const float near_wall =
         (1.0F - 0.55F * std::exp(-wall.x / 170.0F)) * (1.0F - 0.55F * std::exp(-wall.y / 170.0F));
-    return colour * (0.40F + 0.62F * pool) * near_wall;
+    return colour * (0.50F + 0.60F * pool) * near_wall;
 }
 
 /// Light that falls on the wall from above each panel's middle, at x and y in mm.
@@ -151,7 +151,13 @@ vec3 ceiling_colour(float u, float v) {
 /// Light on a plinth's stone: from above, less on the sides, in corners and below an edge.
 vec3 stone_light(const TurnedPlace& place, float height_mm, float slab_mm, float side_light) {
     const auto height = static_cast<float>(place.along.position.y);
-    const float drift = noise({static_cast<float>(place.u) * 24.0F, height * 0.018F}, 24, 5, 151);
+    // On flat tops the pattern is that of the plane: around the middle it would be rays.
+    const auto radius = static_cast<float>(place.along.position.x);
+    const auto angle = static_cast<float>(place.angle);
+    const vec2 flat = radius / 46.0F * vec2(std::sin(angle), std::cos(angle));
+    const bool on_top = place.along.normal.y > 0.9;
+    const float drift = on_top ? noise(flat + 16.0F, 4096, 5, 152)
+                               : noise({static_cast<float>(place.u) * 24.0F, height * 0.018F}, 24, 5, 151);
     const vec3 stone = vec3(0.80F, 0.77F, 0.71F) * (1.0F + 0.06F * drift);
     const float up = std::max(0.0F, static_cast<float>(place.along.normal.y));
     float light = glm::mix(side_light, 0.98F, up);
@@ -183,7 +189,15 @@ bake::SourceMesh make_hall_wall(std::int64_t triangles) {
     Patch patch = sheet({hall_width_mm, wall_height_mm}, 20.0, texels, [](const glm::dvec2& p, double back) {
         return glm::dvec3(p.x - 0.5 * hall_width_mm, p.y, 20.0 + wall_relief(p.y) - back);
     });
-    patch.min_v = 120;
+    // Rows are dense where the base ends and in the cornice.
+    patch.at = [at = patch.at](double u, double v) {
+        constexpr glm::dvec2 base(0.30, 0.12); // share of the rows, of the height
+        constexpr glm::dvec2 plain(0.38, 0.86);
+        const double height = v < base.x    ? v / base.x * base.y
+                              : v < plain.x ? glm::mix(base.y, plain.y, (v - base.x) / (plain.x - base.x))
+                                            : glm::mix(plain.y, 1.0, (v - plain.x) / (1.0 - plain.x));
+        return at(u, height);
+    };
     return make_mesh({patch}, triangles, std::move(texture));
 }
 

@@ -89,6 +89,21 @@ glm::dvec3 at(double u, const Profile::Point& along) {
     return {x, y, z};
 }
 
+/// Dirt in what is carved: more where the neighbourhood is higher, 0..0.5.
+float hollow(double u, double y) {
+    const double a = (u - 0.5) * full_turn;
+    const double half = widths().at_length(widths().length_at_height(y)).position.x;
+    const double front = std::cos(a) >= 0.0 ? glm::smoothstep(-0.15, 0.35, std::cos(a)) : 0.0;
+    const double x = half * std::sin(a);
+    const auto height = [&](double dx, double dy) {
+        return carved(x + dx, y + dy, front, std::max(half, 1.0));
+    };
+    constexpr double reach = 3.2;
+    const double around =
+        0.25 * (height(reach, 0.0) + height(-reach, 0.0) + height(0.0, reach) + height(0.0, -reach));
+    return static_cast<float>(std::clamp(0.42 * (around - height(0.0, 0.0)), 0.0, 0.5));
+}
+
 } // namespace
 
 bake::SourceMesh make_figurine(std::int64_t triangles) {
@@ -101,7 +116,7 @@ bake::SourceMesh make_figurine(std::int64_t triangles) {
         const float earth = noise(p * 3.0F, 18, 4, 703);
         vec3 colour = vec3(0.90F, 0.86F, 0.78F) * (1.0F + 0.07F * drift + 0.025F * grain);
         colour = glm::mix(colour, vec3(0.66F, 0.52F, 0.36F), std::clamp(0.9F * earth - 0.10F, 0.0F, 0.32F));
-        return y < 18.5 ? colour * 0.86F : colour;
+        return colour * (y < 18.5 ? 0.86F : 1.0F - hollow(static_cast<double>(u), y));
     });
     Patch patch;
     patch.at = [](double u, double v) {

@@ -88,8 +88,8 @@ Patch nozzle() {
         return SurfacePoint{{half * std::cos(phi), middle + thick * flat - dip, z},
                             {static_cast<float>(u), nozzle_strip.v(v, texture_size)}};
     };
-    patch.length_u_mm = 100.0;
-    patch.length_v_mm = 80.0;
+    patch.length_u_mm = 190.0; // more than its size: the hole is small
+    patch.length_v_mm = 150.0;
     patch.min_u = 16;
     patch.min_v = 14;
     patch.pole_at_start = true;

@@ -39,8 +39,9 @@ glm::dvec3 bare(double theta, double phi) {
 
 glm::dvec3 normal(double theta, double phi) {
     constexpr double h = 1e-4;
-    return glm::normalize(
-        glm::cross(bare(theta, phi + h) - bare(theta, phi - h), bare(theta + h, phi) - bare(theta - h, phi)));
+    const glm::dvec3 along = bare(theta + h, phi) - bare(theta - h, phi);
+    const glm::dvec3 around = bare(theta, phi + h) - bare(theta, phi - h);
+    return glm::normalize(glm::cross(along, around));
 }
 
 double bump(double x, double width) {
@@ -66,7 +67,7 @@ Patch outer() {
     Patch patch;
     patch.at = [](double u, double v) {
         const double phi = phi_of(u);
-        const double theta = first_theta * (1.0 - std::pow(v, 0.62));
+        const double theta = first_theta * (1.0 - std::pow(1.0 - v, 0.62));
         return SurfacePoint{at(theta, phi, relief(theta, phi)),
                             {static_cast<float>(u), outside.v(1.0 + theta / -first_theta, texture_size)}};
     };
@@ -74,29 +75,31 @@ Patch outer() {
     patch.length_v_mm = 1100.0;
     patch.min_u = 10;
     patch.min_v = 40;
-    patch.pole_at_start = true;
+    patch.pole_at_end = true;
     return patch;
 }
 
-/// From the lip inward, to a floor out of sight.
+/// From a floor out of sight to the lip.
 Patch inner() {
     Patch patch;
     patch.at = [](double u, double v) {
         constexpr double deepest = -0.30 * full_turn;
         const double phi = phi_of(u);
-        const double theta = deepest * v;
-        glm::dvec3 position = at(theta, phi, glm::mix(relief(theta, phi), -wall_mm, std::min(1.0, 14.0 * v)));
-        if (v > 0.86) {
+        const double within = 1.0 - v; // 0 at the lip
+        const double theta = deepest * within;
+        const double height = glm::mix(relief(theta, phi), -wall_mm, std::min(1.0, 14.0 * within));
+        glm::dvec3 position = at(theta, phi, height);
+        if (within > 0.86) {
             const glm::dvec3 middle = 0.5 * (bare(theta, 0.0) + bare(theta, 0.5 * full_turn));
-            position = glm::mix(position, middle, (v - 0.86) / 0.14);
+            position = glm::mix(position, middle, (within - 0.86) / 0.14);
         }
-        return SurfacePoint{position, {static_cast<float>(u), inside.v(v, texture_size)}};
+        return SurfacePoint{position, {static_cast<float>(u), inside.v(within, texture_size)}};
     };
     patch.length_u_mm = 230.0;
     patch.length_v_mm = 150.0;
     patch.min_u = 10;
     patch.min_v = 10;
-    patch.pole_at_end = true;
+    patch.pole_at_start = true;
     patch.columns_of = 0;
     return patch;
 }

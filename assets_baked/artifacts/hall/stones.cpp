@@ -24,19 +24,22 @@ vec2 around(const TurnedPlace& place, float cells, float mm_per_cell) {
 
 constexpr double drum_height_mm = 300.0;
 
+/// How deep a place lies in its flute: 0 on the sharp edge between two, 1 in the middle. There are 20.
+double flute_at(const TurnedPlace& place) {
+    const double across = 2.0 * std::abs(place.u * 20.0 - std::floor(place.u * 20.0) - 0.5);
+    return std::sqrt(1.0 - across * across * 0.94) * (1.0 - across * across);
+}
+
 double flutes(const TurnedPlace& place) {
     const double height = place.along.position.y;
     const double radius = place.along.position.x;
     if (radius < 150.0) {
         return 0.0;
     }
-    const double worn = static_cast<double>(noise(around(place, 24.0F, 46.0F), 24, 3, 601));
-    const double flute = std::cos(10.0 * place.angle); // 20 flutes: a groove lies between two zeros
-    const double groove = -15.0 * std::pow(std::abs(flute), 0.8);
-    const double chipped = static_cast<double>(noise(around(place, 16.0F, 60.0F), 16, 4, 602));
+    const double chipped = static_cast<double>(noise(around(place, 40.0F, 24.0F), 40, 4, 602));
     const double edge = std::min(height, drum_height_mm - height);
-    const double broken = -22.0 * std::max(0.0, chipped - 0.20) * std::exp(-edge / 30.0);
-    return (groove + broken + 0.8 * worn) * glm::smoothstep(150.0, 168.0, radius);
+    const double broken = -16.0 * std::max(0.0, chipped - 0.24) * std::exp(-edge / 18.0);
+    return (-13.0 * flute_at(place) + broken) * glm::smoothstep(150.0, 166.0, radius);
 }
 
 vec3 marble(vec2 p, int period, float scale) {
@@ -51,12 +54,11 @@ vec3 marble(vec2 p, int period, float scale) {
 vec3 drum_colour(const TurnedPlace& place) {
     const double radius = place.along.position.x;
     const bool end = radius < 158.0;
-    vec3 colour = marble(around(place, 16.0F, 56.0F), 16, 1.0F);
-    const float stain = noise(around(place, 34.0F, 26.0F), 34, 5, 621);
-    colour = glm::mix(colour, vec3(0.70F, 0.58F, 0.42F), std::clamp(0.16F + 0.42F * stain, 0.0F, 0.34F));
+    vec3 colour = marble(around(place, 30.0F, 32.0F), 30, 0.7F);
+    const float stain = noise(around(place, 60.0F, 12.0F), 60, 5, 621);
+    colour = glm::mix(colour, vec3(0.70F, 0.59F, 0.44F), std::clamp(0.10F + 0.30F * stain, 0.0F, 0.3F));
     if (!end) {
-        const auto groove = static_cast<float>(std::abs(std::cos(10.0 * place.angle)));
-        colour *= 1.0F - 0.16F * groove * groove;
+        colour *= 1.0F - 0.30F * static_cast<float>(flute_at(place));
     } else if (radius > 112.0) {
         colour *= 0.97F; // the band that carries the next drum is smoother
     } else {
@@ -316,7 +318,8 @@ bake::SourceMesh make_tablet(std::int64_t triangles) {
         const Profile& profile = tablet_profile();
         const TabletPlace place = tablet_at(static_cast<double>(u),
                                             profile.at_length(static_cast<double>(v) * profile.length_mm()));
-        const float drift = noise({u * 14.0F, v * 9.0F}, 14, 5, 641);
+        const vec3 at = vec3(place.position) / 9.0F; // the pattern of space: at the ends there are no rays
+        const float drift = noise({at.x + 0.7F * at.z + 32.0F, at.y + 0.7F * at.z + 32.0F}, 4096, 5, 641);
         const vec3 clay = vec3(0.72F, 0.56F, 0.41F) * (1.0F + 0.16F * drift);
         return glm::mix(clay, vec3(0.24F, 0.15F, 0.09F), 0.85F * place.depth);
     });
