@@ -70,8 +70,8 @@ private:
     }
 
     void find_views() {
-        Extent plan;
-        Extent side;
+        Extent& plan = plan_extent_;
+        Extent& side = side_extent_;
         for (const glm::dvec3& place : places()) {
             plan.include(from_above(place));
             side.include(from_right(place));
@@ -93,7 +93,6 @@ private:
         plan_ = {{left, views_low_mm.y + *scale * plan.high.y}, *scale};
         const double side_top = plan_({0.0, plan.low.y}).y + between_mm;
         side_ = {{left, side_top + *scale * side.high.y}, *scale};
-        far_m_ = plan.high.x;
     }
 
     [[nodiscard]] const Pen& pen_of(const DrawnObject& object) const {
@@ -101,18 +100,23 @@ private:
         return object.size_m >= building_m ? building : object.place_m.y < screen_m ? before_screen : plain;
     }
 
-    /// What the eye sees through the screen, to the end of the drawing; `flat` makes a view's place.
-    void draw_sight(const View& view, const auto& flat, const glm::dvec3& a, const glm::dvec3& b) {
+    /// What the eye sees through the screen, as far as the view's objects reach; `flat` makes a view's place.
+    void draw_sight(const View& view, const Extent& extent, const auto& flat, const glm::dvec3& a,
+                    const glm::dvec3& b) {
         const glm::dvec3& eye = settings_.eye.default_m;
         const auto behind = [&](const glm::dvec3& through) {
             const double reach = through.y - eye.y;
-            return reach > 1e-6 ? eye + (through - eye) * (std::fmax(far_m_ - eye.y, reach) / reach)
+            return reach > 1e-6 ? eye + (through - eye) * std::fmax((extent.high.x - eye.y) / reach, 1.0)
                                 : through;
         };
-        const Corners corners{flat(a), flat(behind(a)), flat(behind(b)), flat(b)};
-        sheet_.polygon(view(corners), seen);
+        settings::Polygon within{flat(a), flat(behind(a)), flat(behind(b)), flat(b)};
+        for (const settings::HalfPlane& side : {settings::HalfPlane{{0.0, -1.0}, -extent.high.y},
+                                                settings::HalfPlane{{0.0, 1.0}, extent.low.y}}) {
+            within = settings::clipped(within, side);
+        }
+        sheet_.polygon(view(within), seen);
         for (const glm::dvec3& through : {a, b}) {
-            sheet_.line(view(flat(eye)), view(flat(behind(through))), sight);
+            sheet_.line(view(flat(eye)), view(flat(through)), sight);
         }
     }
 
@@ -125,7 +129,7 @@ private:
         const auto& [top_left, top_right, bottom_right, bottom_left] = settings_.screen.corners_m;
         sheet_.text({16.0, 18.0}, "From above, scale " + scale_words(plan_), heading);
         sheet_.begin_view("plan", plan_.origin_mm, plan_.mm_per_m);
-        draw_sight(plan_, from_above, top_left, top_right);
+        draw_sight(plan_, plan_extent_, from_above, top_left, top_right);
         const double x = 0.5 * settings_.table.width_m;
         const double y = 0.5 * settings_.table.depth_m;
         sheet_.polygon(plan_(Corners{{-y, x}, {-y, -x}, {y, -x}, {y, x}}), wood, "table");
@@ -160,7 +164,7 @@ private:
         sheet_.text({16.0, std::fmin(highest, side_(from_right(settings_.eye.default_m)).y) - 6.0},
                     "From the right", heading);
         sheet_.begin_view("side", side_.origin_mm, side_.mm_per_m);
-        draw_sight(side_, from_right, top, bottom);
+        draw_sight(side_, side_extent_, from_right, top, bottom);
         for (const std::size_t k : order_) {
             const DrawnObject& object = objects_[k];
             double near_m = object.foot_m.front().y;
@@ -259,8 +263,8 @@ private:
     std::span<const DrawnObject> objects_;
     std::vector<std::size_t> order_; ///< the largest first, so that the others lie on it
     SvgSheet sheet_;
+    Extent plan_extent_, side_extent_; ///< of what the views show
     View plan_, side_;
-    double far_m_ = 0.0;
 };
 
 } // namespace

@@ -123,15 +123,6 @@ vec3 wall_colour(float u, float v) {
     return colour * shade * wall_light(p) * (0.78F + 0.22F * glm::smoothstep(0.0F, 420.0F, p.y));
 }
 
-/// Depth of base and cornice in front of the wall, at a height.
-double wall_relief(double y) {
-    const double base = 34.0 * glm::smoothstep(130.0, 122.0, y);
-    const double cornice = 26.0 * glm::smoothstep(1130.0, 1136.0, y) +
-                           26.0 * glm::smoothstep(1180.0, 1205.0, y) +
-                           34.0 * glm::smoothstep(1236.0, 1262.0, y);
-    return base + cornice;
-}
-
 vec3 ceiling_colour(float u, float v) {
     const vec2 p((u - 0.5F) * hall_width_mm, (v - 0.5F) * hall_width_mm);
     if (std::max(std::abs(p.x) - 620.0F, std::abs(p.y) - 1250.0F) < 0.0F) { // the skylight
@@ -169,7 +160,7 @@ vec3 stone_light(const TurnedPlace& place, float height_mm, float slab_mm, float
 } // namespace
 
 bake::SourceMesh make_hall_floor(std::int64_t triangles) {
-    constexpr int texels = 2048;
+    constexpr int texels = 1536;
     image::Image8 texture(texels, texels);
     paint_strip({0, texels}, texture, floor_colour);
     const Patch patch =
@@ -186,19 +177,33 @@ bake::SourceMesh make_hall_wall(std::int64_t triangles) {
     constexpr int texels = 1024;
     image::Image8 texture(texels, texels);
     paint_strip({0, texels}, texture, wall_colour);
-    Patch patch = sheet({hall_width_mm, wall_height_mm}, 20.0, texels, [](const glm::dvec2& p, double back) {
-        return glm::dvec3(p.x - 0.5 * hall_width_mm, p.y, 20.0 + wall_relief(p.y) - back);
-    });
-    // Rows are dense where the base ends and in the cornice.
-    patch.at = [at = patch.at](double u, double v) {
-        constexpr glm::dvec2 base(0.30, 0.12); // share of the rows, of the height
-        constexpr glm::dvec2 plain(0.38, 0.86);
-        const double height = v < base.x    ? v / base.x * base.y
-                              : v < plain.x ? glm::mix(base.y, plain.y, (v - base.x) / (plain.x - base.x))
-                                            : glm::mix(plain.y, 1.0, (v - plain.x) / (1.0 - plain.x));
-        return at(u, height);
-    };
-    return make_mesh({patch}, triangles, std::move(texture));
+    // Depth and height. Each strip between two corners is flat, so that few triangles have it exactly.
+    constexpr std::array<glm::dvec2, 10> corners{{{54, 0},
+                                                  {54, 122},
+                                                  {20, 130},
+                                                  {20, 1130},
+                                                  {46, 1134},
+                                                  {46, 1180},
+                                                  {72, 1200},
+                                                  {72, 1236},
+                                                  {106, 1262},
+                                                  {106, 1300}}};
+    std::vector<Patch> strips;
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+        Patch strip;
+        strip.at = [low = corners[k], high = corners[k + 1]](double u, double v) {
+            const glm::dvec2 at = v < 1.0 ? glm::mix(low, high, v) : high; // strips share their edges' points
+            return SurfacePoint{
+                {(u - 0.5) * hall_width_mm, at.y, at.x},
+                {static_cast<float>(u), AtlasStrip{0, texels}.v(at.y / wall_height_mm, texels)}};
+        };
+        strip.length_u_mm = hall_width_mm;
+        strip.length_v_mm = glm::distance(corners[k], corners[k + 1]);
+        strip.min_v = 1;
+        strip.columns_of = k == 0 ? -1 : 0;
+        strips.push_back(std::move(strip));
+    }
+    return make_mesh(strips, triangles, std::move(texture));
 }
 
 bake::SourceMesh make_hall_ceiling(std::int64_t triangles) {

@@ -1,7 +1,7 @@
 /// The example hall's own plain geometry. Its textures hold their light: it is baked with --unlit.
 ///
-/// Frame    as builtin.h: millimetres, +Y up, the front towards +Z. Floor, wall and ceiling are sheets with a rim: their
-///          backs are open and are never seen.
+/// Frame    as builtin.h: millimetres, +Y up, the front towards +Z. Floor, wall and ceiling are sheets: their backs are
+///          open and are never seen.
 /// Threads  as builtin.h.
 #pragma once
 

@@ -90,9 +90,10 @@ glm::dvec3 at(double u, const Profile::Point& along) {
 }
 
 /// Dirt in what is carved: more where the neighbourhood is higher, 0..0.5.
-float hollow(double u, double y) {
+float hollow(double u, const glm::dvec2& width) {
     const double a = (u - 0.5) * full_turn;
-    const double half = widths().at_length(widths().length_at_height(y)).position.x;
+    const double half = width.x;
+    const double y = width.y;
     const double front = std::cos(a) >= 0.0 ? glm::smoothstep(-0.15, 0.35, std::cos(a)) : 0.0;
     const double x = half * std::sin(a);
     const auto height = [&](double dx, double dy) {
@@ -109,14 +110,15 @@ float hollow(double u, double y) {
 bake::SourceMesh make_figurine(std::int64_t triangles) {
     image::Image8 texture(texture_size, texture_size);
     paint_strip(whole, texture, [](float u, float v) {
-        const double y = widths().at_length(static_cast<double>(v) * widths().length_mm()).position.y;
+        const glm::dvec2 width = widths().at_length(static_cast<double>(v) * widths().length_mm()).position;
+        const double y = width.y;
         const vec2 p(u * 6.0F, static_cast<float>(y) * 0.016F);
         const float drift = noise(p, 6, 5, 701);
         const float grain = noise({u * 160.0F, static_cast<float>(y) * 0.5F}, 160, 2, 702);
         const float earth = noise(p * 3.0F, 18, 4, 703);
         vec3 colour = vec3(0.90F, 0.86F, 0.78F) * (1.0F + 0.07F * drift + 0.025F * grain);
         colour = glm::mix(colour, vec3(0.66F, 0.52F, 0.36F), std::clamp(0.9F * earth - 0.10F, 0.0F, 0.32F));
-        return colour * (y < 18.5 ? 0.86F : 1.0F - hollow(static_cast<double>(u), y));
+        return colour * (y < 18.5 ? 0.86F : 1.0F - hollow(static_cast<double>(u), width));
     });
     Patch patch;
     patch.at = [](double u, double v) {

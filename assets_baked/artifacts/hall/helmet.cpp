@@ -118,7 +118,7 @@ Patch crest() {
         const double a =
             glm::mix(-0.66, 1.80, v); // along the dome's middle: 0 is the crown, negative in front
         const double out = std::cos(phi);
-        const double end = std::pow(std::max(0.0, std::sin(0.5 * full_turn * v)), 0.35);
+        const double end = v < 1.0 ? std::pow(std::max(0.0, std::sin(0.5 * full_turn * v)), 0.35) : 0.0;
         const double tail = glm::smoothstep(1.2, 1.8, a);
         const double high = (24.0 + 12.0 * std::sin(0.5 * full_turn * v) + 10.0 * tail) * end;
         const double wide = (7.5 + 1.2 * out) * end;

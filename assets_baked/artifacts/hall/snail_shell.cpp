@@ -63,12 +63,17 @@ glm::dvec3 at(double theta, double phi, double height) {
     return bare(theta, phi) + normal(theta, phi) * (height * std::exp(growth * theta));
 }
 
+/// The middle of the section: where a patch ends in one point.
+glm::dvec3 middle_at(double theta) {
+    return 0.5 * (bare(theta, 0.0) + bare(theta, 0.5 * full_turn));
+}
+
 Patch outer() {
     Patch patch;
     patch.at = [](double u, double v) {
         const double phi = phi_of(u);
         const double theta = first_theta * (1.0 - std::pow(1.0 - v, 0.62));
-        return SurfacePoint{at(theta, phi, relief(theta, phi)),
+        return SurfacePoint{v < 1.0 ? at(theta, phi, relief(theta, phi)) : middle_at(first_theta),
                             {static_cast<float>(u), outside.v(1.0 + theta / -first_theta, texture_size)}};
     };
     patch.length_u_mm = 230.0;
@@ -90,8 +95,8 @@ Patch inner() {
         const double height = glm::mix(relief(theta, phi), -wall_mm, std::min(1.0, 14.0 * within));
         glm::dvec3 position = at(theta, phi, height);
         if (within > 0.86) {
-            const glm::dvec3 middle = 0.5 * (bare(theta, 0.0) + bare(theta, 0.5 * full_turn));
-            position = glm::mix(position, middle, (within - 0.86) / 0.14);
+            position =
+                v > 0.0 ? glm::mix(position, middle_at(theta), (within - 0.86) / 0.14) : middle_at(theta);
         }
         return SurfacePoint{position, {static_cast<float>(u), inside.v(within, texture_size)}};
     };

@@ -39,7 +39,8 @@ double flutes(const TurnedPlace& place) {
     const double chipped = static_cast<double>(noise(around(place, 40.0F, 24.0F), 40, 4, 602));
     const double edge = std::min(height, drum_height_mm - height);
     const double broken = -16.0 * std::max(0.0, chipped - 0.24) * std::exp(-edge / 18.0);
-    return (-13.0 * flute_at(place) + broken) * glm::smoothstep(150.0, 166.0, radius);
+    const double fluted = glm::smoothstep(20.0, 27.0, edge); // a plain band at either end
+    return (-13.0 * fluted * flute_at(place) + broken) * glm::smoothstep(150.0, 166.0, radius);
 }
 
 vec3 marble(vec2 p, int period, float scale) {
@@ -58,7 +59,8 @@ vec3 drum_colour(const TurnedPlace& place) {
     const float stain = noise(around(place, 60.0F, 12.0F), 60, 5, 621);
     colour = glm::mix(colour, vec3(0.70F, 0.59F, 0.44F), std::clamp(0.10F + 0.30F * stain, 0.0F, 0.3F));
     if (!end) {
-        colour *= 1.0F - 0.30F * static_cast<float>(flute_at(place));
+        const double edge = std::min(place.along.position.y, drum_height_mm - place.along.position.y);
+        colour *= 1.0F - 0.30F * static_cast<float>(glm::smoothstep(20.0, 27.0, edge) * flute_at(place));
     } else if (radius > 112.0) {
         colour *= 0.97F; // the band that carries the next drum is smoother
     } else {
