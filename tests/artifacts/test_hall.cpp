@@ -26,8 +26,14 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 class EveryHallObject : public testing::TestWithParam<HallObject> {
 protected:
-    [[nodiscard]] static bake::SourceMesh made(std::int64_t triangles) {
-        return make_builtin(GetParam().name, triangles).value();
+    /// Each is made once for all tests.
+    [[nodiscard]] static const bake::SourceMesh& made(std::int64_t triangles) {
+        static std::map<std::pair<std::string_view, std::int64_t>, bake::SourceMesh> meshes;
+        bake::SourceMesh& mesh = meshes[{GetParam().name, triangles}];
+        if (mesh.triangles.empty()) {
+            mesh = make_builtin(GetParam().name, triangles).value();
+        }
+        return mesh;
     }
 };
 
@@ -54,7 +60,7 @@ std::map<Edge, int> edges_of(const bake::SourceMesh& mesh) {
 
 TEST_P(EveryHallObject, IsASoundMeshOfTheNumberOfTrianglesAskedFor) {
     for (const std::int64_t triangles : {3'000, 12'000}) {
-        const bake::SourceMesh mesh = made(triangles);
+        const bake::SourceMesh& mesh = made(triangles);
         EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(triangles),
                     0.05 * static_cast<double>(triangles));
         ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
@@ -80,7 +86,7 @@ TEST_P(EveryHallObject, IsClosedOrSaysThatItIsNot) {
 }
 
 TEST_P(EveryHallObject, HasItsOutsideOutside) {
-    const bake::SourceMesh mesh = made(3'000);
+    const bake::SourceMesh& mesh = made(3'000);
     if (GetParam().kind == HallKind::Building && GetParam().surface == HallSurface::Open) {
         // A sheet looks up, down, or to the front.
         const glm::dvec3 front = GetParam().name == "hall-floor"     ? glm::dvec3(0, 1, 0)
@@ -103,7 +109,7 @@ TEST_P(EveryHallObject, HasItsOutsideOutside) {
 }
 
 TEST_P(EveryHallObject, BakesWithoutALossOrAGuess) {
-    const bake::SourceMesh mesh = made(2'000);
+    const bake::SourceMesh& mesh = made(3'000);
     bake::BakeOptions options;
     options.size = 32;
     options.relief = false;
