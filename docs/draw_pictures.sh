@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Draws the README's pictures, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked; and
-# docs/picture_steps.webp, of the same, which needs what ./test builds. The loop takes some minutes.
-#   docs/draw_pictures.sh [steps]    steps: picture_steps.webp alone, of the built-in artifact where ./run has baked none
+# docs/picture_steps.webp, of the same, which needs what ./test builds; and docs/hall.png and docs/room.svg of the example
+# hall. The loop takes some minutes.
+#   docs/draw_pictures.sh [steps|hall]    steps: picture_steps.webp alone, of the built-in artifact where ./run has baked none
+#                                         hall: those of the example hall alone
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 pack=out/packs/nautilus-cup.fspack
@@ -22,6 +24,15 @@ bin=build/release/bin
 config=config/kiosk.toml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+
+# The picture from the low eye at the right, in which the prop is before the screen.
+"$bin/frustumscreen" drawing --config config/hall.toml --sheet room -o docs/room.svg
+"$bin/frustumscreen" render --config config/hall.toml --pack out/packs/amphora.fspack --poses config/hall/eyes.csv --view room \
+    --width 520 --height 390 --out "$folder/hall"
+cp "$folder/hall/frame_00002.png" docs/hall.png
+if [[ ${1-} == hall ]]; then
+    exit
+fi
 
 # 10 s at 30 pictures a second: the prop turns once and slides in an eight, the eye goes to and fro, all back to the beginning.
 awk 'BEGIN {

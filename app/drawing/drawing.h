@@ -6,8 +6,12 @@
 
 #include "app/settings/settings.h"
 
+#include <glm/glm.hpp>
+
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen::drawing {
 
@@ -23,5 +27,19 @@ namespace frustumscreen::drawing {
 
 /// A3: a holder for the prop, from above and in section.
 [[nodiscard]] std::string holder_sheet(const settings::Settings& settings, std::string_view name);
+
+/// An object of the room behind the screen as it is drawn; table frame.
+struct DrawnObject {
+    std::string name;
+    std::vector<glm::dvec2> foot_m;   ///< corners of its box from above
+    double low_m = 0.0, high_m = 0.0; ///< its box's, along Z
+    glm::dvec3 place_m{0.0};
+    double size_m = 0.0;
+    bool moves = false;
+};
+/// A3: table, prop, screen and the room behind it from above and from the right, and a list of the objects. The settings
+/// must have a screen.
+[[nodiscard]] std::string room_sheet(const settings::Settings& settings, std::span<const DrawnObject> objects,
+                                     std::string_view name);
 
 } // namespace frustumscreen::drawing

@@ -91,6 +91,12 @@ OfflineRenderer::OfflineRenderer(const scene::StereoLayout& layout, const scene:
     : layout_(layout), projector_(plan.projector), table_from_projector_(plan.table_from_projector),
       prop_(plan.prop), light_(plan.light), metres_per_box_(plan.metres_per_box) {}
 
+OfflineRenderer::~OfflineRenderer() {
+    if (display_) {
+        display_->make_current(); // what is deleted now lives in its context
+    }
+}
+
 Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineScene& scene) {
     const scene::ScenePlan& plan = scene.plan;
     const pack::Pack& pack = *scene.pack;
@@ -183,6 +189,7 @@ std::optional<scene::ErrorEstimate> OfflineRenderer::error_of(std::span<const sc
 
 OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
                                      std::span<const glm::dvec3> eyes_m, double seconds) {
+    display_->make_current();
     pose_cells(seconds);
     const scene::PlanView view{.projector = projector_,
                                .table_from_projector = table_from_projector_,

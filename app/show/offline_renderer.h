@@ -1,7 +1,7 @@
 /// Pictures of a pack without a screen, with the same plan and renderer as the live exhibit.
 ///
 /// Frames   as tracked_state.h: table T, metres.
-/// Threads  the thread that created it, which holds its GL context.
+/// Threads  the thread that created it. Its GL context is current after `create` and after `draw`.
 /// Errors   no EGL or OpenGL ES, an unknown technique, a pack that the driver cannot hold.
 #pragma once
 
@@ -33,6 +33,9 @@ class OfflineRenderer {
 public:
     /// `scene` need not outlive the call.
     [[nodiscard]] static Result<std::unique_ptr<OfflineRenderer>> create(const OfflineScene& scene);
+    ~OfflineRenderer();
+    OfflineRenderer(const OfflineRenderer&) = delete;
+    OfflineRenderer& operator=(const OfflineRenderer&) = delete;
 
     /// `eyes_m`: one, or with OfflineOptions::both_eyes one for each eye of the layout (scene/stereo.h). `seconds`: since
     /// the behaviour began.

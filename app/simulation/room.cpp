@@ -2,6 +2,8 @@
 
 #include "app/simulation/room_light.h"
 
+#include <cmath>
+
 namespace frustumscreen::simulation {
 
 namespace {
@@ -19,6 +21,17 @@ const glm::dvec3 case_half_m(0.17, 0.13, 0.055);
 constexpr double pole_half_m = 0.015;
 
 } // namespace
+
+std::vector<RoomObject> stand_of(const VisitorScreen& screen) {
+    const auto& [top_left, top_right, bottom_right, bottom_left] = screen.corners_m;
+    const glm::dvec3 middle = 0.25 * (top_left + top_right + bottom_right + bottom_left);
+    constexpr glm::dvec2 post_m(0.05, 0.02); // half of its sides
+    constexpr glm::dvec2 foot_m(0.28, 0.16);
+    constexpr double behind_m = 0.04;
+    const glm::dvec2 at(middle.x, std::fmax(middle.y, std::fmax(top_left.y, bottom_left.y)) + behind_m);
+    return {{{at - post_m, -table_height_m}, {at + post_m, middle.z}, screen_case_albedo},
+            {{at - foot_m, -table_height_m}, {at + foot_m, -table_height_m + 0.02}, screen_case_albedo}};
+}
 
 std::vector<RoomObject> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m) {
     const glm::dvec2 half = table_size_m / 2.0;

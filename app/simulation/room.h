@@ -11,6 +11,9 @@
 
 namespace frustumscreen::simulation {
 
+/// What a screen stands on, from the floor to its middle, behind it; a screen that leans is not held at each place.
+[[nodiscard]] std::vector<RoomObject> stand_of(const VisitorScreen& screen);
+
 /// `lens_m`: the projector's position.
 [[nodiscard]] std::vector<RoomObject> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m);
 

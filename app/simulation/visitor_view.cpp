@@ -1,6 +1,7 @@
 #include "app/simulation/visitor_view.h"
 
 #include "app/simulation/room_light.h"
+#include "app/simulation/sampled_light.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/parallel.h"
 
@@ -14,6 +15,7 @@ namespace frustumscreen::simulation {
 namespace {
 
 constexpr double prop_share_of_picture = 0.62;
+constexpr double whole_share_of_picture = 0.94;
 constexpr double largest_sine = 0.9;
 
 constexpr double contact_shadow_reach_m = 0.035;
@@ -26,6 +28,7 @@ struct Place {
     bool lit = false;        ///< visible from the projector's lens
     double albedo = table_albedo;
     double room_share = 1.0; ///< share of the room's light that arrives
+    std::optional<ScreenHit> screen = std::nullopt;
 };
 
 struct ObjectHit {
@@ -68,6 +71,9 @@ public:
           eye_in_prop_(prop_from_table_.point(scene.eye_m)),
           lens_in_prop_(prop_from_table_.point(scene.table_from_projector.translation)) {
         exposure_ = exposure_of(scene.prop, lens());
+        if (scene.screen && options.light) {
+            screen_light_.emplace(*scene.screen);
+        }
         for (const glm::dvec3& corner : geometry::foot_of(scene.prop)) {
             foot_ = glm::max(foot_, glm::abs(glm::dvec2(corner)));
         }
@@ -75,43 +81,48 @@ public:
 
     [[nodiscard]] std::optional<Place> first_place(const glm::dvec3& direction) const {
         const glm::dvec3 in_prop = prop_from_table_.direction(direction);
-        geometry::PropHit hit;
         const ObjectHit object = first_object(scene_.objects, scene_.eye_m, direction);
-        if (geometry::enter(scene_.prop, eye_in_prop_, in_prop, hit) && hit.t < object.t) {
-            const auto bound = static_cast<std::size_t>(hit.face);
-            const geometry::Plane& plane = scene_.prop.bounds[bound];
-            return Place{.point_m = scene_.eye_m + hit.t * direction,
-                         .normal = scene_.table_from_prop.direction(plane.normal),
-                         .lit = bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
-                         .albedo = prop_albedo};
+        const std::optional<ScreenHit> screen =
+            scene_.screen ? meet(*scene_.screen, scene_.eye_m, direction) : std::nullopt;
+        geometry::PropHit prop;
+        double nearest = std::numeric_limits<double>::infinity();
+        std::optional<Place> place;
+        const bool meets_prop = geometry::enter(scene_.prop, eye_in_prop_, in_prop, prop);
+        if (meets_prop) {
+            nearest = prop.t;
+            place = on_prop(scene_.eye_m + prop.t * direction, static_cast<std::size_t>(prop.face));
         }
-        const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
-        const glm::dvec3 point = scene_.eye_m + t * direction;
-        if (object.object != nullptr && (t <= 0.0 || object.t < t || !on_table(point))) {
+        if (screen && screen->t < nearest) {
+            nearest = screen->t;
+            place = Place{.point_m = scene_.eye_m + screen->t * direction,
+                          .normal = screen->normal,
+                          .lit = false,
+                          .albedo = screen_case_albedo,
+                          .screen = screen};
+        }
+        const double table = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
+        if (!meets_prop && table > 0.0 && table < nearest && on_table(scene_.eye_m + table * direction)) {
+            nearest = table;
+            place = on_table_top(scene_.eye_m + table * direction);
+        }
+        if (object.object != nullptr && object.t < nearest) {
             const glm::dvec3 meets = scene_.eye_m + object.t * direction;
-            return Place{.point_m = meets,
-                         .normal = object.normal,
-                         .lit = false,
-                         .albedo = object.object->albedo,
-                         .room_share = fading(meets)};
+            place = Place{.point_m = meets,
+                          .normal = object.normal,
+                          .lit = false,
+                          .albedo = object.object->albedo,
+                          .room_share = fading(meets)};
         }
-        if (t <= 0.0 || !on_table(point)) {
-            return std::nullopt;
-        }
-        geometry::PropHit shade;
-        const bool shadowed = geometry::enter(scene_.prop, lens_in_prop_,
-                                              prop_from_table_.point(point) - lens_in_prop_, shade) &&
-                              shade.t < 1.0;
-        return Place{.point_m = point,
-                     .normal = glm::dvec3(0, 0, 1),
-                     .lit = !shadowed,
-                     .albedo = table_albedo,
-                     .room_share = contact_shadow(point)};
+        return place;
     }
 
-    /// Linear light that a point reflects to the eye.
+    /// Linear light that a point sends to the eye.
     [[nodiscard]] glm::dvec3 sent_back(const Place& place) const {
         glm::dvec3 light(0.0);
+        if (place.screen && place.screen->shines) {
+            light = linear_at(scene_.screen->picture, place.screen->pixel, options_.nearest);
+            return options_.light ? scene_.screen->white * light : light;
+        }
         if (place.lit) {
             light = projected(place.point_m);
         }
@@ -120,7 +131,9 @@ public:
         }
         light *=
             exposure_ * received_from(lens(), place.point_m, place.normal) * pixels_beside(place.point_m);
-        return place.albedo * (light + place.room_share * room_light_on(place.normal));
+        const glm::dvec3 glow =
+            screen_light_ ? screen_light_->on(place.point_m, place.normal) : glm::dvec3(0.0);
+        return place.albedo * (light + glow + place.room_share * room_light_on(place.normal));
     }
 
     /// Density of the projector's pixels at a point relative to a lens without distortion: each pixel has the
@@ -142,21 +155,25 @@ private:
             pixel->y >= picture_.height) {
             return glm::dvec3(0.0);
         }
-        if (options_.nearest) {
-            return texel(static_cast<int>(pixel->x), static_cast<int>(pixel->y));
-        }
-        const glm::dvec2 corner = glm::floor(*pixel - 0.5);
-        const glm::dvec2 f = *pixel - 0.5 - corner;
-        const int x = static_cast<int>(corner.x);
-        const int y = static_cast<int>(corner.y);
-        return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
-                        glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
+        return linear_at(picture_, *pixel, options_.nearest);
     }
-    [[nodiscard]] glm::dvec3 texel(int x, int y) const {
-        const glm::u8vec4& code =
-            picture_.at(std::clamp(x, 0, picture_.width - 1), std::clamp(y, 0, picture_.height - 1));
-        const std::array<float, 256>& linear = image::linear_from_srgb8();
-        return {linear[code.r], linear[code.g], linear[code.b]};
+    [[nodiscard]] Place on_prop(const glm::dvec3& point_m, std::size_t bound) const {
+        const geometry::Plane& plane = scene_.prop.bounds[bound];
+        return {.point_m = point_m,
+                .normal = scene_.table_from_prop.direction(plane.normal),
+                .lit = bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
+                .albedo = prop_albedo};
+    }
+    [[nodiscard]] Place on_table_top(const glm::dvec3& point_m) const {
+        geometry::PropHit shade;
+        const bool shadowed = geometry::enter(scene_.prop, lens_in_prop_,
+                                              prop_from_table_.point(point_m) - lens_in_prop_, shade) &&
+                              shade.t < 1.0;
+        return {.point_m = point_m,
+                .normal = glm::dvec3(0, 0, 1),
+                .lit = !shadowed,
+                .albedo = table_albedo,
+                .room_share = contact_shadow(point_m)};
     }
     [[nodiscard]] bool on_table(const glm::dvec3& point_m) const {
         return std::abs(point_m.x) <= scene_.table_size_m.x / 2.0 &&
@@ -182,7 +199,15 @@ private:
     glm::dvec3 lens_in_prop_;
     glm::dvec2 foot_{0.0}; ///< half of the sides of a rectangle around the prop's axis that holds its foot
     double exposure_ = 1.0;
+    std::optional<ScreenLight> screen_light_;
 };
+
+/// The rotation of a camera without roll: its columns are right, down and forward.
+glm::dmat3 looking_along(const glm::dvec3& forward) {
+    const glm::dvec3 across = glm::cross(forward, glm::dvec3(0, 0, 1));
+    const glm::dvec3 right = glm::length(across) > 1e-9 ? glm::normalize(across) : glm::dvec3(1, 0, 0);
+    return {right, glm::cross(forward, right), forward};
+}
 
 } // namespace
 
@@ -195,14 +220,44 @@ VisitorCamera visitor_camera(const geometry::PropShape& prop, const geometry::Ri
     const glm::dvec3 towards = table_from_prop.point(prop.middle) - eye_m;
     const double distance = glm::length(towards);
     const glm::dvec3 forward = distance > 0.0 ? towards / distance : glm::dvec3(0, 0, -1);
-    const glm::dvec3 across = glm::cross(forward, glm::dvec3(0, 0, 1));
-    const glm::dvec3 right = glm::length(across) > 1e-9 ? glm::normalize(across) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 down = glm::cross(forward, right);
-
     const double sine = distance > 0.0 ? std::min(largest_sine, radius / distance) : largest_sine;
     const double focal_px = prop_share_of_picture * std::min(width, height) / 2.0 / std::tan(std::asin(sine));
     return {{width, height, focal_px, focal_px, width / 2.0, height / 2.0},
-            {glm::normalize(glm::quat_cast(glm::dmat3(right, down, forward))), eye_m}};
+            {glm::normalize(glm::quat_cast(looking_along(forward))), eye_m}};
+}
+
+VisitorCamera whole_camera(const VisitorScene& scene, int width, int height) {
+    std::vector<glm::dvec3> shown(scene.screen->corners_m.begin(), scene.screen->corners_m.end());
+    for (const glm::dvec3& corner : scene.prop.corners) {
+        shown.push_back(scene.table_from_prop.point(corner));
+    }
+    for (const double side : {-0.5, 0.5}) {
+        shown.emplace_back(side * scene.table_size_m.x, 0.5 * scene.table_size_m.y, 0.0);
+    }
+    glm::dvec3 forward(0.0);
+    for (const glm::dvec3& place : shown) {
+        forward += glm::normalize(place - scene.eye_m);
+    }
+    glm::dmat3 rotation = looking_along(glm::normalize(forward));
+    glm::dvec2 half(1.0);     // of what is shown, as tangents
+    constexpr int rounds = 8; // the middle of the box changes with the direction; it settles at once
+    for (int round = 0; round < rounds; ++round) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity());
+        glm::dvec2 high(-std::numeric_limits<double>::infinity());
+        for (const glm::dvec3& place : shown) {
+            const glm::dvec3 seen = glm::transpose(rotation) * (place - scene.eye_m);
+            const glm::dvec2 tangents =
+                glm::dvec2(seen) / std::fmax(seen.z, 1e-3); // beside the eye: at the edge
+            low = glm::min(low, tangents);
+            high = glm::max(high, tangents);
+        }
+        half = 0.5 * (high - low);
+        const glm::dvec2 middle = 0.5 * (low + high);
+        rotation = looking_along(glm::normalize(rotation * glm::dvec3(middle, 1.0)));
+    }
+    const double focal_px = 0.5 * whole_share_of_picture * std::fmin(width / half.x, height / half.y);
+    return {{width, height, focal_px, focal_px, width / 2.0, height / 2.0},
+            {glm::normalize(glm::quat_cast(rotation)), scene.eye_m}};
 }
 
 image::Image8 visitor_view(const VisitorScene& scene, const image::Image8& projected,

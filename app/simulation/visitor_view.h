@@ -5,6 +5,8 @@
 /// the prop or the table; the point that it hits reflects the projector's pixel that lights it, if any.
 ///
 /// Frames   table T; metres. Pixels as in pinhole.h.
+/// A flat screen behind the table is a surface that shines by itself: the ray that meets it takes its picture's colour.
+///
 /// Light    linear inside, sRGB codes at input and output. With `light`, as in room_light.h. Without it, a
 ///          surface returns the projector's code unchanged, and black where no light falls.
 /// Threads  uses all cores; deterministic. Offline only.
@@ -15,10 +17,12 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/image/image.h"
+#include "app/simulation/visitor_screen.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +46,7 @@ struct VisitorScene {
     glm::dvec3 eye_m{0.0};
     glm::dvec2 table_size_m{0.8, 0.5};    ///< along X and Y
     std::vector<RoomObject> objects = {}; ///< they cast no shadows; empty for pictures that are measured
+    std::optional<VisitorScreen> screen = std::nullopt;
 };
 
 struct VisitorCamera {
@@ -59,6 +64,12 @@ struct VisitorCamera {
 [[nodiscard]] VisitorCamera visitor_camera(const geometry::PropShape& prop,
                                            const geometry::RigidTransform& table_from_prop,
                                            const glm::dvec3& eye_m, int width, int height);
+
+/// The camera at the eye that has the prop, the table's far edge and the screen in its picture, for a picture of the whole.
+/// The scene must have a screen.
+///
+/// Method   no roll; it looks at the middle of what it shows, which takes 0.94 of the picture in the narrower direction.
+[[nodiscard]] VisitorCamera whole_camera(const VisitorScene& scene, int width, int height);
 
 struct VisitorViewOptions {
     bool light = true;

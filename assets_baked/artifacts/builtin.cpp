@@ -1,9 +1,12 @@
 #include "assets_baked/artifacts/builtin.h"
 
 #include "assets_baked/artifacts/amphora.h"
+#include "assets_baked/artifacts/hall/hall.h"
 #include "assets_baked/artifacts/nautilus_cup.h"
 
 #include <fmt/format.h>
+
+#include <string>
 
 namespace frustumscreen::artifacts {
 namespace {
@@ -28,8 +31,14 @@ Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triang
     if (name == "nautilus-cup") {
         return make_nautilus_cup(triangles);
     }
-    return bad_input("artifact.no_such",
-                     "no built-in artifact is named '{}'; allowed are amphora and nautilus-cup", name);
+    std::string names = "amphora, nautilus-cup";
+    for (const HallObject& object : hall_objects()) {
+        if (object.name == name) {
+            return object.make(triangles);
+        }
+        names += fmt::format(", {}", object.name);
+    }
+    return bad_input("artifact.no_such", "no built-in artifact is named '{}'; allowed are {}", name, names);
 }
 
 } // namespace frustumscreen::artifacts

@@ -13,14 +13,15 @@
 
 namespace frustumscreen::artifacts {
 
-[[nodiscard]] std::vector<std::string_view> builtin_names(); ///< "amphora", ...
+/// "amphora", ...: those of the exhibit, with texts.
+[[nodiscard]] std::vector<std::string_view> builtin_names();
 
-/// About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 5e7
+/// One of these, or of the example hall's (hall/hall.h). About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 5e7
 /// triangles.
 [[nodiscard]] Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 
 /// The artifact.toml of a folder with a built-in artifact's mesh (docs/curators.md): texts in five languages,
-/// hotspots. Empty for an unknown name.
+/// hotspots. Empty for an unknown name and for the hall's.
 [[nodiscard]] std::string_view builtin_folder_text(std::string_view name);
 
 } // namespace frustumscreen::artifacts

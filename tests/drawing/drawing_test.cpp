@@ -383,6 +383,16 @@ TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
     EXPECT_NE(text("err.txt").find("would replace the input"), std::string::npos);
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg --sheet floor"), 2);
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml"), 2);
+    put("kiosk.toml", "");
+    EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg --sheet room"), 1);
+    EXPECT_TRUE(test::tells(text("err.txt"), {"[screen]", "[drawing.no_screen]\n"}));
+    put("poses.csv", "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n0,1,0,0,0,1,0,0,0,1\n");
+    EXPECT_EQ(
+        run("frustumscreen render --config kiosk.toml --pack a.fspack --poses poses.csv --out o --view room"),
+        1);
+    EXPECT_TRUE(test::tells(text("err.txt"), {"[screen]", "[render.no_room_to_see]\n"}));
+    EXPECT_EQ(run("frustumscreen-artifact krater --folder krater"), 1);
+    EXPECT_TRUE(test::tells(text("err.txt"), {"krater", "-o", "[artifact.no_texts]\n"}));
 }
 
 } // namespace

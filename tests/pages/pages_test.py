@@ -75,7 +75,7 @@ class Teeth(unittest.TestCase):
         for line, said in (("frustumscreen run --confg kiosk.toml", "frustumscreen has no option --confg here"),
                            ("frustumscreen rnu", "frustumscreen has no subcommand 'rnu'"),
                            ("frustumscreen-bake --batch DIR --preview x.html", "frustumscreen-bake has no option --preview here"),
-                           ("frustumscreen render --view eye", "frustumscreen takes for --view one of projector, visitor, not 'eye'"),
+                           ("frustumscreen render --view eye", "frustumscreen takes for --view one of projector, visitor, room, not 'eye'"),
                            ("./test image --cut", "test has no option --cut here"),
                            ("./tset", "there is no program ./tset"),
                            ("cmake/build.sh release no_such_test", "there is no target no_such_test"),

@@ -1,8 +1,10 @@
-/// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it.
+/// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it; and what stands
+/// in the example hall, as GLB files.
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/artifacts/builtin.h"
+#include "assets_baked/artifacts/hall/hall.h"
 #include "assets_baked/artifacts/write_glb.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
@@ -49,6 +51,14 @@ int list_artifacts(const std::string& language) {
     return 0;
 }
 
+int list_hall() {
+    for (const artifacts::HallObject& object : artifacts::hall_objects()) {
+        fmt::print("{}\t{}\t{}\n", object.name,
+                   object.kind == artifacts::HallKind::Building ? "unlit" : "lit", object.what);
+    }
+    return 0;
+}
+
 /// Writes the mesh and, if `folder` is given, its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
@@ -56,6 +66,10 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
     TRY(const Bytes bytes, artifacts::write_glb(mesh));
     if (folder.empty()) {
         return write_file(output, bytes);
+    }
+    if (artifacts::builtin_folder_text(name).empty()) {
+        return bad_input("artifact.no_texts",
+                         "'{}' stands in the example hall and has no texts; write its mesh with -o", name);
     }
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
@@ -76,11 +90,13 @@ int run(int argc, char** argv) {
     std::filesystem::path output;
     std::filesystem::path folder;
     bool list = false;
+    bool list_of_hall = false;
 
     CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
                     "frustumscreen-artifact"};
     app.set_version_flag("--version", name_and_version("frustumscreen-artifact"));
-    const CommandOption name_option = app.add_option("name", name, "name of the artifact; --list prints all");
+    const CommandOption name_option =
+        app.add_option("name", name, "name of the artifact, as --list and --list-hall print it");
     app.add_option("--triangles", triangles, "number of triangles, within 5 %").capture_default_str();
     const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");
     const CommandOption folder_option =
@@ -91,10 +107,16 @@ int run(int argc, char** argv) {
     const CommandOption list_option =
         app.add_flag("--list", list, "print name, title and text of each artifact, separated by tabs");
     app.add_option("--language", language, "language of --list: en, de, fr, es or el").capture_default_str();
+    const CommandOption hall_option =
+        app.add_flag("--list-hall", list_of_hall,
+                     "print what stands in the example hall (config/hall/room.toml): name, 'lit' where the "
+                     "bake gives it its light "
+                     "or 'unlit' where its colours have it, and what it is, separated by tabs");
+    hall_option.excludes(name_option).excludes(output_option).excludes(folder_option).excludes(list_option);
     list_option.excludes(name_option).excludes(output_option).excludes(folder_option);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
-            if (!list && (name.empty() || (output.empty() && folder.empty()))) {
-                throw missing("NAME and -o or --folder, or --list,");
+            if (!list && !list_of_hall && (name.empty() || (output.empty() && folder.empty()))) {
+                throw missing("NAME and -o or --folder, or --list or --list-hall,");
             }
         })) {
         return *end;
@@ -107,6 +129,9 @@ int run(int argc, char** argv) {
     }
     if (list) {
         return list_artifacts(language);
+    }
+    if (list_of_hall) {
+        return list_hall();
     }
     const Result<void> written = write_artifact(name, triangles, output, folder);
     return written ? 0 : report(written.error());

@@ -3,6 +3,7 @@
 #include "app/drawing/drawing.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/drawing/room_objects.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
 
@@ -29,8 +30,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--sheet", request.sheet,
                    "table: A3 with table, projector and eyes (the default); prop: A3 with the prop's views "
                    "and unfolded faces; net: the unfolded faces in true size, to cut out; holder: A3 with a "
-                   "plate that the prop rests in")
-        .one_of({"table", "prop", "net", "holder"});
+                   "plate that the prop rests in; room: A3 with the screen and the room behind it")
+        .one_of({"table", "prop", "net", "holder", "room"});
     return app.end_of_arguments(argc, argv);
 }
 
@@ -40,6 +41,14 @@ Result<void> draw(const Request& request) {
     TRY(const settings::CheckedSettings settings, settings::load_settings(request.config));
     TRY_VOID(check_output_place(request.output));
     const std::string name = request.config.filename().string();
+    if (request.sheet == "room") {
+        if (!settings->screen.exists()) {
+            return bad_input("drawing.no_screen",
+                             "--sheet room: the settings have no screen; add a table [screen] with its room");
+        }
+        TRY(const std::vector<drawing::DrawnObject> objects, drawn_objects(settings->screen.room));
+        return write_file(request.output, as_bytes(drawing::room_sheet(*settings, objects, name)));
+    }
     const std::string drawing = request.sheet == "table"    ? drawing::table_sheet(*settings, name)
                                 : request.sheet == "prop"   ? drawing::prop_sheet(*settings, name)
                                 : request.sheet == "holder" ? drawing::holder_sheet(*settings, name)

@@ -6,10 +6,12 @@
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/render/eye_choice.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/programs/frustumscreen/render/screen_painter.h"
 #include "app/programs/frustumscreen/render/screen_pictures.h"
 #include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
+#include "app/simulation/room.h"
 #include "app/simulation/visitor_view.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
@@ -68,9 +70,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         .one_of({"prop", "screen"})
         .capture_default_str();
     app.add_option("--view", request.view,
-                   "picture to draw: the projector's, or the visitor's view, which is half as wide and high "
-                   "unless --width and --height are given")
-        .one_of({"projector", "visitor"})
+                   "picture to draw: the projector's; the visitor's view of the prop, which is half as wide "
+                   "and high unless --width and --height are given; or room, the visitor's view of table, "
+                   "prop and the screen behind")
+        .one_of({"projector", "visitor", "room"})
         .capture_default_str();
     app.add_option("--eye", request.eye,
                    "draw the picture of one eye alone, in full size, or of both in the settings' layout "
@@ -110,6 +113,7 @@ struct Studio {
     const Request& request;
     const settings::Settings& settings;
     show::OfflineRenderer& renderer;
+    ScreenPainter* screen; ///< none: the settings have no screen, or the view does not show it
     EyeChoice eye;
     MonotonicTime begin; ///< of the first pose
 
@@ -118,14 +122,35 @@ struct Studio {
     }
 };
 
+/// What the visitor's eye sees: the screen shines by its picture for this eye.
 simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::TrackedState& tracked_state,
                                        const glm::dvec3& eye_m) {
-    return {.projector = studio.renderer.projector(),
-            .table_from_projector = studio.settings.projector.table_from_projector,
-            .prop = studio.renderer.prop(),
-            .table_from_prop = tracked_state.table_from_prop,
-            .eye_m = eye_m,
-            .table_size_m = {studio.settings.table.width_m, studio.settings.table.depth_m}};
+    const settings::Settings& settings = studio.settings;
+    simulation::VisitorScene scene{.projector = studio.renderer.projector(),
+                                   .table_from_projector = settings.projector.table_from_projector,
+                                   .prop = studio.renderer.prop(),
+                                   .table_from_prop = tracked_state.table_from_prop,
+                                   .eye_m = eye_m,
+                                   .table_size_m = {settings.table.width_m, settings.table.depth_m}};
+    if (studio.screen != nullptr) {
+        studio.screen->draw(to_seconds(tracked_state.time - studio.begin), std::span(&eye_m, 1));
+        scene.screen = simulation::VisitorScreen{.corners_m = settings.screen.corners_m,
+                                                 .picture = studio.screen->picture()};
+    }
+    if (studio.request.view == "room") {
+        scene.objects = simulation::room_around(scene.table_size_m, scene.table_from_projector.translation);
+        const std::vector<simulation::RoomObject> stand = simulation::stand_of(*scene.screen);
+        scene.objects.insert(scene.objects.end(), stand.begin(), stand.end());
+    }
+    return scene;
+}
+
+simulation::VisitorCamera camera_of(const Request& request, const simulation::VisitorScene& scene) {
+    const int width = request.width > 0 ? request.width : std::max(1, scene.projector.width / 2);
+    const int height = request.height > 0 ? request.height : std::max(1, scene.projector.height / 2);
+    return request.view == "room"
+               ? simulation::whole_camera(scene, width, height)
+               : simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, width, height);
 }
 
 /// Writes one frame's files and returns its line of frames.csv.
@@ -136,13 +161,9 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame,
     show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, eyes_m,
                                                         to_seconds(tracked_state.time - studio.begin));
     const std::int64_t t_us = to_microseconds(tracked_state.time);
-    if (studio.request.view == "visitor") {
+    if (studio.request.view != "projector") {
         const simulation::VisitorScene scene = visitor_scene(studio, tracked_state, eyes_m.front());
-        const Request& request = studio.request;
-        const simulation::VisitorCamera camera = simulation::visitor_camera(
-            scene.prop, scene.table_from_prop, scene.eye_m,
-            request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
-            request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
+        const simulation::VisitorCamera camera = camera_of(studio.request, scene);
         picture.colour = simulation::visitor_view(scene, picture.colour, camera,
                                                   studio.request.no_light ? simulation::exact_check()
                                                                           : simulation::VisitorViewOptions{});
@@ -212,8 +233,12 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
         return bad_input("render.no_pack",
                          "--pack is missing: the projector's pictures show a pack's artifact");
     }
+    if (request.view == "room" && !settings->screen.exists()) {
+        return bad_input("render.no_room_to_see",
+                         "--view room: the settings have no screen; add a table [screen] with its room");
+    }
     TRY(const EyeChoice eye, choose_eye(request.eye, settings::stereo_of(*settings),
-                                        request.options.hit_points || request.view == "visitor"));
+                                        request.options.hit_points || request.view != "projector"));
     const show::OfflineSetup setup{settings, options_for(request, eye, settings->eye, frames)};
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
@@ -223,9 +248,14 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
     }
     TRY_VOID(make_folder(request.out));
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
+    std::unique_ptr<ScreenPainter> screen;
+    if (settings->screen.exists() && request.view != "projector") {
+        TRY(screen, ScreenPainter::create(*settings, request.eye, true));
+    }
     const Studio studio{.request = request,
                         .settings = *settings,
                         .renderer = *renderer,
+                        .screen = screen.get(),
                         .eye = eye,
                         .begin = frames.empty() ? MonotonicTime{} : frames.front().time};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";

@@ -1,11 +1,9 @@
 #include "app/programs/frustumscreen/render/screen_pictures.h"
 
 #include "app/programs/common/progress_line.h"
+#include "app/programs/frustumscreen/render/screen_painter.h"
 #include "app/render/hit_points.h"
-#include "app/render/read_back.h"
-#include "app/show/room_show.h"
 #include "firmware_host/base/file.h"
-#include "firmware_host/display/surfaceless_display.h"
 
 #include <fmt/format.h>
 
@@ -27,43 +25,30 @@ Result<void> write_screen_pictures(const settings::Settings& configured, const S
         settings.screen.width = request.width;
         settings.screen.height = request.height;
     }
-    TRY(const EyeChoice eye,
-        choose_eye(request.eye, settings::screen_stereo_of(settings), request.hit_points));
-    const scene::FlatScreen screen =
-        scene::flat_screen(settings.screen.corners_m, settings.screen.width, settings.screen.height);
-    const scene::StereoLayout layout =
-        scene::stereo_layout(screen.pinhole, eye == EyeChoice::Both ? settings::screen_stereo_of(settings)
-                                                                    : settings::Stereo::Off);
-    TRY(const std::unique_ptr<display::SurfacelessDisplay> display,
-        display::SurfacelessDisplay::create(layout.display.width, layout.display.height));
-    TRY(const std::unique_ptr<show::RoomShow> room,
-        show::RoomShow::create(settings, {.both_eyes = eye == EyeChoice::Both}));
+    TRY(const std::unique_ptr<ScreenPainter> painter,
+        ScreenPainter::create(settings, request.eye, request.hit_points));
+    const show::RoomShow& room = painter->room();
     std::optional<render::HitPointRenderer> hit_points;
     if (request.hit_points) {
-        TRY(hit_points, render::HitPointRenderer::create(room->renderer()));
+        TRY(hit_points, render::HitPointRenderer::create(room.renderer()));
     }
     std::string csv = "frame,t_us,ms,error_mm\n";
     ProgressLine progress("rendering");
     for (std::size_t k = 0; k < frames.size(); ++k) {
         const tracking::TrackedState& frame = frames[k];
-        const std::vector<glm::dvec3> eyes_m = chosen_eyes(eye, frame, 1e-3 * settings.eye.interocular_mm);
+        const std::vector<glm::dvec3> eyes_m =
+            chosen_eyes(painter->eye(), frame, 1e-3 * settings.eye.interocular_mm);
         const auto start = std::chrono::steady_clock::now();
-        static_cast<void>(room->draw(to_seconds(frame.time - frames.front().time), eyes_m,
-                                     {display->framebuffer(), display->buffer_age()},
-                                     render::Redraw::Everything));
-        static_cast<void>(display->present(MonotonicTime{})); // cannot fail without a screen
+        painter->draw(to_seconds(frame.time - frames.front().time), eyes_m);
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         const std::filesystem::path stem = request.out / fmt::format("frame_{:05}", k);
-        TRY_VOID(write_file(stem.string() + ".png",
-                            image::encode_png(render::read_colour(
-                                display->framebuffer(), layout.display.width, layout.display.height))));
+        TRY_VOID(write_file(stem.string() + ".png", image::encode_png(painter->picture())));
         if (hit_points) {
-            TRY_VOID(write_file(
-                stem.string() + ".pfm",
-                image::encode_pfm(hit_points->draw(room->plans().front(), room->renderer().store()))));
+            TRY_VOID(write_file(stem.string() + ".pfm", image::encode_pfm(hit_points->draw(
+                                                            room.plans().front(), room.renderer().store()))));
         }
         csv += fmt::format("{},{},{:.3f},{:.4f}\n", k, to_microseconds(frame.time), taken.count(),
-                           room->error_mm());
+                           room.error_mm());
         progress.show(k + 1, frames.size());
     }
     return write_file(request.out / "frames.csv", as_bytes(csv));
