@@ -51,8 +51,8 @@ struct Chosen {
     std::size_t setting = 0;
 };
 
-/// The coarsest setting whose error is not above `most_mm`; otherwise the finest.
-Result<Chosen> coarsest_within(RoomErrors& errors, const Settings& settings, double most_mm) {
+/// The coarsest setting whose error is not above `max_mm`; otherwise the finest.
+Result<Chosen> coarsest_within(RoomErrors& errors, const Settings& settings, double max_mm) {
     std::size_t low = 0; // all before it err more
     std::size_t high = settings.count - 1;
     Chosen chosen{settings.make(high), {}, high};
@@ -60,7 +60,7 @@ Result<Chosen> coarsest_within(RoomErrors& errors, const Settings& settings, dou
         const std::size_t middle = (low + high) / 2;
         Made technique = settings.make(middle);
         TRY(const RoomError error, errors.measure(*technique, false));
-        if (error.mean_mm <= most_mm) {
+        if (error.mean_mm <= max_mm) {
             chosen = {std::move(technique), error, middle};
             high = middle;
         } else {
@@ -83,7 +83,7 @@ constexpr std::array budget_shares{0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0};
 
 class Peers {
 public:
-    Peers(RoomSet& set, RoomErrors& errors, double most_mm) : set_(set), errors_(errors), most_mm_(most_mm) {}
+    Peers(RoomSet& set, RoomErrors& errors, double max_mm) : set_(set), errors_(errors), max_mm_(max_mm) {}
 
     [[nodiscard]] Result<Chosen> polygons() {
         TRY(Chosen chosen, coarsest_within(errors_,
@@ -91,7 +91,7 @@ public:
                                             [this](std::size_t k) {
                                                 return make_room_polygons(set_, error_steps_mm.at(k));
                                             }},
-                                           most_mm_));
+                                           max_mm_));
         paper_polygons_.error_mm = error_steps_mm.at(chosen.setting);
         return chosen;
     }
@@ -105,18 +105,18 @@ public:
                                  [this, shell_as_polygons](std::size_t k) {
                                      return make_room_relief(set_, relief_steps_mm.at(k), shell_as_polygons);
                                  }},
-                                most_mm_));
+                                max_mm_));
         }
         auto& [relief, mixed] = chosen;
-        const bool both = (relief.error.mean_mm <= most_mm_) == (mixed.error.mean_mm <= most_mm_);
-        const bool second = both ? mixed.error.ms < relief.error.ms : mixed.error.mean_mm <= most_mm_;
+        const bool both = (relief.error.mean_mm <= max_mm_) == (mixed.error.mean_mm <= max_mm_);
+        const bool second = both ? mixed.error.ms < relief.error.ms : mixed.error.mean_mm <= max_mm_;
         return std::move(second ? mixed : relief);
     }
     [[nodiscard]] Result<Chosen> lod() {
         return coarsest_within(errors_,
                                {error_steps_px.size(),
                                 [this](std::size_t k) { return make_room_lod(set_, error_steps_px.at(k)); }},
-                               most_mm_);
+                               max_mm_);
     }
     /// `learned`: frames of another walk. After `polygons`, whose level it draws.
     [[nodiscard]] Result<Chosen> paper(std::span<const RoomFrame> learned, PaperWeights& weights) {
@@ -128,13 +128,13 @@ public:
                                     return make_room_paper(set_, weights, paper_polygons_,
                                                            budget_shares.at(k) * all);
                                 }},
-                               most_mm_);
+                               max_mm_);
     }
 
 private:
     RoomSet& set_;
     RoomErrors& errors_;
-    double most_mm_;
+    double max_mm_;
     PaperPolygons paper_polygons_;
 };
 

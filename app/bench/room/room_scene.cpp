@@ -86,9 +86,9 @@ room::Room make_room(std::span<const RoomSource> sources, int objects, std::uint
                                         near_m + 0.1 + (row + 0.5) * along_m, 0.0) +
                              jitter_m;
         const bool raised = standing < plinths && (k + 1) * plinths >= (standing + 1) * places;
-        const double most_m = std::clamp(0.8 * std::min(across_m, along_m), 0.1, 0.45);
+        const double max_m = std::clamp(0.8 * std::min(across_m, along_m), 0.1, 0.45);
         if (raised) {
-            const double high_m = std::min(most_m, draw.between(0.22, 0.36));
+            const double high_m = std::min(max_m, draw.between(0.22, 0.36));
             room.objects.push_back({.name = fmt::format("plinth {}", ++standing),
                                     .pack = plinth,
                                     .place_m = place_m,
@@ -103,7 +103,7 @@ room::Room make_room(std::span<const RoomSource> sources, int objects, std::uint
                             .pack = artifact,
                             .place_m = place_m,
                             .turn_deg = draw.between(-180.0, 180.0),
-                            .size_m = most_m * draw.between(0.5, raised ? 0.75 : 1.0),
+                            .size_m = max_m * draw.between(0.5, raised ? 0.75 : 1.0),
                             .motion = motion_of(k, draw)};
         if (raised) {
             object.motion.sway_m = glm::dvec3(0.0); // it would leave its plinth

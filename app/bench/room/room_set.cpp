@@ -124,7 +124,7 @@ Result<void> RoomSet::add_lods(const pack::Pack& pack, const RoomSource& source,
     constexpr int texture_side = 1024; // enough for an object on a screen
     const std::size_t triangles = source.mesh->triangles.size();
     std::vector<LevelOfDetail> levels = levels_of_detail(
-        *source.mesh, targets_of(triangles, options.least_lod_triangles, options.polygons_each));
+        *source.mesh, targets_of(triangles, options.min_lod_triangles, options.polygons_each));
     levels.push_back({triangles, *source.mesh, 0.0});
     const double box_per_unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(pack.box_from_file))));
     pack::Pack as_pack;
