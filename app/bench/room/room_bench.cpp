@@ -160,11 +160,13 @@ Result<RoomResult> measure_room(RoomSet& set, const std::vector<RoomWalk>& walks
     for (const RoomWalk& walk : walks) {
         result.walks.push_back(walk.name);
     }
+    progress("the truth", 0.0);
     TRY(const std::unique_ptr<RoomTruth> truth,
         RoomTruth::build(set.room(), set.sources(), set.box_from_file()));
     TRY(const std::unique_ptr<RoomErrors> errors,
         RoomErrors::create(set, *truth, walks, options.errors,
                            [&](double done) { progress("the truth", done); }));
+    progress("the peers' settings", 0.0);
     std::vector<Chosen> chosen(1);
     TRY(chosen[0].technique, make_room_ours(set));
     TRY(chosen[0].error, errors->measure(*chosen[0].technique, true));

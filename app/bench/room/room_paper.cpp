@@ -29,6 +29,7 @@ Result<std::vector<RoomPaperRow>> measure_paper_numbers(RoomSet& set, RoomTruth&
                                                         const RoomWalk& walk, const RoomOptions& options,
                                                         const RoomProgress& progress) {
     const std::string step = "the paper's own numbers";
+    progress(step, 0.0);
     const std::vector<RoomWalk> walks{walk};
     TRY(const std::unique_ptr<RoomErrors> errors,
         RoomErrors::create(set, truth, walks, options.errors, [](double) {}));

@@ -5,6 +5,7 @@
 #include "app/render/read_back.h"
 #include "firmware_host/base/file.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace frustumscreen::programs {
@@ -52,10 +53,47 @@ Result<std::vector<bench::RoomSource>> make_sources(const Arguments& arguments, 
     return sources;
 }
 
-/// A settings file by which `frustumscreen render --output screen` draws the same room.
-std::string settings_toml(const Arguments& arguments) {
-    return fmt::format("[screen]\nroom = \"room.toml\"\nwidth = {}\nheight = {}\n", arguments.width,
-                       arguments.height);
+/// How long each step of a run took.
+class StepTimes {
+public:
+    void begin(const std::string& step) {
+        if (begun_.empty() || begun_.back().first != step) {
+            begun_.emplace_back(step, monotonic_now());
+        }
+    }
+    /// One line; the last step ends now.
+    [[nodiscard]] std::string line() const {
+        const MonotonicTime now = monotonic_now();
+        std::string words;
+        for (std::size_t k = 0; k < begun_.size(); ++k) {
+            const MonotonicTime end = k + 1 < begun_.size() ? begun_[k + 1].second : now;
+            words += fmt::format(", {} {:.0f} s", begun_[k].first, to_seconds(end - begun_[k].second));
+        }
+        return fmt::format("{:.0f} s{}\n", begun_.empty() ? 0.0 : to_seconds(now - begun_.front().second),
+                           words);
+    }
+
+private:
+    std::vector<std::pair<std::string, MonotonicTime>> begun_;
+};
+
+/// By these, `frustumscreen render --output screen` draws the same room on the same walks.
+OutputFiles files_to_render(const Arguments& arguments, const room::Room& room,
+                            const std::vector<bench::RoomWalk>& walks) {
+    OutputFiles files{{"room.toml", bench::room_toml(room)},
+                      {"settings.toml", fmt::format("[display]\nkind = \"surfaceless\"\n\n[screen]\nroom = "
+                                                    "\"room.toml\"\nwidth = {}\nheight = {}\n",
+                                                    arguments.width, arguments.height)}};
+    for (const bench::RoomWalk& walk : walks) {
+        std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
+        for (const bench::RoomFrame& frame : walk.frames) {
+            const glm::dvec3& eye_m = frame.eye_m;
+            poses += fmt::format("{0:.0f},1,0,0,0,1,0,0,0,1\n{0:.0f},2,{1},{2},{3},1,0,0,0,1\n",
+                                 1e6 * frame.seconds, eye_m.x, eye_m.y, eye_m.z);
+        }
+        files.emplace_back("poses_" + walk.name + ".csv", std::move(poses));
+    }
+    return files;
 }
 
 /// The picture in the middle of each walk.
@@ -63,7 +101,8 @@ Result<void> write_pictures(bench::RoomSet& set, const std::vector<bench::RoomWa
                             const std::filesystem::path& folder) {
     TRY(const std::unique_ptr<bench::RoomTechnique> ours, bench::make_room_ours(set));
     for (const bench::RoomWalk& walk : walks) {
-        for (std::size_t frame = 0; frame <= walk.frames.size() / 2; ++frame) {
+        const std::size_t middle = walk.frames.size() / 2;
+        for (std::size_t frame = middle - std::min<std::size_t>(middle, 10); frame <= middle; ++frame) {
             ours->draw(walk.frames[frame]);
         }
         const settings::ScreenSettings& screen = set.settings().screen;
@@ -81,27 +120,27 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
         arguments.options.errors = 12;
         arguments.triangles = 140'000; // 20 million with all objects
     }
-    const MonotonicTime started = monotonic_now();
+    StepTimes times;
+    times.begin("the room's packs");
     TRY(const settings::CheckedSettings checked, settings::load_settings(arguments.config));
     settings::Settings settings = *checked;
     TRY_VOID(write_all(arguments.out, {}));
     TRY(std::vector<bench::RoomSource> sources, make_sources(arguments, progress));
-    const double baked_s = to_seconds(monotonic_now() - started);
     const room::Room room = bench::make_room(sources, arguments.objects, arguments.seed);
     settings.screen = {.room = sources.front().pack.parent_path() / "room.toml",
                        .width = arguments.width,
                        .height = arguments.height};
-    TRY_VOID(write_all(sources.front().pack.parent_path(),
-                       {{"room.toml", bench::room_toml(room)}, {"settings.toml", settings_toml(arguments)}}));
+    const std::vector<bench::RoomWalk> walks = bench::room_walks(settings.screen, arguments.options.frames);
+    TRY_VOID(write_all(sources.front().pack.parent_path(), files_to_render(arguments, room, walks)));
     TRY(const std::unique_ptr<bench::RoomSet> set,
         bench::RoomSet::open(settings, room, std::move(sources), {}));
-    const std::vector<bench::RoomWalk> walks = bench::room_walks(settings.screen, arguments.options.frames);
     TRY(const bench::RoomResult result,
-        bench::measure_room(*set, walks, arguments.options,
-                            [&](const std::string& step, double done) { progress.show(step, done); }));
+        bench::measure_room(*set, walks, arguments.options, [&](const std::string& step, double done) {
+            times.begin(step);
+            progress.show(step, done);
+        }));
     progress.clear();
-    fmt::print("{}{}{:.0f} s, of which {:.0f} s made and baked the packs\n", bench::room_table(result),
-               bench::room_verdicts(result), to_seconds(monotonic_now() - started), baked_s);
+    fmt::print("{}{}{}", bench::room_table(result), bench::room_verdicts(result), times.line());
     TRY_VOID(write_all(arguments.out, {{"room.csv", bench::room_csv(result)},
                                        {"room_frames.csv", bench::room_frames_csv(result)},
                                        {"room_paper.csv", bench::room_paper_csv(result)}}));
