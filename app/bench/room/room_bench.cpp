@@ -73,13 +73,21 @@ Result<Chosen> coarsest_within(RoomErrors& errors, const Settings& settings, dou
     return chosen;
 }
 
-/// The pack's mean error in millimetres that each object may have.
-constexpr std::array error_steps_mm{16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.12, 0.06, 0.0};
-/// Of reliefs, of which a pack has few.
-constexpr std::array relief_steps_mm{8.0, 2.0, 0.5, 0.0};
-constexpr std::array error_steps_px{8.0, 4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.12, 0.06, 0.0};
+/// From `coarsest` down in equal ratios, then 0: the finest.
+template <std::size_t Count> constexpr std::array<double, Count> steps_from(double coarsest, double ratio) {
+    std::array<double, Count> steps{};
+    for (std::size_t k = 0; k + 1 < Count; ++k, coarsest *= ratio) {
+        steps[k] = coarsest;
+    }
+    return steps;
+}
+/// The pack's mean error in millimetres that each object may have; of reliefs a pack has few.
+constexpr std::array error_steps_mm = steps_from<24>(16.0, 0.8);
+constexpr std::array relief_steps_mm = steps_from<4>(8.0, 0.25);
+constexpr std::array error_steps_px = steps_from<24>(8.0, 0.8);
 /// Of all polygons, in each frame.
-constexpr std::array budget_shares{0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0};
+constexpr std::array budget_shares{0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.15,
+                                   0.2, 0.3,   0.4,  0.55, 0.7,  0.85, 1.0};
 
 class Peers {
 public:

@@ -124,7 +124,7 @@ class Polygons final : public Peer {
 public:
     Polygons(RoomSet& set, double error_mm) : Peer(set), error_mm_(error_mm) {}
     [[nodiscard]] std::string name() const override { return "polygons"; }
-    [[nodiscard]] std::string setting() const override { return fmt::format("{:g} mm", error_mm_); }
+    [[nodiscard]] std::string setting() const override { return fmt::format("{:.3g} mm", error_mm_); }
 
 private:
     void choose(const RoomFrame&, std::span<const SeenObject> seen,
@@ -143,7 +143,7 @@ public:
         : Peer(set), error_mm_(error_mm), shell_as_polygons_(shell_as_polygons) {}
     [[nodiscard]] std::string name() const override { return "relief"; }
     [[nodiscard]] std::string setting() const override {
-        return fmt::format("{:g} mm{}", error_mm_, shell_as_polygons_ ? ", walls as polygons" : "");
+        return fmt::format("{:.3g} mm{}", error_mm_, shell_as_polygons_ ? ", walls as polygons" : "");
     }
 
 private:
@@ -164,7 +164,7 @@ class Lod final : public Peer {
 public:
     Lod(RoomSet& set, double error_px) : Peer(set), error_px_(error_px) {}
     [[nodiscard]] std::string name() const override { return "lod"; }
-    [[nodiscard]] std::string setting() const override { return fmt::format("{:g} px", error_px_); }
+    [[nodiscard]] std::string setting() const override { return fmt::format("{:.3g} px", error_px_); }
 
 private:
     void choose(const RoomFrame& frame, std::span<const SeenObject> seen,
