@@ -9,7 +9,9 @@
 #pragma once
 
 #include "app/bench/techniques/technique.h"
+#include "app/render/read_back.h"
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -28,6 +30,18 @@ struct Spread {
 
 /// Processor time of this process, all threads.
 [[nodiscard]] double cpu_now_ms();
+
+/// Processor time until what `draw` draws is complete.
+template <typename Draw> [[nodiscard]] double ms_of(const Draw& draw) {
+    const double start_ms = cpu_now_ms();
+    draw();
+    render::wait_until_drawn();
+    return cpu_now_ms() - start_ms;
+}
+/// `min_ms`: a frame's least time of several passes, first infinite.
+template <typename Draw> void keep_least_ms(double& min_ms, const Draw& draw) {
+    min_ms = std::min(min_ms, ms_of(draw));
+}
 
 struct TimingPlan {
     int rounds = 3; ///< how often every technique draws each pose

@@ -300,4 +300,16 @@ bake::SourceMesh make_game_board(std::int64_t triangles) {
     return whole;
 }
 
+std::string_view name_of(GamePiece piece) {
+    static const std::array<Kind, 4> all = kinds();
+    return all.at(static_cast<std::size_t>(piece)).name;
+}
+
+bake::SourceMesh make_game_piece(GamePiece piece, std::int64_t triangles) {
+    const Patch patch = turned(kinds().at(static_cast<std::size_t>(piece)), glm::dvec3(0.0), light_rows);
+    bake::SourceMesh mesh = artifacts::make_mesh({patch}, std::max<std::int64_t>(1000, triangles), paint());
+    mesh.is_unlit = true;
+    return mesh;
+}
+
 } // namespace frustumscreen::bench

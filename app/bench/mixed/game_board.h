@@ -7,6 +7,7 @@
 #include "assets_baked/bake/source_mesh.h"
 
 #include <cstdint>
+#include <string_view>
 
 namespace frustumscreen::bench {
 
@@ -14,5 +15,10 @@ inline constexpr std::size_t game_board_pieces = 14;
 
 /// About `triangles` triangles, but at least 1000 for each piece and for the board.
 [[nodiscard]] bake::SourceMesh make_game_board(std::int64_t triangles);
+
+enum class GamePiece { Pawn, Rook, Bishop, King };
+[[nodiscard]] std::string_view name_of(GamePiece piece);
+/// One piece of light stone, standing at the origin; about `triangles` triangles, but at least 1000.
+[[nodiscard]] bake::SourceMesh make_game_piece(GamePiece piece, std::int64_t triangles);
 
 } // namespace frustumscreen::bench

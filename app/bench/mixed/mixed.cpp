@@ -6,7 +6,6 @@
 #include "app/bench/mixed/popping.h"
 #include "app/bench/truth/lit_source.h"
 #include "app/pack/pack_file.h"
-#include "app/render/read_back.h"
 #include "firmware_host/base/quantile.h"
 
 #include <algorithm>
@@ -27,10 +26,7 @@ void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, st
     min_ms.resize(walk.size(), std::numeric_limits<double>::infinity());
     technique.begin();
     for (std::size_t frame = 0; frame < walk.size(); ++frame) {
-        const double start_ms = cpu_now_ms();
-        technique.draw(frame, walk[frame]);
-        render::wait_until_drawn();
-        min_ms[frame] = std::min(min_ms[frame], cpu_now_ms() - start_ms);
+        keep_least_ms(min_ms[frame], [&] { technique.draw(frame, walk[frame]); });
     }
 }
 

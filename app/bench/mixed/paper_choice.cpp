@@ -72,6 +72,9 @@ PaperWeights find_weights(std::span<const std::vector<PaperCell>> frames, std::s
         for (const double v : tried) {
             for (const double w : tried) {
                 for (const double x : tried) {
+                    if (u + v + w + x == 0.0) {
+                        continue; // no order at all
+                    }
                     const PaperWeights weights{u, v, w, x};
                     const double mm = error_mm(frames, budgets, weights);
                     if (mm < best_mm) {

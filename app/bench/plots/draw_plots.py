@@ -15,6 +15,7 @@ import textwrap
 from contextlib import contextmanager
 from pathlib import Path
 
+import room_plots
 from panels import Failure, Panel, Series, save_column, save_sheet
 
 COST = "median frame time / that of the floor"
@@ -325,9 +326,15 @@ def draw_mixed_frames(path):
     save_column(path.with_suffix(".svg"), panels)
 
 
+def of_rows(drawn):
+    return lambda path: drawn(path, read_table(path))
+
+
 TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_": draw_scaling,
           "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup,
-          "guidance": draw_guidance, "ladder": draw_ladder, "mixed": draw_mixed, "mixed_frames": draw_mixed_frames}
+          "guidance": draw_guidance, "ladder": draw_ladder, "mixed": draw_mixed, "mixed_frames": draw_mixed_frames,
+          "room": of_rows(room_plots.draw_room), "room_frames": of_rows(room_plots.draw_room_frames),
+          "room_paper": of_rows(room_plots.draw_room_paper)}
 
 
 @contextmanager

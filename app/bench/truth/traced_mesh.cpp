@@ -92,6 +92,14 @@ void TracedMesh::add_triangles() {
 Result<std::shared_ptr<const TracedMesh>> TracedMesh::build(std::shared_ptr<const bake::SourceMesh> mesh,
                                                             const glm::dmat4& prop_from_artifact,
                                                             bake::Sides sides) {
+    const std::unique_ptr<RTCDeviceTy, Release> device(rtcNewDevice(nullptr));
+    return build_on(device.get(), std::move(mesh), prop_from_artifact, sides);
+}
+
+Result<std::shared_ptr<const TracedMesh>> TracedMesh::build_on(RTCDevice device,
+                                                               std::shared_ptr<const bake::SourceMesh> mesh,
+                                                               const glm::dmat4& prop_from_artifact,
+                                                               bake::Sides sides) {
     if (!mesh || mesh->triangles.empty()) {
         return bad_input(
             "bench.no_triangles",
@@ -118,7 +126,8 @@ Result<std::shared_ptr<const TracedMesh>> TracedMesh::build(std::shared_ptr<cons
                          "the pack's placement does not map the mesh to finite points; bake the pack again");
     }
     traced->box_ = {box.low - 1e-4 * size, box.high + 1e-4 * size};
-    traced->device_.reset(rtcNewDevice(nullptr));
+    rtcRetainDevice(device);
+    traced->device_.reset(device);
     traced->scene_.reset(rtcNewScene(traced->device_.get()));
     traced->add_triangles();
     if (rtcGetDeviceError(traced->device_.get()) != RTC_ERROR_NONE) {

@@ -138,6 +138,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand stereo_command(CommandLine& app);
 /// Which cells are polygons and which are relief: ours against the paper's choice, on one walk.
 [[nodiscard]] BenchCommand mixed_command(CommandLine& app);
+/// The room behind the screen, of many objects, against other ways to draw it.
+[[nodiscard]] BenchCommand room_command(CommandLine& app);
 /// A pack's cells at rest against the whole.
 [[nodiscard]] BenchCommand cells_command(CommandLine& app);
 /// The benefit of advice for visitors.

@@ -313,6 +313,42 @@ class Panels(Plots):
         self.assertEqual(len(list(self.folder.iterdir())), 2)  # no partial file stays
 
 
+class Room(Plots):
+    def test_the_slowest_frame_of_each_technique_is_marked_with_its_rate(self):
+        table = self.folder / "room_frames.csv"
+        write_table(table, ({"technique": technique, "walk": walk, "seconds": seconds, "ms": ms, "wall_ms": 2 * ms}
+                            for technique, times in (("ours", (20, 25, 20)), ("lod", (50, 80, 100)))
+                            for walk in ("paper", "bends") for seconds, ms in enumerate(times)))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        for panel in (0, 1):
+            self.assert_at(svg, panel, "ours, least/more", [(1, 40)], log=False)
+            self.assert_at(svg, panel, "lod, least/more", [(2, 10)], log=False)
+        self.assertEqual(svg.texts().count("40.0"), 2)
+
+    def test_each_technique_stands_at_its_median_and_its_99th_percentile(self):
+        table = self.folder / "room.csv"
+        write_table(table, ({"technique": technique, "objects": 200, "triangles": 4_000_000, "ms_p50": ms, "ms_p99": 2 * ms,
+                             "fps_min": 1, "error_mm_mean": error}
+                            for technique, ms, error in (("ours", 20, 1.0), ("paper", 60, 3.0))))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        self.assert_at(svg, 0, "paper", [(60, 3.0)])
+        self.assert_at(svg, 0, "paper, p99 mark/more", [(120, 3.0)])
+        self.assertIn("A room of 200 objects, 4.0 million source triangles", svg.texts())
+
+    def test_the_papers_machines_stand_beside_ours(self):
+        table = self.folder / "room_paper.csv"
+        write_table(table, ({"technique": technique, "polygons_s": rate, "polygons_p50": 1, "polygons_max": 2, "ms_p50": 3,
+                             "fps_min": fps, "error_mm_mean": error}
+                            for technique, rate, fps, error in (("paper", 5000, 30, 2.0), ("paper", 50000, 20, 1.5),
+                                                                ("paper", 0, 12, 1.0), ("ours", 0, 40, 1.2))))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        self.assert_at(svg, 0, "paper", [(5000, 2.0), (50000, 1.5)])
+        self.assert_at(svg, 1, "paper", [(5000, 30), (50000, 20)])
+
+
 class WhatIsBroken(Plots):
     def assert_said(self, arguments, words):
         with self.assertRaisesRegex(Failure, words) as caught:
