@@ -9,7 +9,7 @@ from machine import SECOND_SLOT
 ARTIFACT = "amphora"
 CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
 PROJECTOR, SCREEN = "Virtual-2", "Virtual-3"  # of the machine's connectors the second and the third
-SCREEN_WIDTH, SCREEN_HEIGHT = 320, 180
+SCREEN_WIDTH, SCREEN_HEIGHT = WIDTH, HEIGHT  # a mode that the emulated card lists
 PLACES_M = ((0.1, -0.05, 0.0), (-0.1, -0.05, 0.0))
 EYES_M = (EYE_M, (0.25, -0.5, 0.55))
 PACKS = "/var/lib/frustumscreen/packs"  # in the guest
