@@ -41,7 +41,7 @@ public:
     /// From here on artifacts are taken out of the room behind the screen, and put back.
     void set_room(std::unique_ptr<RoomTaking> room);
     /// The room's objects that are not in their places, as of the latest step; for RoomShow::draw of the same time.
-    [[nodiscard]] std::span<const room::TakenPose> taken() const {
+    [[nodiscard]] std::span<const room::TakenPose> taken() const override {
         return room_ ? room_->poses() : std::span<const room::TakenPose>();
     }
 

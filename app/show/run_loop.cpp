@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 namespace frustumscreen::show {
@@ -131,7 +132,7 @@ private:
         }
         watch_.look(now, display_, inputs_);
         count(drawn.presented, drawn.changed, now, ms);
-        step_screen(now, tracked_state);
+        step_screen(now, tracked_state, begin);
         result_.status.prop_known = tracked_state.prop_known;
         result_.status.head_known = tracked_state.head_known;
         const ShowState state = show_.state();
@@ -163,16 +164,20 @@ private:
         return {};
     }
 
-    /// The screen's turn, after the projector's picture.
-    void step_screen(MonotonicTime now, const tracking::TrackedState& tracked_state) {
+    /// The screen's turn, after the projector's picture, in the time that is left of the frame.
+    void step_screen(MonotonicTime now, const tracking::TrackedState& tracked_state, MonotonicTime begin) {
         if (options_.screen != nullptr) {
             watch_.enters("draws the screen");
-            options_.screen->step({.now = now,
-                                   .tracked_state = tracked_state,
-                                   .light = hours_ != nullptr ? hours_->light() : 1.0,
-                                   .asleep = asleep_,
-                                   .unused = attracts_,
-                                   .redraw = options_.redraw});
+            options_.screen->step(
+                {.now = now,
+                 .tracked_state = tracked_state,
+                 .light = hours_ != nullptr ? hours_->light() : 1.0,
+                 .asleep = asleep_,
+                 .unused = attracts_,
+                 .budget_us = options_.fast ? std::numeric_limits<double>::infinity()
+                                            : 1e6 * to_seconds(period_) - 1e3 * milliseconds_since(begin),
+                 .taken = show_.taken(),
+                 .redraw = options_.redraw});
         }
     }
 
@@ -300,7 +305,7 @@ private:
         watch_.asleep(now);
         watch_.look(now, display_, inputs_);
         count(false, false, now, milliseconds_since(begin));
-        step_screen(now, tracked_state);
+        step_screen(now, tracked_state, begin);
         result_.status.prop_known = tracked_state.prop_known;
         result_.status.head_known = tracked_state.head_known;
         if (inputs_.panel) {

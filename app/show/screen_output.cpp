@@ -4,6 +4,7 @@
 #include "app/scene/flat_screen.h"
 #include "app/show/room_show.h"
 #include "firmware_host/base/format_sentence.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <array>
 #include <string>
@@ -63,13 +64,22 @@ private:
 
 } // namespace
 
-std::function<Result<DrawRoom>()> room_of(const settings::Settings& settings) {
-    return [&settings]() -> Result<DrawRoom> {
-        TRY(std::shared_ptr<RoomShow> room, RoomShow::create(settings, {.both_eyes = true}));
-        return [room = std::move(room)](double seconds, double light, std::span<const glm::dvec3> eyes_m,
-                                        const render::RenderTarget& target, render::Redraw redraw) {
-            room->set_light(light);
-            return room->draw(seconds, eyes_m, target, redraw);
+std::function<Result<DrawRoom>()> room_of(const settings::Settings& settings, bool live) {
+    return [&settings, live]() -> Result<DrawRoom> {
+        TRY(std::shared_ptr<RoomShow> room, RoomShow::create(settings, {.both_eyes = true, .live = live}));
+        return [room = std::move(room), told = std::size_t{0}](const RoomFrame& frame) mutable {
+            if (frame.before_ms) {
+                room->record_time(*frame.before_ms);
+            }
+            room->set_light(frame.light);
+            room->set_budget(frame.budget_us);
+            room->set_taken(frame.taken);
+            const render::DrawResult drawn =
+                room->draw(frame.seconds, frame.eyes_m, frame.target, frame.redraw);
+            for (; told < room->faults().size(); ++told) {
+                say_line("frustumscreen", room->faults()[told]);
+            }
+            return drawn;
         };
     };
 }
@@ -156,10 +166,15 @@ void ScreenOutput::draw(const ScreenFrame& frame) {
     const render::RenderTarget target{display_->framebuffer(), display_->buffer_age()};
     const std::array<glm::dvec3, 2> both_m =
         tracking::eyes_of(frame.tracked_state, 1e-3 * settings_.eye.interocular_mm);
-    const render::DrawResult drawn =
-        draw_room_(to_seconds(frame.now - start_), frame.light,
-                   scene::drawn_eyes(layout_, frame.tracked_state.eye_m, both_m), target,
-                   probe && frame.redraw == render::Redraw::Changes ? render::Redraw::Again : frame.redraw);
+    const render::DrawResult drawn = draw_room_(
+        {.seconds = to_seconds(frame.now - start_),
+         .light = frame.light,
+         .budget_us = frame.budget_us,
+         .before_ms = std::exchange(before_ms_, std::nullopt),
+         .taken = frame.taken,
+         .eyes_m = scene::drawn_eyes(layout_, frame.tracked_state.eye_m, both_m),
+         .target = target,
+         .redraw = probe && frame.redraw == render::Redraw::Changes ? render::Redraw::Again : frame.redraw});
     if (!drawn.drawn) {
         return;
     }
@@ -179,7 +194,8 @@ void ScreenOutput::draw(const ScreenFrame& frame) {
     watch_.presented(frame.now);
     if (!drawn.redrawn.empty()) {
         ++report_.drawn;
-        times_.add(1e3 * to_seconds(monotonic_now() - begin));
+        before_ms_ = 1e3 * to_seconds(monotonic_now() - begin);
+        times_.add(*before_ms_);
     }
     if (watch_.wants_code(frame.now)) {
         read_back(frame.now);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "app/render/renderer.h"
+#include "app/room/taking.h"
 #include "app/scene/stereo.h"
 #include "app/settings/settings.h"
 #include "app/show/run_report.h"
@@ -21,6 +22,7 @@
 #include "firmware_host/service/watchdog_policy.h"
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,18 +30,26 @@
 
 namespace frustumscreen::show {
 
-/// Draws the room, as RoomShow::draw. `light`: factor of linear light, 0..1.
-using DrawRoom =
-    std::function<render::DrawResult(double seconds, double light, std::span<const glm::dvec3> eyes_m,
-                                     const render::RenderTarget& target, render::Redraw redraw)>;
+/// A picture of the room, as RoomShow draws it.
+struct RoomFrame {
+    double seconds = 0.0;
+    double light = 1.0;                             ///< factor of linear light, 0..1
+    double budget_us = 0.0;                         ///< that the projector's picture has left
+    std::optional<double> before_ms = std::nullopt; ///< the picture before took so long until it was complete
+    std::span<const room::TakenPose> taken = {};
+    std::span<const glm::dvec3> eyes_m = {};
+    render::RenderTarget target;
+    render::Redraw redraw = render::Redraw::Changes;
+};
+using DrawRoom = std::function<render::DrawResult(const RoomFrame& frame)>;
 
 /// How the parts of the screen are made, with the display's context current for the room.
 struct ScreenParts {
     std::function<Result<std::unique_ptr<display::Display>>()> make_display;
     std::function<Result<DrawRoom>()> make_room;
 };
-/// The room of the settings.
-[[nodiscard]] std::function<Result<DrawRoom>()> room_of(const settings::Settings& settings);
+/// The room of the settings. `live`: as RoomShowOptions. A pack that cannot be read is said on standard error.
+[[nodiscard]] std::function<Result<DrawRoom>()> room_of(const settings::Settings& settings, bool live);
 
 struct ScreenFrame {
     MonotonicTime now;
@@ -47,6 +57,8 @@ struct ScreenFrame {
     double light = 1.0;
     bool asleep = false; ///< dark on purpose
     bool unused = false; ///< nobody uses the exhibit, so that a picture may be late
+    double budget_us = std::numeric_limits<double>::infinity(); ///< until the next frame begins
+    std::span<const room::TakenPose> taken = {}; ///< the room's objects that are not in their places
     render::Redraw redraw = render::Redraw::Changes;
 };
 
@@ -88,6 +100,7 @@ private:
     std::optional<StillTaker> stills_;
     service::WatchdogPolicy watch_;
     service::Health health_ = service::Health::Well;
+    std::optional<double> before_ms_;        ///< the picture before took so long
     std::optional<MonotonicTime> presented_; ///< none: not since it was opened, or since sleep
     MonotonicTime tried_;
     bool room_failed_ = false;

@@ -8,6 +8,7 @@
 #include "app/render/renderer.h"
 #include "app/residency/prompt_reader.h"
 #include "app/residency/run_levels.h"
+#include "app/room/taking.h"
 #include "app/settings/command.h"
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
@@ -65,6 +66,8 @@ public:
     /// picture is shown.
     virtual void set_signal(const tracking::TrackerSignal& /*prop*/,
                             const tracking::TrackerSignal& /*head*/) {}
+    /// The objects of the room behind the screen that are not in their places, as of the latest step (room/taking.h).
+    [[nodiscard]] virtual std::span<const room::TakenPose> taken() const { return {}; }
     /// The sound to play.
     [[nodiscard]] virtual const sound::SoundRequest& sound_request() const {
         static const sound::SoundRequest silence;

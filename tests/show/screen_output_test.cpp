@@ -96,14 +96,13 @@ protected:
                     if (no_room) {
                         return bad_input("room.no_file", "room.toml: there is no such file");
                     }
-                    return [this](double seconds, double light, std::span<const glm::dvec3> eyes_m,
-                                  const render::RenderTarget& /*target*/, render::Redraw redraw) {
+                    return [this](const RoomFrame& frame) {
                         log.lines.emplace_back("screen draws");
-                        drawn_s = seconds;
-                        drawn_light = light;
-                        drawn_eyes_m.assign(eyes_m.begin(), eyes_m.end());
+                        drawn_s = frame.seconds;
+                        drawn_light = frame.light;
+                        drawn_eyes_m.assign(frame.eyes_m.begin(), frame.eyes_m.end());
                         render::DrawResult result;
-                        result.drawn = moves || redraw == render::Redraw::Again;
+                        result.drawn = moves || frame.redraw == render::Redraw::Again;
                         result.redrawn = moves ? PixelRectangle{0, 0, 64, 36} : PixelRectangle{};
                         return result;
                     };

@@ -133,7 +133,7 @@ std::unique_ptr<show::ScreenOutput> open_screen(const RunRequest& request, const
     return std::make_unique<show::ScreenOutput>(
         settings,
         show::ScreenParts{[&settings, &projector] { return make_screen(settings, projector); },
-                          show::room_of(settings)},
+                          show::room_of(settings, !request.fast)},
         projector, start);
 }
 
@@ -149,10 +149,12 @@ Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& se
     exhibit.devices = scene::plan_devices(settings, request.changes > 0, !request.status_file.empty());
     const std::filesystem::path& library = settings.exhibit.library;
     const std::optional<show::FileStamp> set_before = show::stamp_of_set(library);
+    const MonotonicTime begin =
+        now(); // of the room's time: what is taken glides from where the screen shows it
     Result<std::unique_ptr<show::Show>> show = [&] {
         const service::StopSignals::AtOnce at_once(
             stop_signals); // loading takes long and leaves nothing behind
-        return make_show(request, settings, exhibit.devices, *exhibit.display, now());
+        return make_show(request, settings, exhibit.devices, *exhibit.display, begin);
     }();
     if (!show && manager.listens()) {
         exhibit.error_screen = show.error();
@@ -163,7 +165,7 @@ Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& se
     }
     TRY_VOID(show);
     exhibit.show = std::move(*show);
-    exhibit.screen = open_screen(request, settings, *exhibit.display, now());
+    exhibit.screen = open_screen(request, settings, *exhibit.display, begin);
     std::optional<Nanoseconds> press_every;
     if (request.changes > 0) {
         press_every = nanoseconds(request.seconds / request.changes);

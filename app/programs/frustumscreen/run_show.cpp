@@ -1,17 +1,37 @@
 #include "app/programs/frustumscreen/run_show.h"
 
+#include "app/room/room_file.h"
 #include "app/show/artifact_show.h"
 #include "app/show/installed_show.h"
 #include "app/show/kept_volume.h"
 #include "app/show/library_watch.h"
 #include "app/show/live_exhibit.h"
 #include "app/show/pattern_show.h"
+#include "app/show/room_taking.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <string>
 #include <utility>
 
 namespace frustumscreen::programs {
+
+namespace {
+
+/// A room that cannot be read is told by who draws it; the artifacts are then in the prop alone.
+void take_from_room(const settings::Settings& settings, MonotonicTime start, show::LiveExhibit& live) {
+    const Result<room::Room> room = room::read_room(settings.screen.room);
+    if (!room) {
+        return;
+    }
+    Result<std::unique_ptr<show::RoomTaking>> taking = show::RoomTaking::create(settings, *room, start);
+    if (taking) {
+        live.set_room(*std::move(taking));
+    } else {
+        say_line("frustumscreen", taking.error().message);
+    }
+}
+
+} // namespace
 
 Result<std::unique_ptr<show::Show>> make_show(const RunRequest& request, const settings::Settings& settings,
                                               const scene::DevicePlan& devices,
@@ -54,6 +74,9 @@ Result<std::unique_ptr<show::Show>> make_show(const RunRequest& request, const s
                                                                    .frames = stage.expected_frames(),
                                                                    .start = std::move(installed.start),
                                                                    .shown = stage.set().number}));
+    }
+    if (settings.screen.exists()) {
+        take_from_room(settings, start, *live);
     }
     return live;
 }
