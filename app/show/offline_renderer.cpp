@@ -93,7 +93,7 @@ OfflineRenderer::OfflineRenderer(const scene::StereoLayout& layout, const scene:
 
 OfflineRenderer::~OfflineRenderer() {
     if (display_) {
-        display_->make_current(); // what is deleted now lives in its context
+        static_cast<void>(display_->make_current()); // what is deleted now lives in its context
     }
 }
 
@@ -189,7 +189,7 @@ std::optional<scene::ErrorEstimate> OfflineRenderer::error_of(std::span<const sc
 
 OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
                                      std::span<const glm::dvec3> eyes_m, double seconds) {
-    display_->make_current();
+    static_cast<void>(display_->make_current());
     pose_cells(seconds);
     const scene::PlanView view{.projector = projector_,
                                .table_from_projector = table_from_projector_,

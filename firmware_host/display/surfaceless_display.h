@@ -24,8 +24,6 @@ public:
     [[nodiscard]] int height() const override { return picture_.height(); }
     [[nodiscard]] unsigned framebuffer() const override { return picture_.name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
-    /// For a thread with several displays; it cannot fail for a context that was current before.
-    void make_current() const { static_cast<void>(context_.make_current()); }
     /// Waits until the picture is drawn. It is lit nowhere, so the returned time is `now`.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     /// The driver's own name and version.

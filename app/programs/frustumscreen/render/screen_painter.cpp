@@ -20,19 +20,19 @@ Result<std::unique_ptr<ScreenPainter>> ScreenPainter::create(const settings::Set
 
 ScreenPainter::~ScreenPainter() {
     if (display_) {
-        display_->make_current(); // what is deleted now lives in its context
+        static_cast<void>(display_->make_current()); // what is deleted now lives in its context
     }
 }
 
 void ScreenPainter::draw(double seconds, std::span<const glm::dvec3> eyes_m) {
-    display_->make_current();
+    static_cast<void>(display_->make_current());
     static_cast<void>(room_->draw(seconds, eyes_m, {display_->framebuffer(), display_->buffer_age()},
                                   render::Redraw::Everything));
     static_cast<void>(display_->present(MonotonicTime{})); // cannot fail without a screen
 }
 
 image::Image8 ScreenPainter::picture() const {
-    display_->make_current();
+    static_cast<void>(display_->make_current());
     return render::read_colour(display_->framebuffer(), display_->width(), display_->height());
 }
 
