@@ -71,8 +71,8 @@ private:
     std::optional<std::uint8_t> shown_code_;
     status::SharedSetStatus noted_set_;
     bool library_hung_ = false;
-    Sentence display_, screen_, tracker_, camera_, drift_, panel_, sound_, recording_, hours_, clock_, visits_, set_,
-        artifact_, language_, level_;
+    Sentence display_, screen_, tracker_, camera_, drift_, panel_, sound_, recording_, hours_, clock_,
+        visits_, set_, artifact_, language_, level_;
     ImportJournal imports_;
     std::optional<service::HangWatch> hang_watch_; ///< last: its thread uses the other members
 };

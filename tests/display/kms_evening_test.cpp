@@ -119,6 +119,9 @@ TEST_P(KmsEvening, TheProjectorComesGoesSleepsAndIsDarkAtTheEnd) {
         EXPECT_EQ(evening.end(), "");
     }
     EXPECT_FALSE(desk.card.shown(desk.hdmi));
+    const auto& calls = kernel.calls();
+    EXPECT_EQ(std::count(calls.begin(), calls.end(), "drmModeCreateLease"), 0) << "there is no screen";
+    EXPECT_EQ(std::count(calls.begin(), calls.end(), "open"), 1);
 }
 
 TEST_P(KmsEvening, AProjectorAtTheOtherConnectorIsLitThere) {

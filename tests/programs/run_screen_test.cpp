@@ -13,7 +13,8 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-constexpr const char* screen_table = "[screen]\nroom = \"room.toml\"\nwidth = 160\nheight = 90\n";
+constexpr const char* screen_table = "[display]\nconnector = \"HDMI-A-1\"\n[screen]\nroom = "
+                                     "\"room.toml\"\nconnector = \"DP-1\"\nwidth = 160\nheight = 90\n";
 
 class RunScreen : public KioskFolder {
 protected:

@@ -177,6 +177,7 @@ TEST_F(Screen, BothEyesAreThoseOfTheVisitor) {
     settings.screen.stereo = settings::OutputStereo::SideBySide;
     settings.eye.interocular_mm = 60.0;
     state.eye_m = {0.1, -0.6, 0.5};
+    state.eyes_apart = 1.0;
     make();
     frames(1);
     ASSERT_EQ(drawn_eyes_m.size(), 2U);
@@ -289,7 +290,7 @@ TEST_F(Screen, TheRoomIsClosedBeforeItsDisplay) {
 }
 
 /// Draws nothing.
-class DarkShow final : public Show {
+class BlankShow final : public Show {
 public:
     [[nodiscard]] render::DrawResult draw(MonotonicTime /*now*/, const tracking::TrackedState& /*on_table*/,
                                           const render::RenderTarget& /*target*/,
@@ -301,7 +302,7 @@ public:
 
 TEST_F(Screen, TheLoopStepsItInEveryFrameAndTellsOfIt) {
     make();
-    DarkShow show;
+    BlankShow show;
     Inputs inputs;
     LoopOptions options;
     options.length = seconds(2);

@@ -450,7 +450,7 @@ class Prometheus(Status):
         self.assertIn("the screen at DP-1 is lit; 7000 pictures, 600 of them anew, 95 of 100 within 6.0 ms", self.text(0))
         families = self.families(0)
         self.assertEqual(self.value(families, "device_ok", device="screen"), 1)
-        self.assertEqual(self.value(families, "screen_pictures_total"), 7000)
+        self.assertEqual(self.value(families, "screen_pictures"), 7000)
         away = {"devices": devices(screen=device(False, "display.no_projector")),
                 "screen": "no screen is connected to DP-1, or it is off; the exhibit lights it when it comes"}
         self.write("status.json", lit | away)
