@@ -147,7 +147,7 @@ double RoomShow::pixels_of(std::uint32_t object) const {
 }
 
 double RoomShow::error_px(const residency::KnownWay& way, std::uint32_t object) const {
-    return way.mean_box * room_.objects[object].size_m / (view_.objects()[object].away_m * px_rad_);
+    return way.judged_box * room_.objects[object].size_m / (view_.objects()[object].away_m * px_rad_);
 }
 
 double RoomShow::cost_us(const residency::KnownWay& way, std::uint32_t object) const {
@@ -166,7 +166,7 @@ std::uint32_t RoomShow::quickest_enough(std::uint32_t object) const {
         if (!allows(model, known)) {
             continue;
         }
-        finest = finest == none || known.mean_box < model.ways[finest].mean_box ? way : finest;
+        finest = finest == none || known.judged_box < model.ways[finest].judged_box ? way : finest;
         if (error_px(known, object) <= tolerance_px_ &&
             (enough == none || known.work < model.ways[enough].work)) {
             enough = way;
