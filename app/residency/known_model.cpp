@@ -1,6 +1,7 @@
 #include "app/residency/known_model.h"
 
 #include "app/pack/pack_file.h"
+#include "app/scene/governor.h"
 #include "app/scene/inner_box.h"
 #include "app/scene/scene_level.h"
 
@@ -10,14 +11,16 @@ namespace frustumscreen::residency {
 
 namespace {
 
-KnownWay way_of(const scene::QualityLevel& shows, std::uint32_t number, scene::SeenLevel seen, double work,
-                std::uint64_t bytes) {
-    const auto mean_box = static_cast<double>(scene::worst_of(seen).mean_box);
+KnownWay way_of(const scene::QualityLevel& shows, std::uint32_t number, const pack::LevelError& error,
+                scene::SeenLevel seen, double work, std::uint64_t bytes) {
+    const pack::SeenError worst = scene::worst_of(seen);
+    const auto mean_box = static_cast<double>(worst.mean_box);
     return {.name = scene::name_of(shows),
             .number = number,
             .relief = shows.relief,
             .seen = std::move(seen),
             .mean_box = mean_box,
+            .judged_box = scene::judged_error(error, worst),
             .work = work,
             .bytes = bytes};
 }
@@ -55,15 +58,16 @@ Result<KnownModel> know_model(const std::filesystem::path& file) {
         const pack::LevelOutline& known = outline.levels[level];
         constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
         constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float);
-        model.ways.push_back(way_of({.level = level}, level, std::move(seen.levels[level]),
+        model.ways.push_back(way_of({.level = level}, level, known.error, std::move(seen.levels[level]),
                                     static_cast<double>(known.triangles),
                                     known.vertices * per_vertex + known.triangles * per_triangle));
     }
     for (std::uint32_t k = 0; k < model.reliefs.size(); ++k) {
         const pack::ReliefOutline& known = model.reliefs[k];
         constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
-        model.ways.push_back(way_of({.level = known.texels, .relief = true}, k, std::move(seen.reliefs[k]),
-                                    static_cast<double>(known.blocks), more_in_memory * known.bytes));
+        model.ways.push_back(way_of({.level = known.texels, .relief = true}, k, known.error,
+                                    std::move(seen.reliefs[k]), static_cast<double>(known.blocks),
+                                    more_in_memory * known.bytes));
     }
     return model;
 }

@@ -28,7 +28,9 @@ struct KnownWay {
     std::uint32_t number = 0; ///< of the level, or of the relief among the reliefs
     bool relief = false;
     scene::SeenLevel seen;
-    double mean_box = 0.0;   ///< for the eye that sees the most of its error
+    double mean_box = 0.0; ///< for the eye that sees the most of its error
+    double judged_box =
+        0.0; ///< what a tolerance counts (scene::judged_error): the mean alone hides the edges of a wall
     double work = 0.0;       ///< triangles or blocks
     std::uint64_t bytes = 0; ///< expected, until it has been read
 };

@@ -34,6 +34,7 @@ struct ReliefName {
     std::string_view raster, on_gpu;
 };
 constexpr std::array relief_names{
+    ReliefName{24, "relief24", "relief24-gpu"},       ReliefName{48, "relief48", "relief48-gpu"},
     ReliefName{96, "relief96", "relief96-gpu"},       ReliefName{192, "relief192", "relief192-gpu"},
     ReliefName{384, "relief384", "relief384-gpu"},    ReliefName{768, "relief768", "relief768-gpu"},
     ReliefName{1536, "relief1536", "relief1536-gpu"}, ReliefName{3072, "relief3072", "relief3072-gpu"}};

@@ -24,10 +24,21 @@ double pixel_on_prop_m(const geometry::PropShape& prop, const geometry::Pinhole&
     return std::fmax(nearest, 0.0) / std::fmax(projector.fx, projector.fy);
 }
 
+namespace {
+
+constexpr double outline_share = 0.5;
+constexpr double max_over_mean = 4.0; // two pixels for half a pixel
+
+} // namespace
+
+double judged_error(const pack::LevelError& error, const pack::SeenError& worst) {
+    return std::max({static_cast<double>(worst.mean_box),
+                     static_cast<double>(worst.outline_shift_box) / outline_share,
+                     static_cast<double>(error.max_box) / max_over_mean});
+}
+
 bool within_tolerance(const pack::LevelError& error, const pack::SeenError& worst, double mm_per_box,
                       double tolerance_mm) {
-    constexpr double outline_share = 0.5;
-    constexpr double max_over_mean = 4.0;                      // two pixels for half a pixel
     const auto within = [mm_per_box](float box, double most) { // false for NaN
         return static_cast<double>(box) * mm_per_box <= most;
     };

@@ -84,6 +84,9 @@ struct QualityLevel {
 ladder(std::span<const pack::LevelOutline> levels, const std::vector<bool>& enough, int samples,
        const std::optional<pack::ReliefOutline>& relief = std::nullopt, bool also_on_gpu = false);
 
+/// The tolerance for which a level is just enough, by the same rule; box units.
+[[nodiscard]] double judged_error(const pack::LevelError& error, const pack::SeenError& worst);
+
 class Governor {
 public:
     static constexpr double enter_share = 0.70; ///< share of the deadline

@@ -148,7 +148,7 @@ double RoomShow::pixels_of(std::uint32_t object) const {
 
 double RoomShow::error_px(const residency::KnownWay& way, std::uint32_t object) const {
     const PlacedObject& placed = view_.objects()[object];
-    return way.mean_box * placed.size_m / (placed.away_m * px_rad_);
+    return way.judged_box * placed.size_m / (placed.away_m * px_rad_);
 }
 
 double RoomShow::cost_us(const residency::KnownWay& way, std::uint32_t object) const {
@@ -167,7 +167,7 @@ std::uint32_t RoomShow::quickest_enough(std::uint32_t object) const {
         if (!allows(model, known)) {
             continue;
         }
-        finest = finest == none || known.mean_box < model.ways[finest].mean_box ? way : finest;
+        finest = finest == none || known.judged_box < model.ways[finest].judged_box ? way : finest;
         if (error_px(known, object) <= tolerance_px_ &&
             (enough == none || known.work < model.ways[enough].work)) {
             enough = way;

@@ -147,6 +147,7 @@ public:
                           .samples = samples_,
                           .zone = options_.prop.zone,
                           .compare_colour = options_.unlit,
+                          .far = options_.far,
                           .progress = progress},
                          options_.size);
         for (pack::MeasuredRelief& relief : made) {

@@ -61,6 +61,7 @@ struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096
     bool unlit = false;
     bool relief = true; ///< the pack contains layered relief (measured_reliefs.h)
+    bool far = false;   ///< and coarser ones, for the screen behind the table
     BakedProp prop = baked_frustum();
     std::string up;            ///< empty: the format's own up axis
     double turn_deg = 0.0;     ///< about the vertical axis, counter-clockwise seen from above; best_turn.h

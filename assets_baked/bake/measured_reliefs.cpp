@@ -21,8 +21,8 @@ image::Image8 mip_for(const image::Image8& texture, int size, int texels) {
 
 } // namespace
 
-std::vector<int> relief_texels(int size) {
-    constexpr int coarsest = 96;
+std::vector<int> relief_texels(int size, bool far) {
+    const int coarsest = far && size >= 96 ? 24 : 96;
     std::vector<int> texels;
     for (int each = std::min(coarsest, size); each <= size; each *= 2) {
         texels.push_back(each);
@@ -34,11 +34,11 @@ std::vector<pack::MeasuredRelief> bake_reliefs(const ReliefSource& source, int s
     std::vector<pack::MeasuredRelief> reliefs;
     const auto work = [](double texels) { return texels * texels; };
     double all = 0.0;
-    for (const int texels : relief_texels(size)) {
+    for (const int texels : relief_texels(size, source.far)) {
         all += work(texels);
     }
     double done = 0.0;
-    for (const int texels : relief_texels(size)) {
+    for (const int texels : relief_texels(size, source.far)) {
         source.progress(done / all);
         done += work(texels);
         const image::Image8 texture = mip_for(source.texture, size, texels);

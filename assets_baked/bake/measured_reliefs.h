@@ -20,8 +20,8 @@
 namespace frustumscreen::bake {
 
 /// Resolutions for a bake of this size: 96, doubled repeatedly, up to the size itself; below 96 only the
-/// size. At 384 a texel is about a pixel near the projector.
-[[nodiscard]] std::vector<int> relief_texels(int size);
+/// size. At 384 a texel is about a pixel near the projector. `far`: 24 and 48 too, for artifacts far away in a room.
+[[nodiscard]] std::vector<int> relief_texels(int size, bool far = false);
 
 struct ReliefSource {
     const pack::PackLevel& finest;
@@ -32,6 +32,7 @@ struct ReliefSource {
     const SourceSamples& samples; ///< of the source, for colour
     const ViewingZone& zone;
     bool compare_colour = false; ///< false for baked light, which is not an error
+    bool far = false;            ///< as relief_texels
     std::function<void(double done)> progress = [](double) {}; ///< the share of the work, 0..1
 };
 [[nodiscard]] std::vector<pack::MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);

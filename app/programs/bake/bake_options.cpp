@@ -14,6 +14,8 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
                  "use the base colour without museum light, for colours that already contain light");
     app.add_flag("--no-relief", arguments.no_relief,
                  "leave out the layered relief: the pack is smaller and has meshes only");
+    app.add_flag("--far", arguments.far,
+                 "add coarse reliefs, for an artifact that stands far away in the room behind a screen");
     app.add_option(
            "--cells", arguments.cells,
            "parts of the model that can move by themselves: nodes of a glTF file, or none (default: nodes "
@@ -78,6 +80,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     add_number("--size", arguments.size);
     add_flag("--unlit", arguments.unlit);
     add_flag("--no-relief", arguments.no_relief);
+    add_flag("--far", arguments.far);
     add_text("--cells", arguments.cells);
     add_text("--prop", arguments.prop.value_or(""));
     add_text("--up", arguments.up.value_or(""));

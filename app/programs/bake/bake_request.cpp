@@ -137,6 +137,7 @@ Result<bake::BakeOptions> options_of(const BakeArguments& arguments, const folde
     options.size = arguments.size.value_or(file.size);
     options.unlit = arguments.unlit || file.unlit;
     options.relief = !arguments.no_relief;
+    options.far = arguments.far;
     TRY(options.prop, prop_of(arguments.prop.value_or(file.prop)));
     options.up = arguments.up.value_or(file.up);
     options.scale = arguments.scale.value_or(file.scale);

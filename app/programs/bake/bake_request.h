@@ -31,6 +31,7 @@ struct BakeArguments {
     bool json = false;
     bool unlit = false;
     bool no_relief = false;
+    bool far = false;
     std::string cells; ///< none, nodes, auto; empty: nodes if something moves
     std::optional<int> size;
     std::optional<std::string> prop;
