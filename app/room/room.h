@@ -36,7 +36,7 @@ struct Object {
         0.0;             ///< counter-clockwise seen from above; at 0 its front looks to the table's near side
     double size_m = 0.3; ///< longest edge of its box
     Motion motion;
-    std::string artifact; ///< id of the exhibit's artifact that it stands for; empty: its pack's
+    std::string artifact{}; ///< id of the exhibit's artifact that it stands for; empty: its pack's
 
     [[nodiscard]] bool operator==(const Object&) const = default;
 };
