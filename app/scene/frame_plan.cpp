@@ -143,9 +143,8 @@ PixelRectangle bounds_of_relief(const relief::RasterView& view, std::size_t face
         return through.bounds;
     }
     const auto seen =
-        std::find_if(view.faces.begin(), view.faces.end(), [face](const relief::RasterFace& each) {
-            return each.face == static_cast<int>(face);
-        });
+        std::find_if(view.faces.begin(), view.faces.end(),
+                     [face](const relief::RasterFace& each) { return each.face == static_cast<int>(face); });
     return seen != view.faces.end() ? intersected(through.bounds, seen->lit) : PixelRectangle{};
 }
 
