@@ -472,8 +472,10 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.number(
         "rest_s", exhibit.rest_s, {10.0, 3600.0, "seconds"},
         "time without a visitor after which the artifacts are shown in turn, in the first language");
-    fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
-                   "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first");
+    fields.integer(
+        "memory_mb", exhibit.memory_mb, 16, 65536,
+        "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first; with a "
+        "screen, half of it is the room's");
     fields.tables(
         "keys", exhibit.keys, pack::max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
         "the museum's public keys: what comes on a stick must be signed with one of them");
