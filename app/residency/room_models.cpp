@@ -79,7 +79,7 @@ Result<RoomModels::Item> RoomModels::read(const Place& place) const {
     return Item(std::move(read));
 }
 
-std::optional<RoomModels::Place> RoomModels::most_urgent() const {
+std::optional<RoomModels::Place> RoomModels::next_to_read() const {
     std::optional<Place> found;
     double most = 0.0;
     for (std::size_t model = 0; model < entries_.size(); ++model) {
@@ -210,7 +210,7 @@ void RoomModels::go_on() {
         go_on_uploading(options_.max_upload_bytes);
     }
     while (!reading_ && !upload_) {
-        const std::optional<Place> next = most_urgent();
+        const std::optional<Place> next = next_to_read();
         if (!next) {
             return;
         }

@@ -98,7 +98,7 @@ private:
         std::shared_ptr<const relief::BlockRelief> relief;
     };
     [[nodiscard]] Result<Item> read(const Place& place) const;
-    [[nodiscard]] std::optional<Place> most_urgent() const;
+    [[nodiscard]] std::optional<Place> next_to_read() const;
     /// Unloads less urgent ways until the bytes fit; false if they cannot.
     [[nodiscard]] bool make_space(std::uint64_t bytes, double urgency);
     void unload(const Place& place);

@@ -72,21 +72,21 @@ Result<scene::FrameCost> measure_room_cost(const residency::KnownModel& model,
             }
             std::vector<scene::FramePlan> plans;
             plans.push_back(scene::make_plan(screen.surface, copies * indices, copies));
-            double least_ms = 1e9;
+            double min_ms = 1e9;
             for (int k = 0; k < repeats; ++k) {
                 const auto start = std::chrono::steady_clock::now();
                 scene::plan_frame(screen.surface, parts, view, plans.front());
                 static_cast<void>(renderer.draw(plans, {picture.name(), 0}, render::Redraw::Everything));
                 render::wait_until_drawn();
-                least_ms = std::min(least_ms, std::chrono::duration<double, std::milli>(
-                                                  std::chrono::steady_clock::now() - start)
-                                                  .count());
+                min_ms = std::min(min_ms, std::chrono::duration<double, std::milli>(
+                                              std::chrono::steady_clock::now() - start)
+                                              .count());
             }
             const double edge_px = screen.pinhole.height * size_m / height_m * width_m / (width_m + size_m);
             times.push_back({.samples = samples,
                              .work = {.triangles = static_cast<double>(copies) * known.work,
                                       .pixels = static_cast<double>(copies) * 0.5 * edge_px * edge_px},
-                             .ms = least_ms,
+                             .ms = min_ms,
                              .relief = known.relief});
         }
         renderer.store().release(drawable);

@@ -20,7 +20,8 @@ class RunScreen : public KioskFolder {
 protected:
     void SetUp() override {
         KioskFolder::SetUp();
-        put("room.toml", "[[object]]\npack = \"rings.fspack\"\nplace_m = [0.0, 1.0, 0.3]\nsize_m = 0.4\n");
+        put("room.toml", "[[object]]\npack = \"rings.fspack\"\nartifact = \"elsewhere\"\nplace_m = [0.0, "
+                         "1.0, 0.3]\nsize_m = 0.4\n");
         write_settings("replay", screen_table);
     }
     nlohmann::json run(const std::string& more) const {

@@ -52,8 +52,8 @@ public:
     [[nodiscard]] double within(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random_);
     }
-    [[nodiscard]] Standing standing(double least_m, double most_m) {
-        const glm::dvec3 size(within(least_m, most_m), within(least_m, most_m), within(least_m, most_m));
+    [[nodiscard]] Standing standing(double min_m, double max_m) {
+        const glm::dvec3 size(within(min_m, max_m), within(min_m, max_m), within(min_m, max_m));
         const glm::dmat4 moved =
             glm::translate(glm::dmat4(1.0), {within(-3.0, 3.0), within(-1.5, 6.0), within(-0.5, 1.5)});
         return {-0.5 * size, 0.5 * size,
