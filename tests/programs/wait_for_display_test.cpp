@@ -5,6 +5,7 @@
 #include "tests/service/notify_socket.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -167,7 +168,10 @@ TEST_F(WaitForDisplay, EachNewReasonIsSaid) {
 
 TEST_F(WaitForDisplay, AStopSignalEndsTheProcessWhileItWaitsAndIsKeptOtherwise) {
     machine.trouble = [](Nanoseconds) { return no_card; };
-    machine.in_a_wait = [] { ::raise(SIGTERM); };
+    machine.in_a_wait = [] { // as a service manager: to the process, of which another thread takes it
+        ::kill(::getpid(), SIGTERM);
+        ::pause();
+    };
     service::ServiceManager manager;
     EXPECT_EXIT(static_cast<void>(
                     wait_for_display(machine.search(), stop_signals, manager, service::Journal("test"))),
