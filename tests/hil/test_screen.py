@@ -18,9 +18,9 @@ BACK_S = 30.0
 
 
 def room(packs):
-    """Two objects behind the screen's plane and before it."""
-    return (f'[[object]]\npack = "{packs}/amphora.fspack"\nplace_m = [-0.3, 1.1, 0.2]\nsize_m = 0.45\n'
-            f'[[object]]\npack = "{packs}/nautilus-cup.fspack"\nplace_m = [0.25, 0.6, 0.2]\nsize_m = 0.3\n')
+    """Two objects behind the screen's plane and before it, which stay there whatever the prop shows."""
+    return (f'[[object]]\npack = "{packs}/amphora.fspack"\nartifact = "elsewhere"\nplace_m = [-0.3, 1.1, 0.2]\nsize_m = 0.45\n'
+            f'[[object]]\npack = "{packs}/nautilus-cup.fspack"\nartifact = "elsewhere"\nplace_m = [0.25, 0.6, 0.2]\nsize_m = 0.3\n')
 
 
 def with_screen(settings, room_file):
