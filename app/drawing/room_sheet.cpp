@@ -100,7 +100,7 @@ private:
         return object.size_m >= building_m ? building : object.place_m.y < screen_m ? before_screen : plain;
     }
 
-    /// What the eye sees through the screen, as far as the view's objects reach; `flat` makes a view's place.
+    /// Draws the part of the room that the eye sees through the screen, as far as the view's objects reach; `flat` makes a view's place.
     void draw_sight(const View& view, const Extent& extent, const auto& flat, const glm::dvec3& a,
                     const glm::dvec3& b) {
         const glm::dvec3& eye = settings_.eye.default_m;

@@ -1,7 +1,6 @@
 #include "app/show/room_show.h"
 
 #include "app/geometry/time_curves.h"
-#include "app/residency/room_model.h"
 #include "app/residency/run_levels.h"
 #include "app/room/room_file.h"
 #include "app/scene/governor.h"
@@ -21,6 +20,18 @@ constexpr std::size_t max_plan_indices = 24'000'000;
 constexpr double us_per_part = 4.0;
 /// The first way of an object comes before a better one of another.
 constexpr double first_urgency = 1e6, solid_urgency = 1e3, unseen_urgency = 0.1;
+
+/// Meshes and reliefs of any pack, and their fades.
+scene::RenderNeeds needs_of(int samples) {
+    scene::RenderNeeds needs{.samples = samples, .draws = {scene::raster_shader()}, .rasterizes = true};
+    for (const bool cut_out : {false, true}) {
+        for (const bool dithered : {false, true}) {
+            needs.draws.insert({.cut_out = cut_out, .dithered = dithered});
+        }
+    }
+    needs.interlocks = true;
+    return needs;
+}
 
 scene::StereoLayout layout_of(const settings::Settings& settings, const scene::FlatScreen& screen,
                               bool both_eyes) {
@@ -103,7 +114,7 @@ Result<std::unique_ptr<RoomShow>> RoomShow::create(const settings::Settings& set
     TRY(Opened opened, open(room, options.live));
     const PixelSize size = layout_of(settings, screen_of(settings.screen), options.both_eyes).display;
     TRY(render::Renderer renderer,
-        render::Renderer::create(size.width, size.height, residency::needs_of_room(options.samples)));
+        render::Renderer::create(size.width, size.height, needs_of(options.samples)));
     std::unique_ptr<RoomShow> show(
         new RoomShow(settings, options, std::move(room), std::move(renderer), std::move(opened)));
     if (options.live) {

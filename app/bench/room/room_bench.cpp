@@ -85,7 +85,7 @@ template <std::size_t Count> constexpr std::array<double, Count> steps_from(doub
 constexpr std::array error_steps_mm = steps_from<24>(16.0, 0.8);
 constexpr std::array relief_steps_mm = steps_from<4>(8.0, 0.25);
 constexpr std::array error_steps_px = steps_from<24>(8.0, 0.8);
-/// Of all polygons, in each frame.
+/// Shares of all polygons that a frame may draw.
 constexpr std::array budget_shares{0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.15,
                                    0.2, 0.3,   0.4,  0.55, 0.7,  0.85, 1.0};
 

@@ -13,7 +13,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-/// What meshes and reliefs need, alone and in one picture.
+/// For pictures of meshes, of reliefs, and of both.
 scene::RenderNeeds needs_of(int samples) {
     scene::RenderNeeds needs{
         .samples = samples, .draws = {scene::ShaderKey{}, scene::raster_shader()}, .rasterizes = true};

@@ -62,7 +62,7 @@ public:
     [[nodiscard]] const std::vector<glm::dmat4>& box_from_file() const { return box_from_file_; }
     [[nodiscard]] const scene::FlatScreen& screen() const { return screen_; }
     [[nodiscard]] int samples() const { return samples_; }
-    /// Of all objects.
+    /// The sum over all objects.
     [[nodiscard]] std::size_t source_triangles() const;
 
     [[nodiscard]] render::Renderer& renderer() { return *renderer_; }

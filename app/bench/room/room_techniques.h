@@ -21,7 +21,7 @@
 
 namespace frustumscreen::bench {
 
-/// What of an object a frame sees.
+/// An object that the eye can see in a frame.
 struct SeenObject {
     std::size_t object = 0; ///< index into Room::objects
     geometry::RigidTransform table_from_object;
@@ -38,13 +38,13 @@ class RoomTechnique {
 public:
     virtual ~RoomTechnique() = default;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// What a peer's own quantity is, for the table; empty: it has none.
+    /// The peer's setting, for the table; empty: it has none.
     [[nodiscard]] virtual std::string setting() const { return {}; }
     /// Chooses, culls, plans and draws the whole picture; the caller waits until it is drawn.
     virtual void draw(const RoomFrame& frame) = 0;
-    /// Of the latest picture.
+    /// The plan of the latest picture.
     [[nodiscard]] virtual const scene::FramePlan& plan() const = 0;
-    /// That draws the plan.
+    /// The renderer that draws the plan.
     [[nodiscard]] virtual const render::Renderer& renderer() const = 0;
 };
 
@@ -55,7 +55,7 @@ public:
                                                               bool shell_as_polygons);
 [[nodiscard]] std::unique_ptr<RoomTechnique> make_room_lod(RoomSet& set, double error_px);
 
-/// What the paper draws as polygons.
+/// The polygons of the paper's way.
 struct PaperPolygons {
     double error_mm = 0.0; ///< the pack's level, as `polygons`
     std::size_t each = 0;  ///< or, above 0: meshoptimizer's level that is nearest to so many

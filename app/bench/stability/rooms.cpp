@@ -197,7 +197,7 @@ private:
     std::shared_ptr<const scene::LevelTriangles> triangles_;
 };
 
-/// Of 32 bits: the near plane lies at a thousandth of the far one, and z and w round once each.
+/// The error of depth in 32 bits: the near plane lies at a thousandth of the far one, and z and w round once each.
 constexpr double depth_share = 1e3 * 4.0 * 0x1p-24;
 
 struct SmallFigures {
