@@ -3,6 +3,8 @@
 /// Threads  values; any.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace frustumscreen::scene {
@@ -17,9 +19,14 @@ struct Material {
     bool cut_out = false;        ///< texels whose alpha is below one half are not drawn
 };
 
+/// Other textures of one surface, which torches show.
+inline constexpr std::size_t max_layers = 4;
+
 struct Drawable {
     MeshId mesh = MeshId::None;
     Material material;
+    std::array<TextureId, max_layers>
+        layers{}; ///< as Material::texture; of a relief, other colours of its corners
 };
 
 } // namespace frustumscreen::scene

@@ -23,6 +23,7 @@
 #include "app/scene/edge_feather.h"
 #include "app/scene/light.h"
 #include "app/scene/lit_tiles.h"
+#include "app/scene/placed_torch.h"
 #include "app/scene/shader_key.h"
 #include "app/scene/visible_triangles.h"
 
@@ -113,6 +114,8 @@ struct PlanView {
     EyePicture picture = {};
     /// Table frame. The eyes that decide together how far the artifact dims; empty: `eyes_m`.
     std::span<const glm::dvec3> dimming_eyes_m = {};
+    /// They light what is in the prop, in this order; at most torch::max_torches.
+    std::span<const PlacedTorch> torches = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
 /// signs and words, a notice and its ring.
@@ -171,6 +174,18 @@ struct Draw {
     std::size_t relief_draw = 0; ///< for a relief: index into FramePlan::relief_draws
 };
 
+/// A torch's light on what the plan draws, for the shader.
+struct TorchLight {
+    glm::mat4 torch_from_prop{1.0F};       ///< metres; torch.h
+    glm::vec2 per_half_extent{1.0F};       ///< x / (z half_extent) is -1..1 in the content
+    glm::mat4 shadow_clip_from_prop{1.0F}; ///< of the torch's own picture, with its depth
+    float reach_m = 0.0F;
+    bool has_shadows = true;
+    const PlacedTorch* placed = nullptr; ///< valid until the view's torches are
+};
+/// Pixels along each side of the torch's own picture, in which its shadows are found.
+inline constexpr int torch_picture_px = 512;
+
 struct FramePlan {
     geometry::Pinhole projector;
     EyePicture picture;
@@ -190,6 +205,9 @@ struct FramePlan {
     std::vector<ReliefDraw>
         relief_draws; ///< one per part that may be a relief; the first `relief_draw_count` belong to the frame
     std::size_t relief_draw_count = 0;
+    std::vector<TorchLight> torches; ///< that light some of the plan's draws
+    std::vector<FramePlan>
+        torch_views; ///< what each of `torches` sees: its shadows. The first ones belong to the frame
 };
 
 /// A plan with room for every face of `parts` parts that have `indices` indices together.

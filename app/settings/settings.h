@@ -19,6 +19,7 @@
 #include "app/settings/display_mode.h"
 #include "app/settings/hours_settings.h"
 #include "app/solid/polygon_mesh.h"
+#include "app/torch/torch.h"
 #include "firmware_host/base/line_bias.h"
 #include "firmware_host/base/result.h"
 
@@ -221,6 +222,21 @@ struct CameraSettings {
     geometry::RigidTransform table_from_camera; ///< identity: not measured
 };
 
+/// What reports the torch's pose. Tracker: station 3. Camera: a tag on a lamp. None: there is no torch.
+enum class TorchSource { None, Tracker, Camera, Both };
+[[nodiscard]] std::string_view name_of(TorchSource source);
+/// Hand-held torches that throw the contents of the shown artifact's pack.
+struct TorchSettings {
+    TorchSource source = TorchSource::None;
+    torch::Beam beam;
+    double min_opening_deg = 8.0, max_opening_deg = 60.0; ///< by a twist of the torch
+    double house_light = 1.0;                   ///< 0..1: the artifact's light while a torch is held
+    geometry::RigidTransform sensor_from_torch; ///< of the tracker's sensor
+    TagSettings tag;                            ///< on the lamp: its place in the torch's frame
+
+    [[nodiscard]] bool exists() const { return source != TorchSource::None; }
+};
+
 /// A flat screen behind the table, the second output, and the room that it shows.
 struct ScreenSettings {
     std::filesystem::path room; ///< empty: there is no screen
@@ -261,6 +277,7 @@ struct Settings {
     TableSettings table;
     EyeSettings eye;
     ScreenSettings screen;
+    TorchSettings torch;
     TrackerSettings tracker;
     CalibrationSettings calibration;
     PanelSettings panel;

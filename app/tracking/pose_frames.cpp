@@ -31,6 +31,12 @@ std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> sampl
                 turn.value_or(level_head(sample.position_m, frame->second.table_from_prop.translation));
             frame->second.head_known = true;
         }
+        if (sample.ok && sample.station == tracker::torch_station && frame != frames.end() &&
+            frame->second.torches[0].share == 0.0) {
+            if (const std::optional<glm::dquat> turn = geometry::normalised(sample.rotation)) {
+                frame->second.torches[0] = {{*turn, sample.position_m}, 1.0};
+            }
+        }
     }
     std::vector<TrackedState> result;
     result.reserve(frames.size());

@@ -11,9 +11,17 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 namespace frustumscreen::tracking {
+
+/// A hand-held torch. Its frame: torch.h.
+struct TrackedTorch {
+    geometry::RigidTransform table_from_torch;
+    double share = 0.0; ///< 0..1 of its light; 0: it is not known, or lies
+};
+inline constexpr std::size_t max_tracked_torches = 2; ///< at the tracker, and one that a camera sees
 
 struct TrackedState {
     geometry::RigidTransform table_from_prop;
@@ -32,6 +40,7 @@ struct TrackedState {
     Nanoseconds prop_age{0}; ///< of the pose used
     tracker::TrackerHealth tracker = tracker::TrackerHealth::Well;
     bool by_tags = false; ///< `table_from_prop` is from the tags
+    std::array<TrackedTorch, max_tracked_torches> torches{};
 
     [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
 };
