@@ -5,6 +5,17 @@
 
 namespace frustumscreen::torch {
 
+std::uint8_t parts_of(std::span<const Stage> stages, Blend blend) {
+    constexpr std::array<std::uint8_t, source_names.size()> of_source{
+        0, PicturePart, PicturePart, LayerPart, EffectPart, EffectPart, EffectPart, LensPart};
+    unsigned parts = stages.size() > 1 ? unsigned{SeveralPart} : 0U;
+    parts |= blend == Blend::Over ? unsigned{OverPart} : 0U;
+    for (const Stage& stage : stages) {
+        parts |= of_source[static_cast<std::size_t>(stage.source)];
+    }
+    return static_cast<std::uint8_t>(parts);
+}
+
 Content white() {
     return {.name = std::string(white_name), .blend = Blend::Light, .stages = {Stage{}}};
 }
