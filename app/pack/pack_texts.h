@@ -27,6 +27,7 @@ namespace frustumscreen::pack {
 
 [[nodiscard]] std::string label_key(std::size_t hotspot);
 [[nodiscard]] std::string behaviour_key(std::size_t behaviour);
+[[nodiscard]] std::string torch_key(std::size_t content);
 
 struct SetLanguage {
     std::string language; ///< BCP 47

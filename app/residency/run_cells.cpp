@@ -2,6 +2,7 @@
 
 #include "app/geometry/time_curves.h"
 #include "app/scene/cell_plan.h"
+#include "app/scene/torch_plan.h"
 
 #include <algorithm>
 #include <array>
@@ -106,7 +107,11 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
     }
     parts_.reserve(2 * cells_.size() + 1);
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
-        plans_.push_back(scene::make_plan(whole.prop, indices, 2 * cells_.size() + 1));
+        const std::size_t parts = 2 * cells_.size() + 1;
+        plans_.push_back(scene::make_plan(whole.prop, indices, parts));
+        if (whole.needs.torches) {
+            scene::make_torch_space(plans_.back(), whole.prop.faces.size(), indices, parts);
+        }
     }
 }
 

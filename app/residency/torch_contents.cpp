@@ -132,7 +132,8 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
     case Kind::Film: {
         TRY(std::vector<Bytes> frames, pack::load_film(file, torches.films[part.number]));
         ReadFilm film;
-        TRY(film.first, pack::film_frame_of(torches.films[part.number], frames.front()));
+        TRY(const image::Image8 first, pack::film_frame_of(torches.films[part.number], frames.front()));
+        film.first = image::light_mips(first);
         for (const Bytes& frame : frames) {
             film.packed_bytes += frame.size();
         }
@@ -164,9 +165,9 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
     if (frames == packed_.end()) {
         return bad_input("torches.film_not_wanted", "not wanted any more");
     }
-    TRY(image::Image8 picture,
+    TRY(const image::Image8 picture,
         pack::film_frame_of(torches.films[part.number], frames->second.at(part.frame)));
-    return Read(ReadFrame{std::move(picture)});
+    return Read(ReadFrame{std::move(image::light_mips(picture).front())}); // its colours over black
 }
 
 void TorchContents::leave_out(const Part& part, std::string_view why) {
@@ -187,7 +188,7 @@ Result<void> TorchContents::upload(render::GpuStore& store, const Part& part, Re
         TRY(pictures_[part.number], store.upload_picture(picture->mips));
         picture_states_[part.number] = PartState::Ready;
     } else if (auto* const film = std::get_if<ReadFilm>(&read)) {
-        TRY(films_[part.number].texture, store.upload_picture(std::span(&film->first, 1)));
+        TRY(films_[part.number].texture, store.upload_picture(film->first));
         film_states_[part.number] = PartState::Ready;
     } else if (auto* const layer = std::get_if<ReadLayer>(&read)) {
         layer_ = std::move(*layer);
@@ -212,7 +213,8 @@ void TorchContents::receive(render::GpuStore& store, std::size_t item, Result<Re
     if (const auto* const picture = std::get_if<ReadPicture>(&*read)) {
         bytes = bytes_of(picture->mips);
     } else if (const auto* const film = std::get_if<ReadFilm>(&*read)) {
-        bytes = film->packed_bytes + 3 * bytes_of(film->first); // on the GPU, decoded ahead, being decoded
+        bytes = film->packed_bytes +
+                3 * bytes_of(std::span(film->first)); // on the GPU, decoded ahead, being decoded
     } else if (const auto* const layer = std::get_if<ReadLayer>(&*read)) {
         bytes = bytes_of(*layer);
     }

@@ -88,7 +88,7 @@ private:
         std::vector<image::Image8> mips;
     };
     struct ReadFilm {
-        image::Image8 first;
+        std::vector<image::Image8> first; ///< with its mips, for which the texture has space
         std::uint64_t packed_bytes = 0;
     };
     struct ReadFrame {

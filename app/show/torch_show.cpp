@@ -31,9 +31,12 @@ bool is_tinted(torch::Source source) {
            source == torch::Source::Ruler;
 }
 
-/// Dimmed by the house's light, the surface gets its own light back where the torch is full.
-double strength(torch::Blend blend, double house_light) {
-    return blend == torch::Blend::Light ? std::max(1.0, 1.0 / house_light - 1.0) : 1.0;
+/// Dimmed by the house's light, the surface gets its own light back where the torch is full. What covers the surface goes with
+/// the artifact's light, which the light on its own colours does by itself.
+double strength(torch::Blend blend, const exhibit::Presentation& presentation) {
+    const double house_light = presentation.torches.house_light;
+    return blend == torch::Blend::Light ? std::max(1.0, 1.0 / house_light - 1.0)
+                                        : std::clamp(presentation.brightness / house_light, 0.0, 1.0);
 }
 
 } // namespace
@@ -79,8 +82,7 @@ std::span<const scene::PlacedTorch> TorchShow::place(const exhibit::Presentation
         placed = scene::placed(*thrown, beam, light.table_from_torch, light.seconds);
         placed.picture = shown.picture;
         placed.picture_version = shown.version;
-        placed.brightness =
-            static_cast<float>(light.brightness * strength(thrown->blend, presentation.torches.house_light));
+        placed.brightness = static_cast<float>(light.brightness * strength(thrown->blend, presentation));
         for (std::size_t k = 0; k < placed.stage_count; ++k) {
             if (is_tinted(placed.stages.at(k).source)) {
                 placed.stages.at(k).colour *= exhibit::torch_colours.at(light.colour);
