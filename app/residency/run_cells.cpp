@@ -120,6 +120,18 @@ void RunCells::give(std::size_t place, const scene::Drawable& drawable, const re
     uses_[place].gpu_bytes = store.bytes(drawable);
 }
 
+Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer) {
+    for (std::size_t k = 0; k < cells_.size() && k < layer.cells.size(); ++k) {
+        const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
+        for (std::size_t option = cells_[k].first; option < end; ++option) {
+            scene::PlacedLevel& placed = options_[option].placed;
+            TRY_VOID(residency::add_layer(store, layer.cells[k], uses_[option].level,
+                                          placed.relief != nullptr, placed.drawable));
+        }
+    }
+    return {};
+}
+
 void RunCells::release(render::GpuStore& store) {
     for (const Option& option : options_) {
         store.release(option.placed.drawable);

@@ -148,18 +148,9 @@ void RunLevels::give(std::size_t place, const scene::Drawable& drawable, const r
 
 Result<void> RunLevels::add_layer(render::GpuStore& store, const ReadLayer& layer) {
     for (std::size_t place = 0; place < levels_.size(); ++place) {
-        scene::Drawable& drawable = levels_[place].placed.drawable;
-        const std::uint32_t number = uses_[place].level;
-        if (!levels_[place].placed.relief) {
-            TRY_VOID(
-                store.add_layer(drawable, layer.layer, layer.textures.at(layer.texture_of_level.at(number))));
-            continue;
-        }
-        const auto found = std::find(layer.relief_texels.begin(), layer.relief_texels.end(), number);
-        if (found != layer.relief_texels.end()) {
-            store.add_layer(drawable, layer.layer,
-                            layer.reliefs.at(static_cast<std::size_t>(found - layer.relief_texels.begin())));
-        }
+        scene::PlacedLevel& placed = levels_[place].placed;
+        TRY_VOID(residency::add_layer(store, layer, uses_[place].level, placed.relief != nullptr,
+                                      placed.drawable));
     }
     return {};
 }

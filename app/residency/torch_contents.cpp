@@ -1,7 +1,7 @@
 #include "app/residency/torch_contents.h"
 
 #include "app/image/light_mips.h"
-#include "app/pack/pack_relief.h"
+#include "app/residency/thrown_layer.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -18,8 +18,6 @@ constexpr std::size_t frames_from = 64; ///< of an artifact's items; before them
 constexpr std::size_t films_from = 32, layers_from = 48;
 constexpr std::size_t frames_of_film = 1024;
 constexpr std::size_t items_of_artifact = frames_from + frames_of_film * pack::max_films;
-
-constexpr std::size_t corners_per_block = std::size_t{relief::block_corners} * relief::block_corners;
 
 std::uint64_t bytes_of(const image::Image8& picture) {
     return std::uint64_t{4} * static_cast<std::uint64_t>(picture.width) *
@@ -39,6 +37,9 @@ std::uint64_t bytes_of(const ReadLayer& layer) {
     for (const auto& relief : layer.reliefs) {
         bytes += sizeof(glm::u8vec4) * relief->size();
     }
+    for (const ReadLayer& cell : layer.cells) {
+        bytes += bytes_of(cell);
+    }
     return bytes;
 }
 
@@ -49,26 +50,6 @@ bool uses(const torch::Content& content, torch::Source source, std::size_t item)
 }
 
 } // namespace
-
-Result<std::vector<ThrownContents>> thrown_contents(std::span<const KnownArtifact> artifacts) {
-    std::vector<ThrownContents> all;
-    for (const KnownArtifact& known : artifacts) {
-        const pack::PackDescription& pack = known.outline.description;
-        TRY(pack::PackTorches torches, at(known.file.string(), pack::torches_of(pack)));
-        TRY(const std::vector<pack::ReliefOutline> reliefs, at(known.file.string(), pack::reliefs_of(pack)));
-        ThrownContents& thrown = all.emplace_back();
-        thrown.file = known.file;
-        thrown.torches = std::move(torches);
-        for (const pack::LevelOutline& level : known.outline.levels) {
-            thrown.texture_of_level.push_back(level.texture);
-        }
-        for (const pack::ReliefOutline& relief : reliefs) {
-            thrown.relief_texels.push_back(relief.texels);
-            thrown.relief_corners.push_back(corners_per_block * relief.blocks);
-        }
-    }
-    return all;
-}
 
 TorchContents::TorchContents(std::vector<ThrownContents> artifacts, const Options& options)
     : artifacts_(std::move(artifacts)), options_(options) {
@@ -141,21 +122,7 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
         return Read(std::move(film));
     }
     case Kind::Layer: {
-        const pack::PackLayer& packed = torches.layers[part.number];
-        ReadLayer layer{.layer = part.number,
-                        .textures = {},
-                        .reliefs = {},
-                        .texture_of_level = thrown.texture_of_level,
-                        .relief_texels = thrown.relief_texels};
-        for (std::size_t k = 0; k < packed.textures.size(); ++k) {
-            TRY(image::Image8 texture, pack::load_layer_texture(file, packed, k));
-            layer.textures.push_back(std::move(texture));
-        }
-        for (std::size_t k = 0; k < packed.reliefs.size(); ++k) {
-            TRY(std::vector<glm::u8vec4> colours,
-                pack::load_layer_colours(file, packed, k, thrown.relief_corners.at(k)));
-            layer.reliefs.push_back(std::make_shared<const std::vector<glm::u8vec4>>(std::move(colours)));
-        }
+        TRY(ReadLayer layer, read_layer(thrown, part.number));
         return Read(std::move(layer));
     }
     case Kind::Frame:

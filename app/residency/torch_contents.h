@@ -39,6 +39,7 @@ struct ThrownContents {
     std::vector<std::size_t> texture_of_level{};
     std::vector<std::size_t> relief_corners{};  ///< by relief of the pack
     std::vector<std::uint32_t> relief_texels{}; ///< the same
+    std::shared_ptr<const KnownWorld> world{};  ///< null: nothing of it moves
 };
 
 /// Of each artifact, from its manifest.

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "app/settings/command.h"
+#include "app/settings/describe_torch.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/language_tag.h"
 #include "app/settings/looking_at.h"
@@ -17,7 +18,6 @@
 #include "firmware_host/base/calendar_day.h"
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -61,7 +61,6 @@ inline constexpr std::array<std::string_view, 2> camera_names{"none", "v4l2"};
 inline constexpr std::array<std::string_view, 2> sound_names{"none", "alsa"};
 inline constexpr std::array<std::string_view, 2> unsigned_names{"refuse", "allow"};
 inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
-inline constexpr std::array<std::string_view, 4> torch_source_names{"none", "tracker", "camera", "both"};
 
 void distortion_settings(auto& fields, auto& lens) {
     constexpr Range distortion{-0.5, 0.5, ""};
@@ -363,57 +362,6 @@ void tag_settings(auto& fields, auto& tag) {
                   "0: its top looks to the prop's +Y; counter-clockwise seen from above");
     fields.number("lean_deg", tag.lean_deg, {-180.0, 180.0, "degrees"},
                   "0: it lies face up; 90: it stands upright; before it is turned");
-}
-
-void beam_settings(auto& fields, auto& beam) {
-    fields.choice("shape", beam.shape, torch::shape_names,
-                  "of the light where the content has none of its own: a disc, or the content's rectangle");
-    fields.choice("attenuation", beam.attenuation, torch::attenuation_names,
-                  "how the light falls with its way from the torch, beyond full_m");
-    fields.number("full_m", beam.full_m, {0.01, 10.0, "metres"}, "up to this way the light is full");
-    fields.number(
-        "dark_m", beam.dark_m, {0.02, 20.0, "metres"},
-        "linear, smooth_step: at this way there is none left; inverse_square ends where nobody sees it");
-}
-
-/// The tag on a lamp. Its place is in the torch's frame, so that only the words differ from a prop's tag.
-void lamp_tag_settings(auto& fields, auto& tag) {
-    fields.integer("id", tag.id, 0, 586, "number in the family 36h11; none of the prop's");
-    fields.number("size_m", tag.size_m, {0.005, 0.5, "metres"}, "side of the black square");
-    fields.vector(
-        "centre_m", tag.centre_m, {-1.0, 1.0, "metres"},
-        "its middle in the torch's axes: +Z along the light, +X right, +Y down; from where the light "
-        "comes out");
-    fields.number("turn_deg", tag.turn_deg, {-360.0, 360.0, "degrees"},
-                  "about the light's axis, clockwise seen along the light");
-    fields.number(
-        "lean_deg", tag.lean_deg, {-180.0, 180.0, "degrees"},
-        "0: it looks along the light; 90: it lies on the lamp's upper side, its top towards the light");
-}
-
-template <typename Fields> void torch_settings(Fields& fields, auto& torch) {
-    fields.choice(
-        "source", torch.source, torch_source_names,
-        "tracker: a sensor in it, station 3; camera: a tag on it, which needs camera.tags; both: one "
-        "of each; none: there is no torch, and of what follows only `frustumscreen render --torch` "
-        "uses the beam");
-    constexpr Range opening{0.01, 179.0, "degrees"};
-    double opening_deg = std::round(1e9 * glm::degrees(torch.beam.opening_rad)) / 1e9;
-    fields.number("opening_deg", opening_deg, opening, "angle of the light across the content's width");
-    if constexpr (Fields::reads) {
-        torch.beam.opening_rad = glm::radians(opening_deg);
-    }
-    fields.number("min_opening_deg", torch.min_opening_deg, opening,
-                  "the narrowest, by a twist of the torch to the left");
-    fields.number("max_opening_deg", torch.max_opening_deg, opening, "the widest, by a twist to the right");
-    beam_settings(fields, torch.beam);
-    fields.number("house_light", torch.house_light, {0.05, 1.0, "of its usual light"},
-                  "the artifact's light while a torch is held; below 1 the torch's light stands out");
-    fields.rigid("sensor_from_torch", torch.sensor_from_torch, {-1.0, 1.0, "metres"},
-                 "tracker: where the light comes from, in the axes of the sensor in the torch; +Z along the "
-                 "light, +Y down; 16 numbers, column by column");
-    fields.table("tag", "camera: the tag on the lamp.",
-                 [&](auto& inner) { lamp_tag_settings(inner, torch.tag); });
 }
 
 template <typename Fields> void camera_lens_settings(Fields& fields, auto& camera) {

@@ -368,7 +368,12 @@ std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Pre
     contents->step(renderer_.store(), presentation.artifact, wanted_contents(presentation, *contents).all());
     if (residency::RunLevels* const levels = set_->artifact_cache->find(presentation.artifact)) {
         if (const std::optional<residency::ReadLayer> layer = contents->take_layer()) {
-            contents->note_layer(layer->layer, levels->add_layer(renderer_.store(), *layer));
+            Result<void> added = levels->add_layer(renderer_.store(), *layer);
+            residency::RunCells* const cells = set_->artifact_cache->find_cells(presentation.artifact);
+            if (added && cells != nullptr) {
+                added = cells->add_layer(renderer_.store(), *layer);
+            }
+            contents->note_layer(layer->layer, added);
         }
     }
     return torches_->place(presentation, *contents);

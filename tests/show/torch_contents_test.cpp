@@ -38,6 +38,11 @@ protected:
         pack.provenance.source_name = "rings.glb";
         pack.provenance.source_sha256 = std::string(64, 'a');
         pack.relief_size = 512;
+        for (unsigned k = 0; k < 8; ++k) {
+            pack.extremes.emplace_back(((k & 1U) != 0 ? 0.5 : -0.5) * pack.box_size.x,
+                                       ((k & 2U) != 0 ? 0.5 : -0.5) * pack.box_size.y,
+                                       (k & 4U) != 0 ? pack.box_size.z : 0.0);
+        }
         pack::PackTorches torches;
         torches.contents = {{content("ring", torch::Source::Ring), {}},
                             {content("picture", torch::Source::Picture, 0), {}},
