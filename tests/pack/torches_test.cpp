@@ -215,7 +215,7 @@ TEST(Torches, contents_that_are_not_allowed_are_told) {
         {[](PackTorches& torches, TorchParts&) {
              torches.pictures[0] = {16384, 16384};
          },
-         "allowed are 0 to 2048"},
+         "whole numbers from 0 to 2048"},
         {[](PackTorches& torches, TorchParts&) { torches.films[0].rate_hz = 0.0; }, "0 a second"},
         {[](PackTorches& torches, TorchParts& its) {
              torches.films[0].width = 1024;
@@ -248,13 +248,13 @@ TEST(Torches, contents_that_are_not_allowed_are_told) {
 }
 
 TEST(Torches, data_that_are_not_allowed_are_told) {
-    expect_told(refusal_of_data(R"("blend":"over")", R"("blend":"under")"), "\"under\"");
+    expect_told(refusal_of_data(R"("blend":"over")", R"("blend":"under")"), "'under'");
     expect_told(refusal_of_data(R"("blend":"over")", R"("shader":"x","blend":"over")"), "shader");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":1000000)"), "frames");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":4)"), "[torch_section.parts]");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":2)"), "[torch_section.parts]");
     expect_told(refusal_of_data(R"("textures":2)", R"("textures":3)"), "[torch_section.parts]");
-    expect_told(refusal_of_data(R"("size":0.9)", R"("size":1e400)"), "sections.torches");
+    expect_told(refusal_of_data(R"("size":0.9)", R"("size":1e400)"), "too large");
     std::string many = "\"contents\":[";
     for (int k = 0; k < 17; ++k) {
         many += "{},";
