@@ -4,8 +4,10 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_torches.h"
+#include "app/pack/pack_world.h"
 #include "tests/base/told.h"
 #include "tests/pack/samples.h"
+#include "tests/pack/world_samples.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -156,6 +158,34 @@ TEST(Torches, a_pack_without_contents_is_as_before) {
     EXPECT_EQ(samples::bytes_of(pack), before);
     EXPECT_TRUE(torches_of(pack).value().empty());
     EXPECT_TRUE(check_torches(pack));
+}
+
+TEST(Torches, a_cell_has_the_artifacts_layers_and_no_contents) {
+    const auto with_layer = [](Pack pack, const char* name) {
+        TorchParts its;
+        TorchParts::Layer& layer = its.layers.emplace_back();
+        for (const image::Image8& texture : pack.textures) {
+            layer.textures.push_back(image::encode_webp(texture));
+        }
+        EXPECT_TRUE(put_torches(pack, {{}, {}, {}, {{.name = name}}}, std::move(its)));
+        return pack;
+    };
+    const auto told = [&](const Pack& whole, Pack cell) {
+        PackWorld world{{samples::cells().front()}, {samples::behaviours().back()}};
+        Pack made = whole;
+        const Result<void> put = put_world(made, world, std::vector{std::move(cell)});
+        const Result<void> good = put ? check_world(made) : put;
+        return good ? std::string() : test::told(good.error());
+    };
+    const Pack whole = with_layer(samples::pack(), "a");
+    EXPECT_EQ(told(whole, with_layer(samples::small_cell_pack(), "a")), "");
+    expect_told(told(whole, samples::small_cell_pack()), "[world.nested_layers]");
+    expect_told(told(whole, with_layer(samples::small_cell_pack(), "b")), "[world.nested_layers]");
+    Pack with_content = samples::small_cell_pack();
+    PackTorches content;
+    content.contents.push_back({{.name = "light", .stages = {torch::Stage{}}}, {}});
+    ASSERT_TRUE(put_torches(with_content, content, {}));
+    expect_told(told(samples::pack(), with_content), "[world.nested_torches]");
 }
 
 TEST(Torches, a_layers_colours_lie_where_the_format_page_says) {
