@@ -57,16 +57,6 @@ Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& 
     return {};
 }
 
-/// Plain light, and each of the contents.
-scene::RenderNeeds with_torches(scene::RenderNeeds needs, std::span<const pack::PackTorchContent> contents) {
-    const torch::Content plain = torch::white();
-    needs = scene::with_torch(std::move(needs), torch::parts_of(plain.stages, plain.blend));
-    for (const pack::PackTorchContent& each : contents) {
-        needs = scene::with_torch(std::move(needs), torch::parts_of(each.content.stages, each.content.blend));
-    }
-    return needs;
-}
-
 Result<KnownArtifact> open_pack(const settings::Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
     KnownArtifact opened{.file = file, .outline = {}, .plan = {}, .texts = {}};
@@ -77,8 +67,7 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
             opened.outline = outline;
             opened.plan = std::move(plan);
             if (settings.torch.exists()) {
-                TRY(const pack::PackTorches torches, pack::torches_of(outline.description));
-                opened.plan.needs = with_torches(std::move(opened.plan.needs), torches.contents);
+                opened.plan.needs = scene::with_torches(std::move(opened.plan.needs));
             }
             return std::vector<std::uint32_t>{};
         });
@@ -219,8 +208,7 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
     needs = with_cut_outs(scene::with_cells(std::move(needs)));
-    // Contents of packs that come later are prepared when their set does.
-    return settings.torch.exists() ? with_torches(std::move(needs), {}) : needs;
+    return settings.torch.exists() ? scene::with_torches(std::move(needs)) : needs;
 }
 
 TextStyle text_style(const settings::Settings& settings) {
