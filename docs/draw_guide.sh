@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws those pictures of docs/guide that the programs make, in some seconds: the shipped settings' drawings, the staff's
+# Draws those pictures of docs/guide that the programs make, in some seconds: the settings' drawings (docs/torch.svg too), the staff's
 # picture, and a stick that is taken in. It needs what ./test builds. connections.svg and panel.svg are drawn by hand.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -14,6 +14,7 @@ cmake/build.sh release draw_staff_picture draw_calibration_pictures >/dev/null
 build/release/tests/draw_staff_picture "$guide"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/table.svg"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/prop.svg" --sheet prop
+"$bin/frustumscreen" drawing --config config/torch.toml -o docs/torch.svg --sheet torch
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

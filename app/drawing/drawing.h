@@ -28,6 +28,10 @@ namespace frustumscreen::drawing {
 /// A3: a holder for the prop, from above and in section.
 [[nodiscard]] std::string holder_sheet(const settings::Settings& settings, std::string_view name);
 
+/// A3: a torch from the side, from above and from the front, with the place of the tracker's sensor and of the camera's tag,
+/// and the holder in which it hangs at the table's edge.
+[[nodiscard]] std::string torch_sheet(const settings::Settings& settings, std::string_view name);
+
 /// An object of the room behind the screen as it is drawn; table frame.
 struct DrawnObject {
     std::string name;

@@ -1,5 +1,5 @@
 /// The line that says what the button does now: the title of the behaviour that the next press triggers, beside the
-/// prop, in the visitor's language. It fades in at the best place, and fades out before another one.
+/// prop, in the visitor's language. While a torch is held, it is the title of what the torch throws. It fades in at the best place, and fades out before another one.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -19,7 +19,7 @@ namespace frustumscreen::exhibit {
 /// A title of one artifact in one language.
 struct TitleIndex {
     std::size_t artifact = 0;  ///< index into the catalogue
-    std::size_t behaviour = 0; ///< index into CatalogueEntry::behaviours
+    std::size_t behaviour = 0; ///< index into CatalogueEntry::behaviours, and beyond them into the contents
     std::size_t language = 0;  ///< index into CatalogueEntry::languages
     [[nodiscard]] bool operator==(const TitleIndex&) const = default;
 };

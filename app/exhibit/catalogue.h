@@ -10,6 +10,7 @@
 #include "app/exhibit/narration_sequencer.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/table_browser.h"
+#include "app/exhibit/torch_lights.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/guidance/guide.h"
@@ -34,6 +35,9 @@ struct CatalogueEntry {
     std::vector<DescriptionShape> descriptions{};
     HotspotSet hotspots{};
     std::vector<TriggeredBehaviour> behaviours{}; ///< in the pack's order
+    /// What a torch can throw onto it, in the pack's order: the size of each title, by `languages`; the height is 0 if there
+    /// is none.
+    std::vector<std::vector<glm::dvec2>> content_title_sizes_m{};
     /// The corners of the hull of the artifact in the prop (pack/pack_hull.h), prop frame; empty: unknown, and every
     /// face in view counts.
     std::vector<glm::dvec3> hull{};
@@ -56,6 +60,7 @@ struct ExhibitPlace {
     bool in_hand = false;                            ///< the prop is lifted and turned in any way
     bool staff_stays = false;                        ///< there is no calibration: as StaffTool
     bool table_pictures = false;                     ///< the set's artifacts lie on the table to choose from
+    std::optional<TorchPlace> torch;                 ///< none: there is no torch
     Nanoseconds rest = std::chrono::seconds(60);     ///< time without a visitor before State::Attract
 };
 

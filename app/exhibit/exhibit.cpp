@@ -10,7 +10,8 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
     : place_(place), first_language_(language), catalogue_(std::move(catalogue)),
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
       table_(lay_out_catalogue(catalogue_.all(), place)), caption_(place.picture_m), labels_(place.picture_m),
-      guide_(place.guidance), advice_(place.words, place.picture_m), title_(place.picture_m) {}
+      guide_(place.guidance), advice_(place.words, place.picture_m), title_(place.picture_m),
+      torches_(place.torch ? std::optional<TorchLights>(*place.torch) : std::nullopt) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
                            const tracking::TrackedState& tracked_state) {
@@ -27,6 +28,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command>
     for (const settings::Command command : commands) {
         take(command, now);
     }
+    take_torch_presses();
     staff_.step(now);
     if (!idle_pose_) {
         idle_pose_.emplace(place_.attract_place_m, tracked_state.prop_known, now, place_.in_hand);

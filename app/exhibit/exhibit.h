@@ -14,6 +14,8 @@
 ///          program that runs the exhibit starts it, or does not.
 /// Room     with a screen behind the table, an object that the prop rests before is chosen as a picture on the table is
 ///          (object_dwell.h). The caller says which object that is (note_object).
+/// Torch    while one is held, two buttons are its: "choose" changes what it throws, and "behaviour" leaves its light on the
+///          object. Both do what they do otherwise while the prop rests on a picture or before an object.
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -41,6 +43,7 @@
 #include "app/exhibit/states.h"
 #include "app/exhibit/stillness.h"
 #include "app/exhibit/table_browser.h"
+#include "app/exhibit/torch_lights.h"
 #include "app/exhibit/visitor_guide.h"
 #include "app/settings/command.h"
 #include "app/tracking/tracked_state.h"
@@ -167,6 +170,19 @@ private:
               const DrawnPose& drawn, bool pressed, Presentation& presentation);
     [[nodiscard]] std::uint32_t lamps() const;
 
+    // Torches: exhibit_torches.cpp.
+    /// Takes the presses that are a held torch's.
+    void take_torch_presses();
+    /// Uses the artifact's brightness, and dims it.
+    void throw_light(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+                     const DrawnPose& drawn, Presentation& presentation);
+    /// What is said to a visitor whose torch lights nothing; none: nothing.
+    [[nodiscard]] std::optional<WordIndex> torch_word() const;
+    [[nodiscard]] std::uint32_t torch_lamps() const;
+    /// The picture of the title of what a held torch throws, among those of behaviours; none: it has none.
+    [[nodiscard]] std::optional<TitleIndex> content_title(const CatalogueEntry& entry, std::size_t artifact,
+                                                          std::size_t language, glm::dvec2& size_m) const;
+
     // Behaviours: exhibit_behaves.cpp.
     void behave(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                 const DrawnPose& drawn, bool pressed, Presentation& presentation);
@@ -204,6 +220,11 @@ private:
     Stillness stillness_; ///< of the visitor, for behaviours
     BehaviourTriggers triggers_;
     BehaviourTitle title_;
+
+    std::optional<TorchLights> torches_; ///< none: there is no torch
+    TorchAdvice torch_advice_;
+    std::optional<TorchAim> torch_says_;               ///< what is wrong with the torch's aim
+    bool next_content_ = false, leaves_light_ = false; ///< pressed in this step
 };
 
 } // namespace frustumscreen::exhibit

@@ -37,8 +37,11 @@ std::optional<PresentedTitle> Exhibit::title(MonotonicTime now, const tracking::
     const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
     const bool has_button =
         place_.buttons > static_cast<std::size_t>(settings::button_of(settings::Command::Behaviour));
-    if (entry != nullptr && has_button && state_ == State::View && !drawn.attracts && !presentation.advice) {
-        const std::size_t language = caption_for(shown.language, entry->languages);
+    const bool free = entry != nullptr && state_ == State::View && !drawn.attracts && !presentation.advice;
+    const std::size_t language = free ? caption_for(shown.language, entry->languages) : 0;
+    if (free && torches_ && torches_->held()) {
+        input.title = content_title(*entry, shown.artifact, language, input.size_m);
+    } else if (free && has_button) {
         const std::optional<std::size_t> next = triggers_.next(entry->behaviours, triggers_.presses());
         if (next && language < entry->behaviours[*next].title_sizes_m.size()) {
             input.size_m = entry->behaviours[*next].title_sizes_m[language];

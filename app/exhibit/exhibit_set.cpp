@@ -57,6 +57,9 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     const std::string chosen = selection_.is_at_first_language() ? first_language_ : selection_.language();
     guide_.drop_artifact();
     Catalogue before = catalogue_.exchange(std::move(catalogue));
+    if (torches_) {
+        torches_.emplace(*place_.torch); // what was left on belongs to the set
+    }
     selection_ = make_selection(catalogue_.all(), first_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_.all());
     selection_.begin_with(artifact, languages.empty() ? chosen : languages[caption_for(chosen, languages)],

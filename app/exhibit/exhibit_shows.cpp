@@ -16,6 +16,7 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     const Placeholder::Output comes = placeholder(now, shown, drawn);
     presentation.brightness = comes.brightness * drawn.brightness;
     presentation.artifact_light = comes.brightness;
+    throw_light(now, tracked_state, shown, drawn, presentation);
     presentation.before = object_dwell_.settled();
     presentation.placeholder = comes.picture;
     presentation.wanted = wanted();
@@ -225,8 +226,9 @@ std::optional<WordIndex> Exhibit::word() const {
                    ? advice_.find(guidance::words_key(*guidance), language)
                    : std::nullopt;
     case Words::NarrationSequencer:
-    case Words::None:
         break;
+    case Words::None:
+        return torch_word();
     }
     return std::nullopt;
 }
@@ -267,6 +269,7 @@ std::uint32_t Exhibit::lamps() const {
     const CatalogueEntry* const entry = catalogue_.captioned(selection_.artifact());
     const bool behaves = entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0);
     lamps |= behaves ? 1U << settings::button_of(settings::Command::Behaviour) : 0U;
+    lamps |= torch_lamps();
     lamps |= helps ? 1U << settings::button_of(settings::Command::Help) : 0U;
     return lamps;
 }

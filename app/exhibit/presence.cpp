@@ -19,11 +19,30 @@ bool head_has_moved(const tracking::TrackedState& now, const tracking::TrackedSt
     return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
+/// A torch that lies or is fixed is nobody's.
+bool torch_has_moved(const tracking::TrackedState& now, const tracking::TrackedState& then) {
+    constexpr double waved_m = 0.03, waved_rad = 0.1;
+    for (std::size_t k = 0; k < now.torches.size(); ++k) {
+        const tracking::TrackedTorch& a = now.torches.at(k);
+        const tracking::TrackedTorch& b = then.torches.at(k);
+        if (a.share > 0.0 &&
+            (b.share <= 0.0 ||
+             glm::distance(a.table_from_torch.translation, b.table_from_torch.translation) > waved_m ||
+             geometry::rotation_angle(a.table_from_torch.rotation, b.table_from_torch.rotation) >
+                 waved_rad)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 bool Presence::update(MonotonicTime now, const tracking::TrackedState& tracked_state, bool active) {
     const bool prop = rested_ && prop_has_moved(tracked_state, *rested_);
-    const bool moved = prop || (rested_ && head_has_moved(tracked_state, *rested_));
+    const bool moved =
+        prop ||
+        (rested_ && (head_has_moved(tracked_state, *rested_) || torch_has_moved(tracked_state, *rested_)));
     rested_ = moved || !rested_ ? tracked_state : rested_;
     moved_ = moved || active ? now : moved_;
     prop_moved_ = prop ? now : prop_moved_;

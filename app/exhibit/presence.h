@@ -1,4 +1,4 @@
-/// Presence of a visitor at the table: the prop or the head moved, or a button was pressed, within half a minute.
+/// Presence of a visitor at the table: the prop, the head or a torch moved, or a button was pressed, within half a minute.
 /// Also how long no visitor has been present.
 ///
 /// Guidance depends on it: a prop left out of the light overnight brings no advice all night.

@@ -16,6 +16,7 @@
 #include "app/exhibit/staff_tool.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
+#include "app/exhibit/torch_lights.h"
 #include "app/geometry/transform.h"
 #include "app/typography/captions.h"
 
@@ -73,6 +74,7 @@ struct Presentation {
     std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
     BehaviourEvents behaviours;               ///< that begin or end in this step
     std::optional<PresentedTitle> title;      ///< what the button for behaviours does now
+    PresentedTorches torches;                 ///< what torches throw onto the artifact
     std::optional<RoomObject> before;         ///< the object of the room that the prop has settled before
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit

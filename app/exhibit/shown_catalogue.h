@@ -44,6 +44,10 @@ public:
     [[nodiscard]] std::span<const glm::dvec3> hull(std::size_t artifact) const;
     /// Also of an artifact without captions; valid as long as the catalogue.
     [[nodiscard]] std::span<const TriggeredBehaviour> behaviours(std::size_t artifact) const;
+    /// How many contents a torch can throw onto it.
+    [[nodiscard]] std::size_t contents(std::size_t artifact) const {
+        return artifact < entries_.size() ? entries_[artifact].content_title_sizes_m.size() : 0;
+    }
     /// `other`: the zone of an artifact without its own.
     [[nodiscard]] const ZoneFrame& zone(std::size_t artifact, const ZoneFrame& other) const;
     /// The language of the artifact's caption; without captions, `chosen`.

@@ -16,6 +16,7 @@ struct Registration {
     glm::dvec3 eye_in_sensor_m{0.0};   ///< the point between the eyes, in the head's sensor
     /// From the left eye to the right one, in the head's sensor; of any length but 0.
     glm::dvec3 right_in_sensor{1.0, 0.0, 0.0};
+    RigidTransform sensor_from_torch{}; ///< of the torch's sensor; the settings' [torch] have it
 };
 
 } // namespace frustumscreen::geometry

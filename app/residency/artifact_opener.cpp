@@ -65,14 +65,20 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
                 scene::plan_scene(settings, outline, request_of(settings, options, outline)));
             opened.outline = outline;
             opened.plan = std::move(plan);
+            if (settings.torch.exists()) {
+                opened.plan.needs = scene::with_torches(std::move(opened.plan.needs));
+            }
             return std::vector<std::uint32_t>{};
         });
     TRY_VOID(pack);
     TRY(opened.world, open_world(settings, file, opened.outline.description, opened.plan,
                                  request_of(settings, options, opened.outline)));
-    TRY(opened.texts,
-        lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
-                      text_style(settings), settings.sound.kind != settings::SoundKind::None));
+    TRY(opened.texts, lay_out_texts({.file = file,
+                                     .pack = opened.outline.description,
+                                     .captions = opened.plan.captions,
+                                     .contents = settings.torch.exists()},
+                                    opened.plan.metres_per_box, text_style(settings),
+                                    settings.sound.kind != settings::SoundKind::None));
     TRY_VOID(find_whole_zone(settings, opened));
     return opened;
 }
@@ -174,6 +180,9 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
         all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));
     }
+    if (settings.torch.exists()) {
+        all.needs = scene::with_torches(std::move(all.needs));
+    }
     if (!all.first) {
         return nothing_to_show(all.left_out, options.packs_key);
     }
@@ -200,7 +209,8 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
     needs.rasterizes = true;
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
-    return with_cut_outs(scene::with_cells(std::move(needs)));
+    needs = with_cut_outs(scene::with_cells(std::move(needs)));
+    return settings.torch.exists() ? scene::with_torches(std::move(needs)) : needs;
 }
 
 TextStyle text_style(const settings::Settings& settings) {

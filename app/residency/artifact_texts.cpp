@@ -1,6 +1,7 @@
 #include "app/residency/artifact_texts.h"
 
 #include "app/exhibit/languages.h"
+#include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/text_portions.h"
 #include "app/scene/scene_level.h"
@@ -196,6 +197,19 @@ Result<std::vector<exhibit::TriggeredBehaviour>> lay_out_behaviours(const pack::
     return made;
 }
 
+/// Of what a torch can throw.
+Result<std::vector<std::vector<glm::dvec2>>> lay_out_contents(const pack::PackDescription& pack,
+                                                              std::span<const std::string> languages,
+                                                              std::span<const pack::SetLanguage> set,
+                                                              const TextStyle& style) {
+    TRY(const pack::PackTorches torches, pack::torches_of(pack));
+    std::vector<std::vector<glm::dvec2>> made;
+    for (std::size_t k = 0; k < torches.contents.size(); ++k) {
+        made.push_back(label_sizes_m(pack::torch_key(k), languages, set, style));
+    }
+    return made;
+}
+
 /// Sizes of the part's pictures in their order; 0 for a missing picture.
 std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,
                                  const TextStyle& style) {
@@ -209,6 +223,9 @@ std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart 
         add(entry.caption_sizes_m[language]);
         for (const exhibit::TriggeredBehaviour& behaviour : entry.behaviours) {
             add(std::span(&behaviour.title_sizes_m[language], 1));
+        }
+        for (const std::vector<glm::dvec2>& content : entry.content_title_sizes_m) {
+            add(std::span(&content[language], 1));
         }
         return sizes;
     }
@@ -258,8 +275,9 @@ private:
 };
 
 Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& caption,
-                  std::span<const exhibit::TriggeredBehaviour> behaviours,
-                  std::span<const pack::SetLanguage> set, TextPart part, Drawing& drawing) {
+                  const exhibit::CatalogueEntry& entry, std::span<const pack::SetLanguage> set, TextPart part,
+                  Drawing& drawing) {
+    const std::vector<exhibit::TriggeredBehaviour>& behaviours = entry.behaviours;
     TRY(const pack::ScanRights rights, pack::scan_rights(pack));
     const bool is_caption = part == TextPart::Caption;
     for (const TableText& text :
@@ -268,6 +286,9 @@ Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& ca
     }
     for (std::size_t k = 0; is_caption && k < behaviours.size(); ++k) {
         drawing.add_label(caption.language, title_key(behaviours[k].trigger, k));
+    }
+    for (std::size_t k = 0; is_caption && k < entry.content_title_sizes_m.size(); ++k) {
+        drawing.add_label(caption.language, pack::torch_key(k));
     }
     for (std::size_t k = 0; !is_caption && k < pack.hotspots.size(); ++k) {
         drawing.add_label(caption.language, pack::label_key(k));
@@ -298,6 +319,10 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
     made.entry.hotspots = lay_out_hotspots(source.pack, languages, set, metres_per_box, style);
     TRY(made.entry.behaviours,
         at(source.file.string(), lay_out_behaviours(source.pack, languages, set, style)));
+    if (source.contents) {
+        TRY(made.entry.content_title_sizes_m,
+            at(source.file.string(), lay_out_contents(source.pack, languages, set, style)));
+    }
     return made;
 }
 
@@ -329,8 +354,7 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     TRY(const std::vector<pack::SetLanguage> set,
         pack::load_set_texts(source.file, std::span(&caption.language, 1)));
     Drawing drawing(style, set, given_up);
-    TRY_VOID(
-        at(source.file.string(), draw(source.pack, caption, texts.entry.behaviours, set, part, drawing)));
+    TRY_VOID(at(source.file.string(), draw(source.pack, caption, texts.entry, set, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
     const auto as_laid_out = [](const image::Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;

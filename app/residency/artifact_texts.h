@@ -28,6 +28,7 @@ struct TextSource {
     const std::filesystem::path& file;
     const pack::PackDescription& pack;
     std::span<const std::size_t> captions; ///< of the pack, one per language that is shown
+    bool contents = false; ///< there are torches: the titles of what they throw are laid out too
 };
 
 /// The layout of an artifact's texts.
@@ -45,7 +46,7 @@ enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
 inline constexpr std::size_t text_parts = 2;
 
 /// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one, then the
-/// titles of behaviours; of the narration, by portion and width, with the attribution as the last portion, then the
+/// titles of behaviours and of what torches throw; of the narration, by portion and width, with the attribution as the last portion, then the
 /// hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language,

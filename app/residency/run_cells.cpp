@@ -2,6 +2,7 @@
 
 #include "app/geometry/time_curves.h"
 #include "app/scene/cell_plan.h"
+#include "app/scene/torch_plan.h"
 
 #include <algorithm>
 #include <array>
@@ -106,13 +107,29 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
     }
     parts_.reserve(2 * cells_.size() + 1);
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
-        plans_.push_back(scene::make_plan(whole.prop, indices, 2 * cells_.size() + 1));
+        const std::size_t parts = 2 * cells_.size() + 1;
+        plans_.push_back(scene::make_plan(whole.prop, indices, parts));
+        if (whole.needs.torches) {
+            scene::make_torch_space(plans_.back(), whole.prop.faces.size(), indices, parts);
+        }
     }
 }
 
 void RunCells::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
     options_[place].placed.drawable = drawable;
     uses_[place].gpu_bytes = store.bytes(drawable);
+}
+
+Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer) {
+    for (std::size_t k = 0; k < cells_.size() && k < layer.cells.size(); ++k) {
+        const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
+        for (std::size_t option = cells_[k].first; option < end; ++option) {
+            scene::PlacedLevel& placed = options_[option].placed;
+            TRY_VOID(residency::add_layer(store, layer.cells[k], uses_[option].level,
+                                          placed.relief != nullptr, placed.drawable));
+        }
+    }
+    return {};
 }
 
 void RunCells::release(render::GpuStore& store) {

@@ -46,6 +46,8 @@ public:
 
     /// Sets the drawable of the level with index `place`, which is in the store.
     void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
+    /// Gives every cell's levels and reliefs those of `layer.cells`. All are given.
+    [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
     /// Removes all given levels from the store; drawing is then impossible.
     void release(render::GpuStore& store);
     /// GPU memory and main memory, by the plan.

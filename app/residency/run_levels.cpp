@@ -3,6 +3,7 @@
 #include "app/geometry/time_curves.h"
 #include "app/render/block_upload.h"
 #include "app/render/read_back.h"
+#include "app/scene/torch_plan.h"
 #include "firmware_host/base/quantile.h"
 
 #include <algorithm>
@@ -134,12 +135,24 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
     }
     for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(plan.prop, indices, 2));
+        if (plan.needs.torches) {
+            scene::make_torch_space(plans_.back(), plan.prop.faces.size(), indices, 2);
+        }
     }
 }
 
 void RunLevels::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
     levels_[place].placed.drawable = drawable;
     uses_[place].gpu_bytes = store.bytes(drawable);
+}
+
+Result<void> RunLevels::add_layer(render::GpuStore& store, const ReadLayer& layer) {
+    for (std::size_t place = 0; place < levels_.size(); ++place) {
+        scene::PlacedLevel& placed = levels_[place].placed;
+        TRY_VOID(residency::add_layer(store, layer, uses_[place].level, placed.relief != nullptr,
+                                      placed.drawable));
+    }
+    return {};
 }
 
 Result<RunLevels> RunLevels::upload(const pack::Pack& pack, const scene::ScenePlan& plan,

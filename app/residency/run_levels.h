@@ -12,6 +12,7 @@
 
 #include "app/pack/pack_file.h"
 #include "app/render/renderer.h"
+#include "app/residency/read_layer.h"
 #include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/governor.h"
@@ -88,6 +89,9 @@ public:
               std::span<const PreparedLevel> levels);
     /// Sets the drawable of the level with index `place`, which is in the store.
     void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
+
+    /// Gives every level the layer's textures, every relief its colours. All levels are given.
+    [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
 
     /// Prepares and uploads all levels at once. `technique`: as requested. `pack` need not outlive the call.
     /// On failure nothing stays in the store.

@@ -17,7 +17,10 @@ namespace {
 std::string camera_uses(const DevicePlan& plan) {
     std::vector<std::string_view> uses;
     if (plan.tags) {
-        uses.emplace_back("finds the prop's tags");
+        uses.emplace_back(plan.torch == settings::TorchSource::Camera ||
+                                  plan.torch == settings::TorchSource::Both
+                              ? "finds the tags of the prop and the torch"
+                              : "finds the prop's tags");
     }
     if (plan.visitor) {
         uses.emplace_back("sees who stands at the table");
@@ -43,6 +46,7 @@ DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool s
     };
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
+    plan.torch = settings.torch.source;
     plan.screen = settings.screen.exists();
     plan.head = settings.eye.tracked && plan.tracker != settings::TrackerKind::None;
     plan.tags = settings.camera.tags;
@@ -78,6 +82,10 @@ DevicePlan plan_devices(const settings::Settings& settings, bool pressed, bool s
     }
     if (!plan.screen) {
         plan.left_out.emplace_back("No screen is opened and no room is read: the settings have no screen.");
+    }
+    if (!settings.torch.exists()) {
+        plan.left_out.emplace_back(
+            "No torch is followed and none of its contents is read: the settings have no torch.");
     }
     if (!plan.panel) {
         plan.left_out.emplace_back("No button panel is opened: no button is configured.");

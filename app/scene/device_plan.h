@@ -14,10 +14,11 @@ namespace frustumscreen::scene {
 /// The exhibit's devices and threads.
 struct DevicePlan {
     settings::TrackerKind tracker = settings::TrackerKind::None;
-    bool head = false;        ///< the tracker's head samples are used
-    bool tags = false;        ///< a camera follows the prop's tags
-    bool visitor = false;     ///< a camera sees who stands at the table
-    bool drift = false;       ///< a camera checks that the picture has not drifted since calibration
+    bool head = false;    ///< the tracker's head samples are used
+    bool tags = false;    ///< a camera follows the prop's tags
+    bool visitor = false; ///< a camera sees who stands at the table
+    bool drift = false;   ///< a camera checks that the picture has not drifted since calibration
+    settings::TorchSource torch = settings::TorchSource::None;
     bool screen = false;      ///< there is a screen behind the table
     bool panel = false;       ///< there are buttons
     bool other_packs = false; ///< a button or the table leads to artifacts other than the first

@@ -349,6 +349,50 @@ void check_camera(const Settings& settings, Fitness& fitness) {
     check_visitor(settings, fitness);
 }
 
+/// What reports the torch must be there.
+void check_torch_source(const Settings& settings, Fitness& fitness) {
+    const TorchSettings& torch = settings.torch;
+    const TrackerKind tracker = settings.tracker.kind;
+    const std::string source(name_of(torch.source));
+    fitness.require(
+        "settings.torch_without_tracker",
+        !torch.by_tracker() || (tracker != TrackerKind::None && tracker != TrackerKind::SpaceMouse),
+        "torch.source",
+        fmt::format("is \"{}\", and tracker.kind is \"{}\", which has no station 3; allowed are \"usb\", "
+                    "\"simulated\" and \"replay\", or another torch.source",
+                    source, name_of(tracker)));
+    fitness.require("settings.torch_without_tags", !torch.by_camera() || settings.camera.tags, "torch.source",
+                    fmt::format("is \"{}\"; it needs camera.tags = true, the camera that sees the tag on the "
+                                "lamp",
+                                source));
+    const auto& tags = settings.camera.tag;
+    fitness.require("settings.torch_tag_twice",
+                    !torch.by_camera() ||
+                        std::none_of(tags.begin(), tags.end(),
+                                     [&](const TagSettings& tag) { return tag.id == torch.tag.id; }),
+                    "torch.tag.id",
+                    fmt::format("is {}, as that of a tag on the prop; give the lamp's tag an id of its own",
+                                torch.tag.id));
+}
+
+void check_torch(const Settings& settings, Fitness& fitness) {
+    const TorchSettings& torch = settings.torch;
+    const double opening_deg = std::round(1e9 * glm::degrees(torch.beam.opening_rad)) / 1e9;
+    fitness.require(
+        "settings.torch_opening",
+        !torch.exists() || (torch.min_opening_deg <= opening_deg && opening_deg <= torch.max_opening_deg),
+        "torch.opening_deg",
+        fmt::format("is {}; allowed are degrees from torch.min_opening_deg, {}, to torch.max_opening_deg, {}",
+                    opening_deg, torch.min_opening_deg, torch.max_opening_deg));
+    const bool ends = torch.beam.attenuation == torch::Attenuation::Linear ||
+                      torch.beam.attenuation == torch::Attenuation::SmoothStep;
+    fitness.require("settings.torch_dark", !ends || torch.beam.full_m < torch.beam.dark_m, "torch.dark_m",
+                    fmt::format("is {}; the light falls from torch.full_m to there, allowed are more than {} "
+                                "metres",
+                                torch.beam.dark_m, torch.beam.full_m));
+    check_torch_source(settings, fitness);
+}
+
 /// Two keys of the same name would make messages ambiguous.
 void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
@@ -397,6 +441,7 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     check_screen(settings, fitness);
     check_devices(settings, fitness);
     check_camera(settings, fitness);
+    check_torch(settings, fitness);
     check_sound(settings, fitness);
     check_keys(settings, fitness);
     check_hours(settings, fitness);

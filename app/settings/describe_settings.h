@@ -9,6 +9,7 @@
 #pragma once
 
 #include "app/settings/command.h"
+#include "app/settings/describe_torch.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/language_tag.h"
 #include "app/settings/looking_at.h"
@@ -532,7 +533,9 @@ void all_settings(auto& file, auto& settings) {
     table("eye", "Where visitors' eyes are.", [&](auto& fields) { eye_settings(fields, settings.eye); });
     table("screen", "A flat screen behind the table, and the room in it.",
           [&](auto& fields) { screen_settings(fields, settings.screen); });
-    table("tracker", "The tracker of the prop and of the visitor's head.",
+    table("torch", "A lamp in the hand that throws information onto the artifact ([torch.md](torch.md)).",
+          [&](auto& fields) { torch_settings(fields, settings.torch); });
+    table("tracker", "The tracker of the prop, of the visitor's head and of the torch.",
           [&](auto& fields) { tracker_settings(fields, settings.tracker); });
     table("calibration", "The measured projector and tracker.",
           [&](auto& fields) { calibration_settings(fields, settings.calibration); });

@@ -145,6 +145,10 @@ std::string_view name_of(CameraKind kind) {
     return camera_names[static_cast<std::size_t>(kind)];
 }
 
+std::string_view name_of(TorchSource source) {
+    return torch_source_names[static_cast<std::size_t>(source)];
+}
+
 std::string_view name_of(LineBias bias) {
     return bias_names[static_cast<std::size_t>(bias)];
 }

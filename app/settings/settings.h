@@ -232,9 +232,17 @@ struct TorchSettings {
     double min_opening_deg = 8.0, max_opening_deg = 60.0; ///< by a twist of the torch
     double house_light = 1.0;                   ///< 0..1: the artifact's light while a torch is held
     geometry::RigidTransform sensor_from_torch; ///< of the tracker's sensor
-    TagSettings tag;                            ///< on the lamp: its place in the torch's frame
+    /// On the lamp, in the torch's frame: on its upper side, its top towards the light.
+    TagSettings tag{
+        .id = 586, .size_m = 0.04, .centre_m = {0.0, -0.025, -0.06}, .turn_deg = 0.0, .lean_deg = 90.0};
 
     [[nodiscard]] bool exists() const { return source != TorchSource::None; }
+    [[nodiscard]] bool by_tracker() const {
+        return source == TorchSource::Tracker || source == TorchSource::Both;
+    }
+    [[nodiscard]] bool by_camera() const {
+        return source == TorchSource::Camera || source == TorchSource::Both;
+    }
 };
 
 /// A flat screen behind the table, the second output, and the room that it shows.
@@ -291,6 +299,13 @@ struct Settings {
 [[nodiscard]] Stereo stereo_of(const Settings& settings);
 /// The layout of the screen's picture.
 [[nodiscard]] Stereo screen_stereo_of(const Settings& settings);
+
+/// The tracker's registration, with that of the torch's sensor.
+[[nodiscard]] inline geometry::Registration registration_of(const Settings& settings) {
+    geometry::Registration registration = settings.tracker.registration;
+    registration.sensor_from_torch = settings.torch.sensor_from_torch;
+    return registration;
+}
 
 /// A prop in the hand has no zone on the table, and a prop that is not tracked never leaves its zone.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {

@@ -113,10 +113,13 @@ public:
         prefix_.clear();
     }
     void table(const char* name, std::string_view sentence, const auto& describe) {
+        const std::string outer = table_;
+        table_ = outer.empty() ? name : fmt::format("{}.{}", outer, name);
         text_ += fmt::format("\n## [{}]\n\n{}\n\n| key | default | allowed | what it is |\n"
                              "|---|---|---|---|\n",
-                             name, sentence);
+                             table_, sentence);
         describe(*this);
+        table_ = outer;
     }
     void require(MessageId /*id*/, bool /*well*/, const char* /*key*/, std::string_view /*what*/) {}
 
@@ -134,6 +137,7 @@ private:
 
     std::string text_{head};
     std::string prefix_; ///< of the keys in a list of tables
+    std::string table_;  ///< that is being described
 };
 
 } // namespace

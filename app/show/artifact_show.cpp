@@ -92,6 +92,10 @@ Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings)
     if (settings.camera.drift) {
         TRY_VOID(marks_.prepare(renderer_.store()));
     }
+    if (settings.torch.exists()) {
+        torches_.emplace(settings.torch);
+        TRY_VOID(torches_->prepare(renderer_.store()));
+    }
     return upload_signs(settings);
 }
 
@@ -110,7 +114,8 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != scene::TextureId::None ? scene::caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
-           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes() + marks_.planned_gpu_bytes();
+           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes() + marks_.planned_gpu_bytes() +
+           (torches_ ? torches_->planned_gpu_bytes() : 0);
 }
 
 void ArtifactShow::note_language(const settings::Settings& settings) {
@@ -177,7 +182,9 @@ void ArtifactShow::warm_up(scene::PlanView view, std::span<const glm::dvec3> eye
     const scene::TextureId word =
         !words.empty() && !words.front().empty() ? set_->word({}, 0) : scene::TextureId::None;
     const auto [ring, notice] = notice_.samples();
-    for (const scene::TextureId texture : {white_, ring, notice, marks_.texture(), signs_.front(), word}) {
+    const scene::TextureId spot = torches_ ? torches_->spot() : scene::TextureId::None;
+    for (const scene::TextureId texture :
+         {white_, ring, notice, marks_.texture(), signs_.front(), word, spot}) {
         if (texture != scene::TextureId::None) {
             on_table_.add(
                 {.corners_m = residency::picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}),
@@ -186,6 +193,9 @@ void ArtifactShow::warm_up(scene::PlanView view, std::span<const glm::dvec3> eye
         }
     }
     view.on_table = on_table_.pictures();
+    if (torches_) {
+        view.torches = torches_->sample(attract_place_m_);
+    }
     render::RenderTarget drawn = target;
     for (const render::Redraw redraw : {render::Redraw::Everything, render::Redraw::Changes}) {
         const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
@@ -350,6 +360,25 @@ ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
                                .texture = texture};
 }
 
+std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Presentation& presentation) {
+    residency::TorchContents* const contents = set_->torch_contents.get();
+    if (!torches_ || contents == nullptr) {
+        return {};
+    }
+    contents->step(renderer_.store(), presentation.artifact, wanted_contents(presentation, *contents).all());
+    if (residency::RunLevels* const levels = set_->artifact_cache->find(presentation.artifact)) {
+        if (const std::optional<residency::ReadLayer> layer = contents->take_layer()) {
+            Result<void> added = levels->add_layer(renderer_.store(), *layer);
+            residency::RunCells* const cells = set_->artifact_cache->find_cells(presentation.artifact);
+            if (added && cells != nullptr) {
+                added = cells->add_layer(renderer_.store(), *layer);
+            }
+            contents->note_layer(layer->layer, added);
+        }
+    }
+    return torches_->place(presentation, *contents);
+}
+
 render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
                                       std::span<const glm::dvec3> eyes_m, const render::RenderTarget& target,
                                       render::Redraw redraw) {
@@ -365,7 +394,11 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     view.light = artifact_cache.known(presentation.artifact).plan.light;
     view.brightness = artifact_cache.exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
+    view.torches = throw_light(presentation);
     on_table_.clear();
+    if (torches_) {
+        torches_->place_spots(presentation, on_table_);
+    }
     place_zone_frame(presentation);
     set_->table.place(
         presentation,
@@ -416,6 +449,7 @@ ShowUse ArtifactShow::use() const {
     use.planned_gpu_bytes = scene::gpu_bytes(needs_, layout_.display.width, layout_.display.height);
     use.text_gpu_bytes = set_->artifact_cache->uploaded_text_bytes();
     use.planned_gpu_bytes += planned_bytes_that_stay() + set_->planned_gpu_bytes() + use.text_gpu_bytes;
+    use.planned_gpu_bytes += set_->torch_contents ? set_->torch_contents->bytes() : 0;
     use.gpu_bytes = renderer_.bytes();
     for (std::size_t artifact = 0; artifact < catalogue().size(); ++artifact) {
         use.captions += catalogue()[artifact].languages.size();

@@ -21,6 +21,7 @@
 #include "app/show/notice_show.h"
 #include "app/show/show.h"
 #include "app/show/shown_set.h"
+#include "app/show/torch_show.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -147,6 +148,8 @@ private:
     void place_title(const exhibit::Presentation& presentation);
     /// Places the sign of the guidance.
     void place_signs(const exhibit::Presentation& presentation);
+    /// Steps what torches throw; returns what they throw now.
+    [[nodiscard]] std::span<const scene::PlacedTorch> throw_light(const exhibit::Presentation& presentation);
     /// Nothing if no caption is shown, or if its picture is not loaded.
     [[nodiscard]] std::optional<scene::TablePicture>
     place_caption(const exhibit::Presentation& presentation) const;
@@ -173,6 +176,7 @@ private:
     residency::HotspotShow hotspots_;
     NoticeTextures notice_;
     MarkShow marks_;
+    std::optional<TorchShow> torches_;     ///< none: there is no torch
     std::optional<drift::ShownMark> mark_; ///< of this frame
     std::vector<glm::dvec2> picture_m_;    ///< the part of the table that the projector's picture covers
     residency::OnTable on_table_;

@@ -63,6 +63,11 @@ tracking::PropMotion prop_motion(const settings::PropSettings& prop) {
     return on_table ? tracking::PropMotion::OnTable : tracking::PropMotion::InHand;
 }
 
+/// A simulated torch is a tracker's.
+tracking::TorchSources torch_sources(const settings::TorchSettings& torch) {
+    return {.tracker = torch.by_tracker(), .camera = torch.by_camera()};
+}
+
 } // namespace
 
 std::string camera_uses(const Inputs& inputs) {
@@ -82,9 +87,10 @@ std::string camera_uses(const Inputs& inputs) {
 DeviceIntake::DeviceIntake(const settings::Settings& settings, Inputs& inputs)
     : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
       tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m, two_eyes(settings),
-                     prop_motion(settings.prop)) {
+                     prop_motion(settings.prop), torch_sources(settings.torch)) {
     samples_.reserve(1024);
     tag_poses_.reserve(64);
+    lamp_poses_.reserve(64);
     heads_.reserve(64);
     events_.reserve(64);
     commands_.reserve(64);
@@ -107,12 +113,14 @@ void DeviceIntake::poll(MonotonicTime now) {
 void DeviceIntake::take_poses(MonotonicTime now) {
     samples_.clear();
     tag_poses_.clear();
+    lamp_poses_.clear();
     heads_.clear();
     if (inputs_.tracker) {
         errors_ += inputs_.tracker->poll(now, samples_) ? 0 : 1;
     }
     if (inputs_.tags) {
         inputs_.tags->poll(now, tag_poses_);
+        inputs_.tags->poll_lamp(now, lamp_poses_);
     }
     if (inputs_.visitor) {
         inputs_.visitor->poll(now, heads_);
@@ -129,6 +137,9 @@ void DeviceIntake::take_poses(MonotonicTime now) {
     }
     for (const tracking::UncertainPose& pose : tag_poses_) {
         errors_ += tracked_state_.take_tags(pose) ? 0 : 1;
+    }
+    for (const tracking::UncertainPose& pose : lamp_poses_) {
+        errors_ += tracked_state_.take_lamp(pose) ? 0 : 1;
     }
     for (const tracking::SeenHead& head : heads_) {
         errors_ += tracked_state_.take_visitor(head) ? 0 : 1;

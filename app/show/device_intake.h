@@ -52,7 +52,7 @@ private:
     tracking::SignalMeter prop_signal_, head_signal_;
     std::uint64_t errors_ = 0;
     std::vector<tracker::PoseSample> samples_; ///< `samples_` to `events_`: of this frame
-    std::vector<tracking::UncertainPose> tag_poses_;
+    std::vector<tracking::UncertainPose> tag_poses_, lamp_poses_;
     std::vector<tracking::SeenHead> heads_;
     std::vector<panel::PanelEvent> events_;
     std::vector<settings::Command> commands_;

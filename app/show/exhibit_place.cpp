@@ -26,6 +26,13 @@ std::size_t buttons_of(const settings::PanelSettings& panel) {
     return static_cast<std::size_t>(count);
 }
 
+exhibit::TorchPlace torch_place(const settings::TorchSettings& torch) {
+    return {.beam = torch.beam,
+            .min_opening_rad = glm::radians(torch.min_opening_deg),
+            .max_opening_rad = glm::radians(torch.max_opening_deg),
+            .house_light = torch.house_light};
+}
+
 } // namespace
 
 exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
@@ -47,6 +54,9 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
                         settings.tracker.kind != settings::TrackerKind::None &&
                         scene::keeps_pixels(settings::stereo_of(settings));
     place.table_pictures = settings::chooses_on_table(settings);
+    if (settings.torch.exists()) {
+        place.torch = torch_place(settings.torch);
+    }
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;
 }

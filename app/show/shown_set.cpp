@@ -69,6 +69,9 @@ void expect(const ExpectedFrames& frames, const residency::KnownArtifact& known,
     levels.start(frames.cost, frames.prop, seen);
 }
 
+/// Of `exhibit.memory_mb`, what torches throw takes at most one part in so many.
+constexpr std::uint64_t share_of_torches = 4;
+
 } // namespace
 
 Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, const SetOptions& options,
@@ -114,7 +117,16 @@ Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, c
         expect(*frames, opened.known.front(), opened.first->levels);
     }
     const double share = settings.screen.exists() ? 1.0 - RoomShow::room_share : 1.0;
-    const auto budget = static_cast<std::uint64_t>(share * 1e6 * settings.exhibit.memory_mb);
+    const auto whole = static_cast<std::uint64_t>(share * 1e6 * settings.exhibit.memory_mb);
+    const std::uint64_t thrown = settings.torch.exists() ? whole / share_of_torches : 0;
+    const std::uint64_t budget = whole - thrown;
+    if (settings.torch.exists()) {
+        TRY(std::vector<residency::ThrownContents> contents, residency::thrown_contents(opened.known));
+        set->torch_contents = std::make_unique<residency::TorchContents>(
+            std::move(contents), residency::TorchContents::Options{.max_bytes = thrown,
+                                                                   .waits = options.waits,
+                                                                   .program = options.program});
+    }
     const std::uint64_t stays = options.gpu_bytes_that_stay + set->planned_gpu_bytes();
     set->artifact_cache = std::make_unique<residency::ArtifactCache>(
         residency::ArtifactCacheSetUp{.artifacts = std::move(opened.known),
@@ -154,6 +166,9 @@ bool ShownSet::ready(const residency::CacheRequest& request) const {
 bool ShownSet::release_some(render::GpuStore& store) {
     if (!std::exchange(words_released_, true)) {
         word_pictures.release(store);
+        if (torch_contents) {
+            torch_contents->release(store);
+        }
         return true;
     }
     return table.release_some(store) || artifact_cache->release_some(store);

@@ -16,6 +16,7 @@
 #include "app/residency/artifact_cache.h"
 #include "app/residency/artifact_opener.h"
 #include "app/residency/loaded.h"
+#include "app/residency/torch_contents.h"
 #include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
@@ -75,6 +76,7 @@ struct ShownSet {
     std::vector<std::string> notes;      ///< sentences about settings that may be unintended
     scene::RenderNeeds needs;
     std::unique_ptr<residency::ArtifactCache> artifact_cache;
+    std::unique_ptr<residency::TorchContents> torch_contents; ///< null: there is no torch
     AdviceWords words;
     residency::LoadedTexts word_pictures;
     TableShow table;

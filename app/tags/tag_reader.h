@@ -1,5 +1,5 @@
 /// Turns a camera's frame into the prop's pose on the table: finds the tags, fits the pose, and limits its
-/// processor time.
+/// processor time. A lamp with a tag of its own gets its pose from the same frame.
 ///
 /// Frames   table T; a frame of another size than the pinhole's, but of equal aspect ratio, is read as the
 ///          same view.
@@ -31,6 +31,7 @@ struct TagSetUp {
     geometry::RigidTransform table_from_camera;
     std::vector<PropTag> tags;
     double readout_s = 0.0; ///< of the camera's rows, from the first to the last; 0: global shutter
+    std::optional<PropTag> lamp = std::nullopt; ///< on a torch: its pose in the torch's frame
 };
 
 /// Counts of frames since the start.
@@ -50,10 +51,13 @@ public:
     explicit TagReader(TagSetUp set_up, std::function<double()> busy = camera::thread_seconds);
 
     [[nodiscard]] std::optional<tracking::UncertainPose> read(const camera::CameraFrame& frame);
+    /// The lamp's pose in the frame that was read last; `table_from_prop` is the torch's.
+    [[nodiscard]] const std::optional<tracking::UncertainPose>& lamp() const { return lamp_; }
     [[nodiscard]] const TagCounts& counts() const { return counts_; }
 
 private:
     [[nodiscard]] std::optional<tracking::UncertainPose> look(const camera::CameraFrame& frame);
+    void look_for_lamp(const geometry::Pinhole& camera, MonotonicTime first_row);
     /// Chooses the search size of the next picture, from the result and the time of this one.
     void follow_size(bool posed, double took_s);
 
@@ -69,6 +73,7 @@ private:
         MonotonicTime time;
     };
     std::optional<Before> before_; ///< the latest returned pose
+    std::optional<tracking::UncertainPose> lamp_;
     std::vector<FoundTag> found_;
     TagCounts counts_;
 };

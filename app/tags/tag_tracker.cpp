@@ -9,6 +9,9 @@ void TagTracker::use(const camera::CameraFrame& frame) {
     if (const std::optional<tracking::UncertainPose> pose = reader_.read(frame)) {
         mailbox_.put(std::span(&*pose, 1));
     }
+    if (const std::optional<tracking::UncertainPose>& lamp = reader_.lamp()) {
+        lamp_.put(std::span(&*lamp, 1));
+    }
     misshapen_ = reader_.counts().misshapen > misshapen;
 }
 

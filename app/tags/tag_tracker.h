@@ -24,12 +24,15 @@ public:
     void use(const camera::CameraFrame& frame);
     /// Appends every pose with time <= now that was not returned yet, in ascending time.
     void poll(MonotonicTime now, std::vector<tracking::UncertainPose>& poses) { mailbox_.take(now, poses); }
+    /// The same of the lamp's poses.
+    void poll_lamp(MonotonicTime now, std::vector<tracking::UncertainPose>& poses) { lamp_.take(now, poses); }
     /// A fault in one plain sentence; empty: no fault.
     [[nodiscard]] std::string_view trouble() const;
 
 private:
     TagReader reader_; ///< the camera's thread only
     Mailbox<tracking::UncertainPose, 16> mailbox_;
+    Mailbox<tracking::UncertainPose, 16> lamp_;
     std::atomic<bool> misshapen_{false};
 };
 

@@ -28,6 +28,10 @@ constexpr double tags_off_m = 0.0015;
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
 
+/// Of torches: as tracker_lost_after; a lamp's tag is covered now and then.
+constexpr Nanoseconds torch_lost_after = std::chrono::milliseconds(250);
+constexpr Nanoseconds lamp_lost_after = std::chrono::milliseconds(600);
+
 /// A brisk hand. A prop that was lost and found elsewhere is not followed faster.
 constexpr double fastest_return_m_s = 1.0;
 
@@ -68,15 +72,26 @@ PoseEstimator prop_estimator(double lever_m, PropMotion motion) {
 } // namespace
 
 LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes,
-                                   PropMotion motion)
+                                   PropMotion motion, const TorchSources& torches)
     : default_eye_m_(default_eye_m), prop_(prop_estimator(lever_m, motion)), tags_(estimator()),
       head_(estimator()), visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()),
       lever_m_(lever_m), source_arbiter_({.lever_m = lever_m}),
       shown_prop_({.lever_m = lever_m, .fastest_m_s = fastest_return_m_s}),
       shown_head_({.lever_m = head_lever_m}), two_eyes_(two_eyes),
-      shown_turn_({.lever_m = two_eyes.half_apart_m}), eyes_apart_(two_eyes.fixed_viewer) {}
+      shown_turn_({.lever_m = two_eyes.half_apart_m}), eyes_apart_(two_eyes.fixed_viewer) {
+    if (torches.tracker) {
+        torches_[0].emplace(SteadyFilterOptions{}, torch_lost_after);
+    }
+    if (torches.camera) {
+        torches_[1].emplace(lamp_filter(), lamp_lost_after);
+    }
+}
 
 bool LiveTrackedState::take(const tracker::PoseSample& sample) {
+    if (sample.ok && sample.station == tracker::torch_station && torches_[0]) {
+        const Taken torch = torches_[0]->take(sample.time, {sample.rotation, sample.position_m});
+        return torch == Taken::Used || torch == Taken::Late;
+    }
     if (!sample.ok || (sample.station != tracker::prop_station && sample.station != tracker::head_station)) {
         return true;
     }
@@ -94,6 +109,11 @@ bool LiveTrackedState::take_tags(const UncertainPose& pose) {
     if (taken == Taken::Used) {
         tags_sd_m_ = pose.place_sd_m + lever_m_ * pose.turn_sd_rad;
     }
+    return taken == Taken::Used || taken == Taken::Late;
+}
+
+bool LiveTrackedState::take_lamp(const UncertainPose& pose) {
+    const Taken taken = torches_[1] ? torches_[1]->take(pose.time, pose.table_from_prop) : Taken::Late;
     return taken == Taken::Used || taken == Taken::Late;
 }
 
@@ -141,6 +161,11 @@ TrackedState LiveTrackedState::at(MonotonicTime lit) {
     }
     prop_is_at_ = tracked_state.table_from_prop;
     look_for_eye(tracked_state);
+    for (std::size_t k = 0; k < torches_.size(); ++k) {
+        if (torches_.at(k)) {
+            tracked_state.torches.at(k) = torches_.at(k)->at(lit);
+        }
+    }
     return tracked_state;
 }
 

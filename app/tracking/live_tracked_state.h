@@ -7,6 +7,7 @@
 ///          the eye is that of the active visitor (holder.h); it glides from one person to another.
 /// Two eyes for stereo alone: the turn of the sensor on the head; a head that is seen, and a fixed viewer, look level at
 ///          the prop. Glasses that lie (worn_glasses.h), and a head that is lost, get one eye softly (eyes_apart.h).
+/// Torches  where the settings have them: each with an estimator of its own (torch_follower.h).
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample takes effect at its own time; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
@@ -17,10 +18,12 @@
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
 #include "app/tracking/source_arbiter.h"
+#include "app/tracking/torch_follower.h"
 #include "app/tracking/tracked_state.h"
 #include "app/tracking/uncertain_pose.h"
 #include "app/tracking/worn_glasses.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -40,12 +43,14 @@ class LiveTrackedState {
 public:
     /// `lever_m`: half the prop's height.
     LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m, const TwoEyes& two_eyes = {},
-                     PropMotion motion = PropMotion::InHand);
+                     PropMotion motion = PropMotion::InHand, const TorchSources& torches = {});
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const tracker::PoseSample& sample);
     /// As `take`, for a pose from the tags.
     bool take_tags(const UncertainPose& pose);
+    /// As `take_tags`, for a lamp's tag: `table_from_prop` is the torch's pose.
+    bool take_lamp(const UncertainPose& pose);
     /// Takes a head; heads come in ascending time. Returns false if its position is invalid.
     bool take_visitor(const SeenHead& head);
     /// Sets the tracker's health; metal near the tracker increases the spread of its poses.
@@ -90,6 +95,7 @@ private:
         glasses_; ///< by the sensor's own poses: a prediction for a slow picture would add to their noise
     bool glasses_worn_ = true;
     EyesApart eyes_apart_;
+    std::array<std::optional<TorchFollower>, max_tracked_torches> torches_; ///< as TrackedState::torches
 };
 
 /// Estimates the time from `now`, the start of a frame, until its picture is lit: the display's own latency

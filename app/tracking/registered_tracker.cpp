@@ -20,6 +20,9 @@ geometry::RigidTransform sensor_from_target(int station, const geometry::Registr
     if (station == tracker::head_station) {
         return {turn_of_x_to(registration.right_in_sensor), registration.eye_in_sensor_m};
     }
+    if (station == tracker::torch_station) {
+        return registration.sensor_from_torch;
+    }
     return {};
 }
 

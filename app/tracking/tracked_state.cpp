@@ -16,7 +16,7 @@ TrackedStateTracker::TrackedStateTracker(const glm::dvec3& default_eye_m, const 
     : default_eye_m_(default_eye_m), limits_(limits) {}
 
 bool TrackedStateTracker::take(const tracker::PoseSample& sample) {
-    if (!sample.ok || (sample.station != tracker::prop_station && sample.station != tracker::head_station)) {
+    if (!sample.ok || sample.station < tracker::prop_station || sample.station > tracker::torch_station) {
         return true;
     }
     const std::optional<glm::dquat> rotation = geometry::normalised(sample.rotation);
@@ -24,7 +24,9 @@ bool TrackedStateTracker::take(const tracker::PoseSample& sample) {
     if (!rotation || !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
         return false;
     }
-    std::optional<Latest>& latest = sample.station == tracker::prop_station ? prop_ : head_;
+    std::optional<Latest>& latest = sample.station == tracker::prop_station   ? prop_
+                                    : sample.station == tracker::head_station ? head_
+                                                                              : torch_;
     if (!latest || sample.time >= latest->time) {
         latest = Latest{{*rotation, p}, sample.time};
     }
@@ -46,6 +48,9 @@ TrackedState TrackedStateTracker::at(MonotonicTime now) const {
         tracked_state.eye_m = head_->table_from_station.translation;
         tracked_state.table_from_head = head_->table_from_station.rotation;
         tracked_state.head_known = true;
+    }
+    if (torch_ && now - torch_->time <= limits_.oldest_torch) {
+        tracked_state.torches[0] = {torch_->table_from_station, 1.0};
     }
     return tracked_state;
 }

@@ -51,6 +51,7 @@ struct TrackedState {
 struct TrackedStateLimits {
     Nanoseconds oldest_prop = std::chrono::seconds(1);
     Nanoseconds oldest_head = std::chrono::seconds(1);
+    Nanoseconds oldest_torch = std::chrono::milliseconds(250);
 };
 
 class TrackedStateTracker {
@@ -74,6 +75,7 @@ private:
     TrackedStateLimits limits_;
     std::optional<Latest> prop_;
     std::optional<Latest> head_;
+    std::optional<Latest> torch_;
 };
 
 } // namespace frustumscreen::tracking

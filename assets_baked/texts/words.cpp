@@ -53,6 +53,8 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.wait_tracker",
     "advice.away_from_metal",
     "advice.show_your_head",
+    "advice.point_lamp",
+    "advice.lamp_closer",
     "stick.found",
     "stick.copying",
     "stick.take_out",

@@ -71,7 +71,8 @@ bool SequenceChecker::take(const DeviceFrame& frame, MonotonicTime arrival,
             prop_seen_ = arrival;
             prop_usable_ = pose.usable ? arrival : prop_usable_;
         }
-        if (pose.distortion >= metal_near_distortion) {
+        // Metal near the torch alone bends no pose of the prop or the head.
+        if (pose.distortion >= metal_near_distortion && pose.sensor != torch_station) {
             distorted_ = arrival;
         }
         counts_.unusable += pose.usable ? 0U : 1U;

@@ -20,12 +20,22 @@ enum class Purpose : std::uint64_t {
     TurnOnly,
     HeadX,
     HeadY,
-    HeadZ
+    HeadZ,
+    TorchX,
+    TorchY,
+    TorchZ,
+    AimX,
+    AimY,
+    AimZ,
+    TorchRoll
 };
 
 /// Each slot contains one movement.
 constexpr double prop_slot_s = 4.0;
 constexpr double head_slot_s = 3.1;
+constexpr double torch_slot_s = 2.6;
+/// Of so many movements with the torch, the last two are to where it lies, and there.
+constexpr std::int64_t torch_round = 9;
 
 /// SplitMix64 (Steele, Lea and Flood 2014) of seed, purpose and number; from 0 to 1.
 double random(std::uint64_t seed, Purpose purpose, std::int64_t number) {
@@ -81,6 +91,39 @@ glm::dquat about_z(double angle) {
     return {std::cos(angle / 2.0), 0.0, 0.0, std::sin(angle / 2.0)};
 }
 
+/// Where the torch is at the end of a movement, what it aims at there, and its twist.
+struct Aim {
+    glm::dvec3 from_m{0.0}, at_m{0.0};
+    double roll = 0.0;
+};
+
+Aim mix(const Aim& a, const Aim& b, double s) {
+    return {glm::mix(a.from_m, b.from_m, s), glm::mix(a.at_m, b.at_m, s), glm::mix(a.roll, b.roll, s)};
+}
+
+Aim aim(const SimulatedVisitor& visitor, std::int64_t slot, const glm::dvec3& prop_m) {
+    const glm::dvec3 hand(visitor.centre_m + visitor.half_extent_m * glm::dvec2(1.3, -1.6), 0.24);
+    if ((slot % torch_round + torch_round) % torch_round >= torch_round - 2) {
+        const glm::dvec3 lies(hand.x + 0.05, hand.y, 0.02);
+        return {lies, lies + glm::dvec3(0.0, 0.3, 0.0), 0.0};
+    }
+    const auto any = [&](Purpose purpose, double half) {
+        return random(visitor.seed, purpose, slot, -half, half);
+    };
+    return {
+        hand + glm::dvec3(any(Purpose::TorchX, 0.06), any(Purpose::TorchY, 0.05), any(Purpose::TorchZ, 0.05)),
+        prop_m +
+            glm::dvec3(any(Purpose::AimX, 0.07), any(Purpose::AimY, 0.07), 0.07 + any(Purpose::AimZ, 0.04)),
+        any(Purpose::TorchRoll, 0.7)};
+}
+
+/// +Z along `direction`, +Y down, then turned about +Z.
+glm::dquat pointing(const glm::dvec3& direction, double roll) {
+    const glm::dvec3 z = glm::normalize(direction);
+    const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0.0, 0.0, 1.0)));
+    return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)) * about_z(roll));
+}
+
 } // namespace
 
 PoseSample simulated_prop(const SimulatedVisitor& visitor, MonotonicTime start, Nanoseconds since_start) {
@@ -123,6 +166,26 @@ PoseSample simulated_head(const SimulatedVisitor& visitor, MonotonicTime start, 
     return sample;
 }
 
+PoseSample simulated_torch(const SimulatedVisitor& visitor, MonotonicTime start, Nanoseconds since_start) {
+    SimulatedVisitor hand = visitor; // has its own movements, hence another seed
+    hand.seed = visitor.seed ^ 0x5A5A5A5A5A5A5A5AU;
+    const double seconds = to_seconds(since_start);
+    const auto slot = static_cast<std::int64_t>(std::floor(seconds / torch_slot_s));
+    const PoseSample prop = simulated_prop(visitor, start, since_start);
+    Aim now = mix(aim(hand, slot, prop.position_m), aim(hand, slot + 1, prop.position_m),
+                  progress(hand.seed, slot, seconds, torch_slot_s));
+    constexpr double tremor_m = 0.0015; // at what is lit, 0.3 m away: a quarter of a degree
+    const double held = std::clamp(now.from_m.z / 0.1 - 0.5, 0.0, 1.0);
+    now.at_m += held * tremor_m *
+                glm::dvec3(std::sin(41.0 * seconds), std::sin(53.0 * seconds), std::sin(37.0 * seconds));
+    PoseSample sample;
+    sample.time = prop.time;
+    sample.station = torch_station;
+    sample.position_m = now.from_m;
+    sample.rotation = pointing(now.at_m - now.from_m, now.roll);
+    return sample;
+}
+
 Result<void> SimulatedTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
     while (true) {
         const Nanoseconds since_start(std::llround(static_cast<double>(next_) * 1e9 / visitor_.rate_hz));
@@ -131,6 +194,9 @@ Result<void> SimulatedTracker::poll(MonotonicTime now, std::vector<PoseSample>& 
         }
         samples.push_back(simulated_prop(visitor_, start_, since_start));
         samples.push_back(simulated_head(visitor_, start_, since_start));
+        if (visitor_.torch) {
+            samples.push_back(simulated_torch(visitor_, start_, since_start));
+        }
         ++next_;
     }
 }

@@ -1,4 +1,5 @@
-/// A simulated visitor, who slides the prop about, rests, turns it, and moves the head.
+/// A simulated visitor, who slides the prop about, rests, turns it, and moves the head. With a torch, the visitor lets its
+/// light sweep over the prop, trembles, twists it, and lays it down now and then.
 ///
 /// Frame    table T. The prop stands upright on the table; the head's rotation turns its +Y towards the prop.
 /// Time     everything is a function of the seed and the time since `start`: polls at any rate give the same
@@ -21,13 +22,16 @@ struct SimulatedVisitor {
     glm::dvec3 eye_m{0.0, -0.55, 0.50};       ///< between the eyes, in the middle of the sway
     glm::dvec3 half_sway_m{0.10, 0.05, 0.05}; ///< bounds of the head, from `eye_m`
     double rate_hz = 120.0;                   ///< samples per second and station
+    bool torch = false;                       ///< station 3 is there
 };
 
-/// Poses of the prop and of the head at start + `since_start`.
+/// Poses of the prop, the head and the torch at start + `since_start`.
 [[nodiscard]] PoseSample simulated_prop(const SimulatedVisitor& visitor, MonotonicTime start,
                                         Nanoseconds since_start);
 [[nodiscard]] PoseSample simulated_head(const SimulatedVisitor& visitor, MonotonicTime start,
                                         Nanoseconds since_start);
+[[nodiscard]] PoseSample simulated_torch(const SimulatedVisitor& visitor, MonotonicTime start,
+                                         Nanoseconds since_start);
 
 class SimulatedTracker final : public Tracker {
 public:

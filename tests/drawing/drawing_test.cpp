@@ -373,6 +373,17 @@ TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
     }
 }
 
+TEST_F(Drawing, ThePageOfTheTorchHasTheDrawingOfTheExample) {
+    ASSERT_EQ(
+        run(fmt::format("frustumscreen drawing --config '{}/config/torch.toml' -o drawing.svg --sheet torch",
+                        source_dir())),
+        0)
+        << text("err.txt");
+    const Result<Bytes> committed = read_file(source_dir() + "/docs/torch.svg");
+    ASSERT_TRUE(committed);
+    EXPECT_EQ(text("drawing.svg"), as_text(*committed)) << "draw it again: docs/draw_guide.sh";
+}
+
 TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
     put("kiosk.toml", "[prop]\ntop_m = 0.4\n");
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg"), 1);

@@ -14,7 +14,7 @@ TEST(DevicePlan, OpensWhatIsConfigured) {
     EXPECT_FALSE(bare.panel);
     EXPECT_FALSE(bare.other_packs);
     EXPECT_EQ(bare.threads.size(), 1U);
-    EXPECT_EQ(bare.left_out.size(), 4U); // screen, panel, second pack, status writer
+    EXPECT_EQ(bare.left_out.size(), 5U); // screen, torch, panel, second pack, status writer
     settings.panel.script = {{1.0, 2}};
     const DevicePlan languages = plan_devices(settings, false, true);
     EXPECT_TRUE(languages.panel);

@@ -36,7 +36,7 @@ TEST(SettingsPage, HasNoKeyThatTheShippedFileDoesNotName) {
 /// The reader allows exactly the ranges of the page.
 TEST(SettingsPage, HasTheRangesThatHold) {
     std::istringstream lines(settings_page());
-    const std::regex table_form(R"(## \[(\w+)\])");
+    const std::regex table_form(R"(## \[([\w.]+)\])");
     const std::regex row_form(
         R"(\| `(\w+)` \| `[^`]*` \| (whole numbers )?(-?[0-9.]+) to (-?[0-9.]+)( .*)?\| .*)");
     std::string table;

@@ -47,6 +47,39 @@ TEST(TagReader, AFrameGivesThePoseOnTheTable) {
     EXPECT_EQ(reader.counts().posed, 1U);
 }
 
+/// A tag in the air above the prop, as on a lamp that points at it: the lamp's pose comes from the same frame, and the prop's
+/// is as without it.
+TEST(TagReader, ALampsTagGivesTheLampsPose) {
+    constexpr int id = 586;
+    const geometry::RigidTransform torch_from_tag{
+        tracking::rotation_of({0.5 * 3.14159265358979323846, 0.0, 0.0}), {0.0, -0.03, -0.05}};
+    // The tag looks up and leans by 40 degrees, beside the prop.
+    const geometry::RigidTransform prop_from_tag{tracking::rotation_of({0.7, 0.2, 0.0}), {0.19, -0.16, 0.25}};
+    std::vector<PropTag> all = simulators::tags_of({});
+    all.push_back({id, 0.06, prop_from_tag});
+    const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum), all, above(), {});
+    const std::vector<std::uint8_t> picture = scene.picture([](double) { return standing; }, 1);
+    const camera::CameraFrame frame{MonotonicTime(milliseconds(500)), 1, 1280, 720, picture};
+    TagSetUp with = set_up();
+    with.lamp = PropTag{id, 0.06, torch_from_tag};
+    TagReader reader(with);
+    const std::optional<tracking::UncertainPose> prop = reader.read(frame);
+    ASSERT_TRUE(prop);
+    EXPECT_LT(tracking::slip_m(tracking::step_between(standing, prop->table_from_prop), 0.0775), 0.001);
+    ASSERT_TRUE(reader.lamp());
+    const geometry::RigidTransform truth = standing * prop_from_tag * torch_from_tag.inverse();
+    const tracking::PoseStep off = tracking::step_between(truth, reader.lamp()->table_from_prop);
+    EXPECT_LT(glm::length(off.shift_m), 3.0 * reader.lamp()->place_sd_m + 1e-3);
+    EXPECT_LT(glm::length(off.turn_rad), 0.1);
+    EXPECT_EQ(reader.lamp()->time, MonotonicTime(milliseconds(500)));
+
+    TagReader without(set_up());
+    ASSERT_TRUE(without.read(frame));
+    EXPECT_FALSE(without.lamp());
+    ASSERT_TRUE(reader.read(frame_at(milliseconds(700)))); // a frame without it
+    EXPECT_FALSE(reader.lamp());
+}
+
 /// Slid at 0.3 m/s in front of a shutter that takes 25 ms from the first row to the last: after four frames
 /// each pose is the prop's at the pose's time, which is the time of its tags' rows. The frame's time is its
 /// middle row's.

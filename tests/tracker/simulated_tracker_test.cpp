@@ -41,6 +41,46 @@ TEST(SimulatedTracker, AnyRhythmOfPollsHandsOutTheSameSamples) {
     EXPECT_TRUE(std::equal(samples.begin(), samples.end(), expected.begin(), same));
 }
 
+/// Whoever has a torch moves the prop and the head as before.
+TEST(SimulatedTracker, HasATorchOnlyWhereItIsAskedFor) {
+    SimulatedVisitor visitor;
+    visitor.torch = true;
+    std::vector<PoseSample> samples = polled_once(visitor);
+    const auto torch_begins =
+        std::stable_partition(samples.begin(), samples.end(),
+                              [](const PoseSample& sample) { return sample.station != torch_station; });
+    EXPECT_EQ(std::distance(torch_begins, samples.end()), std::distance(samples.begin(), torch_begins) / 2);
+    const std::vector<PoseSample> without = polled_once({});
+    ASSERT_EQ(static_cast<std::size_t>(std::distance(samples.begin(), torch_begins)), without.size());
+    EXPECT_TRUE(std::equal(samples.begin(), torch_begins, without.begin(), same));
+}
+
+TEST(SimulatedTracker, PointsTheTorchAtThePropAndLaysItDownNowAndThen) {
+    SimulatedVisitor visitor;
+    visitor.torch = true;
+    int on_prop = 0, lies = 0;
+    glm::dvec3 last(0.0);
+    for (int k = 0; k < 60 * 100; ++k) {
+        const Nanoseconds at = std::chrono::milliseconds(10) * k;
+        const PoseSample torch = simulated_torch(visitor, start, at);
+        const PoseSample prop = simulated_prop(visitor, start, at);
+        EXPECT_NEAR(glm::length(torch.rotation), 1.0, 1e-12);
+        const glm::dvec3 light = torch.rotation * glm::dvec3(0, 0, 1);
+        const glm::dvec3 to_prop =
+            glm::normalize(prop.position_m + glm::dvec3(0, 0, 0.07) - torch.position_m);
+        const bool down = torch.position_m.z < 0.021;
+        lies += down ? 1 : 0;
+        on_prop += !down && glm::dot(light, to_prop) > std::cos(0.5) ? 1 : 0;
+        if (down) {
+            EXPECT_GT(light.z, -0.3); // it points across the table, but for the moments of the movement
+        }
+        EXPECT_LT(k == 0 ? 0.0 : glm::distance(light, last), 0.05) << k; // 5 rad/s
+        last = light;
+    }
+    EXPECT_GT(on_prop, 3600);
+    EXPECT_GT(lies, 300);
+}
+
 TEST(SimulatedTracker, ReportsBothStationsAtItsRate) {
     const std::vector<PoseSample> samples = polled_once({}, std::chrono::seconds(10));
     EXPECT_EQ(samples.size(), 2U * 1201U);

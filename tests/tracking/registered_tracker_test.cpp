@@ -57,7 +57,8 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     const glm::dquat quarter(half, 0, 0, half);
     const geometry::Registration registration{.table_from_tracker = {{1, 0, 0, 0}, {0, 0, 1.0}},
                                               .sensor_from_prop = {quarter, {0, 0, -0.05}},
-                                              .eye_in_sensor_m = {0.1, 0, 0}};
+                                              .eye_in_sensor_m = {0.1, 0, 0},
+                                              .sensor_from_torch = {quarter, {0, 0.2, 0}}};
     std::vector<tracker::PoseSample> samples(3);
     for (int k = 0; k < 3; ++k) {
         samples[static_cast<std::size_t>(k)].station = k + 1;
@@ -70,8 +71,9 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     EXPECT_LT(glm::distance(samples[1].position_m, glm::dvec3(1, 2.1, 4)),
               1e-15); // the head's +X is the table's +Y
     EXPECT_LT(glm::distance(samples[1].rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
-    EXPECT_LT(glm::distance(samples[2].position_m, glm::dvec3(1, 2, 4)),
-              1e-15); // the torch's frame is its sensor's
+    EXPECT_LT(glm::distance(samples[2].position_m, glm::dvec3(0.8, 2, 4)),
+              1e-15); // the sensor's +Y is the table's -X
+    EXPECT_LT(glm::distance(samples[2].rotation * glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0)), 1e-15);
 }
 
 /// However the sensor is turned on the glasses, the head's +X is the direction from the left eye to the right one, and the point

@@ -8,6 +8,7 @@
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/folder/artifact_behaviours.h"
+#include "assets_baked/folder/artifact_torches.h"
 #include "assets_baked/texts/speak_artifact.h"
 #include "firmware_host/base/result.h"
 

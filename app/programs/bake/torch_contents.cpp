@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace frustumscreen::programs {
@@ -29,7 +30,14 @@ constexpr bake::FilmLimits film_limits{.min_side = pack::min_torch_picture_px,
                                        .max_side = pack::max_film_px,
                                        .max_frames = pack::max_film_frames};
 
-std::string in_units(std::uint64_t bytes) {
+/// Of the curator's files.
+std::string in_units(const std::vector<std::filesystem::path>& files) {
+    std::uint64_t bytes = 0;
+    for (const std::filesystem::path& file : files) {
+        std::error_code unknown;
+        const std::uintmax_t its = std::filesystem::file_size(file, unknown);
+        bytes += unknown ? 0 : its;
+    }
     return bytes < 1'000'000 ? fmt::format("{} kB", (bytes + 999) / 1000)
                              : fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
@@ -70,7 +78,8 @@ private:
                 follow(size, written, packed.content);
             } else if (look.source == Source::Layer) {
                 look.item = static_cast<std::uint32_t>(layer_of(request_, stage));
-                shows.push_back(fmt::format("layer {}", mesh_.layers.at(look.item).name));
+                shows.push_back(
+                    fmt::format("layer {}, {}", mesh_.layers.at(look.item).name, in_units({stage.file})));
             } else {
                 shows.emplace_back(torch::source_names.at(static_cast<std::size_t>(look.source)));
             }
@@ -100,8 +109,8 @@ private:
             TRY_VOID(at(stage.place, add_picture(stage.file)));
         }
         const pack::PackTorchPicture& picture = made_.torches.pictures[look.item];
-        shows.push_back(
-            fmt::format("picture {}, {} x {} pixels", name_of(stage.file), picture.width, picture.height));
+        shows.push_back(fmt::format("picture {}, {} x {} pixels, {}", name_of(stage.file), picture.width,
+                                    picture.height, in_units({stage.file})));
         return glm::ivec2(picture.width, picture.height);
     }
 
@@ -140,8 +149,9 @@ private:
             TRY_VOID(at(stage.place, add_film(stage)));
         }
         const pack::PackFilm& film = made_.torches.films[look.item];
-        shows.push_back(fmt::format("film {}, {} frames of {} x {} pixels, {:.3g} a second",
-                                    name_of(stage.file), film.frames, film.width, film.height, film.rate_hz));
+        shows.push_back(fmt::format("film {}, {} frames of {} x {} pixels, {:.3g} a second, {}",
+                                    name_of(stage.file), film.frames, film.width, film.height, film.rate_hz,
+                                    in_units(bake::files_of_film(stage.file))));
         return glm::ivec2(film.width, film.height);
     }
 

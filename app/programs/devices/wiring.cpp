@@ -106,6 +106,7 @@ Result<std::unique_ptr<tracker::Tracker>> make_tracker(const settings::Settings&
     visitor.centre_m = places.centre_m;
     visitor.half_extent_m = used_share_of_zone * places.half_m;
     visitor.eye_m = settings.eye.default_m;
+    visitor.torch = settings.torch.by_tracker();
     return std::make_unique<tracker::SimulatedTracker>(visitor, start);
 }
 
@@ -155,11 +156,17 @@ make_panel(const settings::Settings& settings, std::optional<Nanoseconds> press_
                                                   start);
 }
 
-tags::TagSetUp tag_set_up(const settings::CameraSettings& camera) {
+tags::TagSetUp tag_set_up(const settings::Settings& settings) {
+    const settings::CameraSettings& camera = settings.camera;
     tags::TagSetUp set_up{.camera = camera.pinhole,
                           .table_from_camera = camera.table_from_camera,
                           .tags = {},
-                          .readout_s = 1e-3 * camera.rolling_shutter_ms};
+                          .readout_s = 1e-3 * camera.rolling_shutter_ms,
+                          .lamp = std::nullopt};
+    if (settings.torch.by_camera()) {
+        const settings::TagSettings& tag = settings.torch.tag;
+        set_up.lamp = tags::PropTag{tag.id, tag.size_m, settings::prop_from_tag(tag)};
+    }
     for (const settings::TagSettings& tag : camera.tag) {
         set_up.tags.push_back({tag.id, tag.size_m, settings::prop_from_tag(tag)});
     }
@@ -178,6 +185,9 @@ drift::DriftSetUp drift_set_up(const settings::Settings& settings) {
     for (const settings::TagSettings& tag : settings.camera.tag) {
         set_up.moving_tags.push_back(tag.id);
     }
+    if (settings.torch.by_camera()) {
+        set_up.moving_tags.push_back(settings.torch.tag.id);
+    }
     return set_up;
 }
 
@@ -185,7 +195,7 @@ drift::DriftSetUp drift_set_up(const settings::Settings& settings) {
 void add_camera(show::Inputs& inputs, const settings::Settings& settings, const scene::DevicePlan& plan) {
     std::vector<camera::FrameUse> uses;
     if (plan.tags) {
-        inputs.tags = std::make_unique<tags::TagTracker>(tag_set_up(settings.camera));
+        inputs.tags = std::make_unique<tags::TagTracker>(tag_set_up(settings));
         uses.emplace_back([&tags = *inputs.tags](const camera::CameraFrame& frame) { tags.use(frame); });
     }
     if (plan.visitor) {
@@ -326,8 +336,8 @@ Result<show::Inputs> make_inputs(const settings::Settings& settings, const scene
     inputs.recorder = std::move(recorder);
     if (plan.tracker != settings::TrackerKind::None) {
         TRY(std::unique_ptr<tracker::Tracker> tracker, make_tracker(settings, start, inputs.recorder.get()));
-        inputs.tracker =
-            std::make_unique<tracking::RegisteredTracker>(std::move(tracker), settings.tracker.registration);
+        inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::move(tracker),
+                                                                       settings::registration_of(settings));
     }
     add_camera(inputs, settings, plan);
     if (plan.panel) {

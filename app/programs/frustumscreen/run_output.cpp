@@ -29,6 +29,13 @@ Result<void> write_pictures(const std::filesystem::path& folder, const show::Loo
                          .position_m = still.tracked_state.eye_m,
                          .rotation = still.tracked_state.table_from_head,
                          .ok = true});
+        if (const tracking::TrackedTorch& torch = still.tracked_state.torches[0]; torch.share > 0.0) {
+            poses.push_back({.time = still.time,
+                             .station = tracker::torch_station,
+                             .position_m = torch.table_from_torch.translation,
+                             .rotation = torch.table_from_torch.rotation,
+                             .ok = true});
+        }
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
         TRY_VOID(write_file(file, image::encode_png(still.picture)));
     }

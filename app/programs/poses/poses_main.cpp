@@ -60,7 +60,7 @@ Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
     replay.play(replay.end(), samples);
     if (!request.settings.empty() && !replay.reports_table_frame()) {
         TRY(const auto settings, settings::load_settings(request.settings));
-        tracking::place_on_table(samples, settings->tracker.registration);
+        tracking::place_on_table(samples, settings::registration_of(*settings));
     }
     std::erase_if(samples,
                   [](const tracker::PoseSample& sample) { return sample.station > tracker::torch_station; });
@@ -111,6 +111,7 @@ Result<tracker::SimulatedVisitor> visitor_for(const SimulateRequest& request) {
     visitor.half_extent_m = places.half_m;
     visitor.eye_m = settings->eye.default_m;
     visitor.rate_hz = request.rate_hz;
+    visitor.torch = settings->torch.by_tracker();
     return visitor;
 }
 

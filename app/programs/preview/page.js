@@ -84,6 +84,18 @@
     });
   });
 
+  // A torch: the lit pictures are seen in a disc around the pointer.
+  document.querySelectorAll('.beam').forEach((beam) => {
+    const lit = beam.querySelector('.lit');
+    beam.addEventListener('pointermove', (event) => {
+      const box = beam.getBoundingClientRect();
+      lit.style.setProperty('--x', event.clientX - box.left + 'px');
+      lit.style.setProperty('--y', event.clientY - box.top + 'px');
+      lit.style.setProperty('--radius', '3.5rem');
+    });
+    beam.addEventListener('pointerleave', () => lit.style.setProperty('--radius', '0'));
+  });
+
   // A page that loads itself again goes on where it was.
   const kept = /^#turn=(\d+)(,stop)?$/.exec(location.hash);
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -2,6 +2,7 @@
 
 #include "app/programs/preview/html_parts.h"
 #include "app/programs/preview/page_files.h"
+#include "app/programs/preview/torch_part.h"
 #include "firmware_host/base/words_of_time.h"
 #include "firmware_host/base/xml_text.h"
 
@@ -326,13 +327,14 @@ std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& 
     for (const ProjectedLanguage& language : media.languages) {
         texts += language_part(language);
     }
-    std::string page = head(pack, style_of(media.turn) + style_of(media.behaviours), kind) + "<body>\n" +
-                       beginning(pack, facts, media) + "<main>\n" + warnings(facts) +
-                       "<h2>Texts on the table</h2>\n<p class=\"soft\">Left as the projector draws them, 30 "
-                       "cm wide; right the "
-                       "words for reading.</p>\n" +
-                       texts + hotspots_part(pack, media.languages) + behaviours_part(media.behaviours) +
-                       levels_part(pack, facts) + source_part(pack, facts) + "</main>\n";
+    std::string page =
+        head(pack, style_of(media.turn) + style_of(media.behaviours) + style_of(media.torches), kind) +
+        "<body>\n" + beginning(pack, facts, media) + "<main>\n" + warnings(facts) +
+        "<h2>Texts on the table</h2>\n<p class=\"soft\">Left as the projector draws them, 30 "
+        "cm wide; right the "
+        "words for reading.</p>\n" +
+        texts + hotspots_part(pack, media.languages) + behaviours_part(media.behaviours) +
+        torches_part(media.torches) + levels_part(pack, facts) + source_part(pack, facts) + "</main>\n";
     page += fmt::format("<footer>Made by {} from {}. This page needs no network and no other file.</footer>\n"
                         "<script>{}</script>\n",
                         xml_text(facts.program), xml_text(facts.pack_name), page_script());

@@ -2,7 +2,7 @@
 ///
 /// The page is self-contained: pictures, sounds, style and script are in it, and its content security policy forbids it
 /// to load anything. All texts of the pack are escaped. Without scripts the artifact turns by itself, and the pictures of
-/// what moves lie side by side.
+/// what moves, and those of a torch, lie side by side.
 ///
 /// Threads  pure; any.
 /// Errors   none.
@@ -12,6 +12,7 @@
 #include "app/pack/pack.h"
 #include "app/programs/preview/behaviour_pictures.h"
 #include "app/programs/preview/text_pictures.h"
+#include "app/programs/preview/torch_pictures.h"
 #include "app/programs/preview/turn_pictures.h"
 
 #include <cstdint>
@@ -46,6 +47,7 @@ struct PreviewMedia {
     image::Image8 table_picture; ///< empty: none
     std::vector<ProjectedLanguage> languages;
     std::vector<BehaviourPictures> behaviours = {};
+    std::vector<TorchPictures> torches = {};
 };
 
 /// A page of a bake that is being watched reloads itself every two seconds.

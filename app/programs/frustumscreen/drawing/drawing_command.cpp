@@ -30,8 +30,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--sheet", request.sheet,
                    "table: A3 with table, projector and eyes (the default); prop: A3 with the prop's views "
                    "and unfolded faces; net: the unfolded faces in true size, to cut out; holder: A3 with a "
-                   "plate that the prop rests in; room: A3 with the screen and the room behind it")
-        .one_of({"table", "prop", "net", "holder", "room"});
+                   "plate that the prop rests in; torch: A3 with a torch and its holder; room: A3 with the "
+                   "screen and the "
+                   "room behind it")
+        .one_of({"table", "prop", "net", "holder", "torch", "room"});
     return app.end_of_arguments(argc, argv);
 }
 
@@ -52,6 +54,7 @@ Result<void> draw(const Request& request) {
     const std::string drawing = request.sheet == "table"    ? drawing::table_sheet(*settings, name)
                                 : request.sheet == "prop"   ? drawing::prop_sheet(*settings, name)
                                 : request.sheet == "holder" ? drawing::holder_sheet(*settings, name)
+                                : request.sheet == "torch"  ? drawing::torch_sheet(*settings, name)
                                                             : drawing::net_sheet(*settings, name);
     return write_file(request.output, as_bytes(drawing));
 }

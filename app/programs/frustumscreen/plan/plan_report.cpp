@@ -90,6 +90,7 @@ std::string needs_text(const PlanReport& report) {
     fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.shaders)));
     fmt::format_to(out, "  tracker: {}{}\n", settings::name_of(report.devices.tracker),
                    report.devices.head ? ", the viewer's head is followed" : "");
+    fmt::format_to(out, "  torch: {}\n", settings::name_of(report.devices.torch));
     fmt::format_to(out, "  screen behind the table: {}\n", report.devices.screen ? "yes" : "none");
     fmt::format_to(out, "  button panel: {}\n", report.devices.panel ? "yes" : "none");
     fmt::format_to(out, "  threads of its own: {}\n", joined(report.devices.threads));
@@ -163,6 +164,7 @@ Json needs_json(const PlanReport& report) {
             {"gpu_bytes", use.gpu_bytes},
             {"tracker", std::string(settings::name_of(report.devices.tracker))},
             {"head", report.devices.head},
+            {"torch", settings::name_of(report.devices.torch)},
             {"screen", report.devices.screen},
             {"panel", report.devices.panel},
             {"threads", report.devices.threads}};
