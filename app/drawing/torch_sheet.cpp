@@ -130,7 +130,9 @@ private:
         circle(sheet_, view, {}, tube_m, body);
         circle(sheet_, view, {}, tube_m - 2.0 * wall_m,
                {.stroke = "#000000", .width_mm = 0.35, .fill = "#ffffff"});
+        sheet_.begin_view("front", view.origin_mm, view.mm_per_m);
         fittings(view, from_front);
+        sheet_.end_view();
         draw_dimension(sheet_, view(glm::dvec2(-0.5 * tube_m, 0.0)), view(glm::dvec2(0.5 * tube_m, 0.0)),
                        {0.0, 30.0}, mm_words(tube_m));
         draw_dimension(sheet_, view(glm::dvec2(-0.5 * collar_m, 0.0)), view(glm::dvec2(0.5 * collar_m, 0.0)),

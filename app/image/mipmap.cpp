@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace frustumscreen::image {
 
@@ -16,19 +17,38 @@ Image8 half_size(const Image8& image) {
     return half.take();
 }
 
-std::vector<Image8> light_mips(const Image8& picture) {
-    std::vector<Image8> mips{picture};
-    for (glm::u8vec4& texel : mips.front().texels) {
+namespace {
+
+Image8 over_black(Image8 picture) {
+    for (glm::u8vec4& texel : picture.texels) {
         const double covered = texel.a / 255.0;
         for (int k = 0; k < 3; ++k) {
             texel[k] = srgb8_from_linear(covered * static_cast<double>(linear_from_srgb8()[texel[k]]));
         }
-        texel.a = 255;
     }
+    return picture;
+}
+
+std::vector<Image8> mips_of(Image8 picture) {
+    std::vector<Image8> mips{std::move(picture)};
     while (std::max(mips.back().width, mips.back().height) > 1) {
         mips.push_back(half_size(mips.back()));
     }
     return mips;
+}
+
+} // namespace
+
+std::vector<Image8> light_mips(const Image8& picture) {
+    Image8 light = over_black(picture);
+    for (glm::u8vec4& texel : light.texels) {
+        texel.a = 255;
+    }
+    return mips_of(std::move(light));
+}
+
+std::vector<Image8> cut_out_mips(const Image8& picture) {
+    return mips_of(over_black(picture));
 }
 
 } // namespace frustumscreen::image

@@ -2,9 +2,10 @@
 /// section `sounds`), in separate parts for each language.
 ///
 /// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit`
-///          in its place); `description.0` ... for the description's portions (text_portions.h); `label.0` ... for
-///          the hotspots `behaviour.0` ... for the titles of the behaviours and `torch.0` ... of a torch's contents, in their order. A text that is
-///          empty, or that could not be set, is missing. The sound of the description has the key `description`.
+///          in its place); `description.0` ... for the description's portions (text_portions.h); `label.0` ... for the
+///          hotspots, `behaviour.0` ... for the titles of the behaviours and `torch.0` ... for those of a torch's
+///          contents, in their order. A text that is empty, or that could not be set, is missing. The sound of the
+///          description has the key `description`.
 /// Errors   one line: data that FORMAT.md does not allow; a part that contradicts the manifest. Messages of
 ///          `load_...` begin with the file's name. A pack without the sections is no error.
 /// Threads  pure; any.

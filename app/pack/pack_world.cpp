@@ -153,10 +153,26 @@ Result<void> check_place(const PackCell& cell, const glm::dmat4& box_from_geomet
     return {};
 }
 
+/// A torch finds a cell's layer by its number.
+Result<void> check_same_layers(const PackCell& cell, const PackDescription& nested,
+                               const PackDescription& whole) {
+    TRY(const PackTorches its, torches_of(nested));
+    TRY(const PackTorches all, torches_of(whole));
+    const bool same = std::equal(its.layers.begin(), its.layers.end(), all.layers.begin(), all.layers.end(),
+                                 [](const PackLayer& a, const PackLayer& b) { return a.name == b.name; });
+    if (!same) {
+        return bad_input("world.nested_layers",
+                         "cell '{}' has other layers for a torch than the artifact; bake the pack again",
+                         printable(cell.cell.name, 40));
+    }
+    return {};
+}
+
 Result<void> check_cell_pack(const PackCell& cell, const glm::dmat4& box_from_geometry, const Pack& pack) {
     TRY(const VerifiedPack nested, at(cell.part, read_nested(pack.section_parts.at(cell.part), {})));
     TRY_VOID(at(cell.part, check_reliefs(*nested)));
     TRY_VOID(at(cell.part, check_torches(*nested)));
+    TRY_VOID(check_same_layers(cell, *nested, pack));
     return check_place(cell, box_from_geometry, *nested);
 }
 

@@ -201,7 +201,7 @@ int FacePass::light(const Lit& lit, Contents contents) const {
 int FacePass::light_draw(const Lit& lit, const scene::TorchDraw& lit_draw) const {
     const scene::Draw& draw = lit.plan.draws[lit_draw.draw];
     const scene::TorchLight& light = lit.plan.torches[lit_draw.torch];
-    const Shader* const shader = lit.shaders.find(scene::torch_of(draw.shader, scene::parts_of(light.torch)));
+    const Shader* const shader = find_torch(lit.shaders, draw.shader, light);
     const GpuStore::Mesh* const mesh = lit.store.find(draw.drawable.mesh);
     const GpuStore::Blocks* const blocks = lit.store.find_blocks(draw.drawable.mesh);
     const GpuStore::Texture* const texture = lit.store.find(draw.drawable.material.texture);

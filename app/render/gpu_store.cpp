@@ -57,6 +57,20 @@ gl::GlTexture upload_light(std::span<const image::Image8> mips) {
     return texture;
 }
 
+/// `over` over `colours`, by its alpha, in linear light.
+std::vector<glm::u8vec4> mixed(const std::vector<glm::u8vec4>& colours, std::vector<glm::u8vec4> over) {
+    for (std::size_t k = 0; k < over.size(); ++k) {
+        const double share = over[k].a / 255.0;
+        for (int channel = 0; channel < 3; ++channel) {
+            over[k][channel] = image::srgb8_from_linear(
+                glm::mix(static_cast<double>(image::linear_from_srgb8()[colours[k][channel]]),
+                         static_cast<double>(image::linear_from_srgb8()[over[k][channel]]), share));
+        }
+        over[k].a = 255;
+    }
+    return over;
+}
+
 template <typename Map, typename Id> auto found(const Map& map, Id id) -> const typename Map::mapped_type* {
     const auto place = map.find(id);
     return place != map.end() ? &place->second : nullptr;
@@ -155,6 +169,11 @@ Result<void> GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer, c
 
 void GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer,
                          std::shared_ptr<const std::vector<glm::u8vec4>> colours) {
+    const relief::BlockRelief* const relief = find_relief(drawable.mesh);
+    if (relief != nullptr && std::any_of(colours->begin(), colours->end(),
+                                         [](const glm::u8vec4& colour) { return colour.a < 255; })) {
+        colours = std::make_shared<const std::vector<glm::u8vec4>>(mixed(relief->colours, *colours));
+    }
     release(drawable.layers[layer]);
     drawable.layers[layer] = scene::TextureId{++last_};
     colours_.emplace(drawable.layers[layer], std::move(colours));

@@ -40,7 +40,8 @@ public:
     /// Uploads a picture on the table, row 0 at its top: `mips` from light_mips.
     [[nodiscard]] Result<scene::TextureId> upload_picture(std::span<const image::Image8> mips);
     /// Gives a level another texture of its surface, or a relief other colours in the order of its own, which torches show.
-    /// `layer`: below scene::max_layers. One that the drawable has is released.
+    /// `layer`: below scene::max_layers. One that the drawable has is released. Where the alpha is below 255 the surface's own
+    /// colour shows through.
     [[nodiscard]] Result<void> add_layer(scene::Drawable& drawable, std::size_t layer,
                                          const image::Image8& texture);
     void add_layer(scene::Drawable& drawable, std::size_t layer,

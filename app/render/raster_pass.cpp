@@ -426,7 +426,7 @@ int RasterPass::light_with(const Lit& lit, const scene::ShaderKey& key, Contents
     bind(0, colour_texels_.get());
     for (const scene::TorchDraw& draw : lit.plan.torch_draws) {
         const scene::TorchLight& light = lit.plan.torches[draw.torch];
-        const Shader* const shader = lit.shaders.find(scene::torch_of(key, scene::parts_of(light.torch)));
+        const Shader* const shader = find_torch(lit.shaders, key, light);
         if (lit.plan.draws[draw.draw].shader.pass != scene::ShaderKey::Pass::Raster || shader == nullptr ||
             !takes(contents, light)) {
             continue;

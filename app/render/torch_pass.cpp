@@ -113,8 +113,7 @@ int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned de
     bind(depths_unit, depths);
     for (std::size_t torch = 0; torch < lit.torches.size(); ++torch) {
         const scene::TorchLight& light = plan.torches[torch];
-        const Shader* const shader = lit.shaders.find(
-            scene::torch_of({scene::ShaderKey::Pass::TorchOnSamples}, scene::parts_of(light.torch)));
+        const Shader* const shader = find_torch(lit.shaders, {scene::ShaderKey::Pass::TorchOnSamples}, light);
         if (shader == nullptr || takes(Contents::Layers, light)) {
             continue;
         }

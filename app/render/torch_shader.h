@@ -29,7 +29,7 @@ uniform mat3x2 stage_from_content[MAX_STAGES];
 uniform float height_per_width;
 uniform vec4 ray_from_fragment; // scale, offset; z = 1
 uniform vec3 inverse_depth;     // of the face's plane, along a ray
-uniform vec2 face_gain;         // times d^3, most
+uniform vec4 face_gain;         // times d^3, most
 uniform vec3 brightness;        // of the surface's own colours
 uniform highp sampler2D shadow;
 uniform sampler2D content;
@@ -95,7 +95,7 @@ float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
 #endif
 
 // `dx`, `dy`: of `place`.
-vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
+vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec4 layer) {
     vec4 colour = vec4(1.0);
 #if CONTENT_PARTS & 15
     int source = stage_kind[k].x;
@@ -111,7 +111,7 @@ vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
 #endif
 #if CONTENT_PARTS & 2
     if (source == 3) {
-        colour.rgb = layer;
+        colour = layer;
     }
 #endif
 #if CONTENT_PARTS & 4
@@ -128,7 +128,7 @@ vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
     return colour * stage_colour[k];
 }
 
-vec4 content_at(vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
+vec4 content_at(vec2 place, vec2 dx, vec2 dy, vec3 p, vec4 layer) {
     vec4 sum = stage(0, place, dx, dy, p, layer);
 #if CONTENT_PARTS & 16
     for (int k = 1; k < content_kind; ++k) {
@@ -163,7 +163,7 @@ vec3 surface_gain() {
 #endif
 
 // `share`: of the pixel that is lit.
-void light(vec3 p, vec3 layer, float share) {
+void light(vec3 p, vec4 layer, float share) {
     vec2 place = 0.5 * (p.xy / p.z * beam.xy) + 0.5;
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
@@ -187,9 +187,12 @@ in vec2 texel;
 uniform sampler2D image;
 #if CONTENT_PARTS & 2
 uniform sampler2D layer;
-vec3 layer_at_texel() { return decoded(texture(layer, texel).rgb); }
+vec4 layer_at_texel() {
+    vec4 seen = texture(layer, texel);
+    return vec4(decoded(seen.rgb), seen.a);
+}
 #else
-vec3 layer_at_texel() { return vec3(0.0); }
+vec4 layer_at_texel() { return vec4(0.0); }
 #endif
 void main() {
     if (is_other_draws() || is_beside_cover()) {
@@ -223,9 +226,9 @@ uniform int edge_count;
 uniform vec3 edges[15];  // of the face: a ray is inside
 #if CONTENT_PARTS & 2
 uniform sampler2D layer; // other colours of the same hits
-vec3 layer_at(ivec2 at) { return decoded(texelFetch(layer, at, 0).rgb); }
+vec4 layer_at(ivec2 at) { return vec4(decoded(texelFetch(layer, at, 0).rgb), 1.0); }
 #else
-vec3 layer_at(ivec2 at) { return vec3(0.0); }
+vec4 layer_at(ivec2 at) { return vec4(0.0); }
 #endif
 void main() {
     ivec2 fragment = ivec2(gl_FragCoord.xy);
@@ -273,7 +276,7 @@ void main() {
             }
         }
     }
-    light(lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0), vec3(0.0), lit / float(raster.x * raster.y));
+    light(lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0), vec4(0.0), lit / float(raster.x * raster.y));
 }
 )";
 

@@ -48,6 +48,14 @@ void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
 
 } // namespace
 
+const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key,
+                         const scene::TorchLight& light) {
+    const std::uint8_t parts = scene::parts_of(light.torch);
+    const Shader* const own = shaders.find(scene::torch_of(key, parts));
+    const unsigned any = torch::all_parts | (parts & unsigned{torch::OverPart});
+    return own != nullptr ? own : shaders.find(scene::torch_of(key, static_cast<std::uint8_t>(any)));
+}
+
 bool takes(Contents contents, const scene::TorchLight& light) {
     return contents == Contents::All || (scene::parts_of(light.torch) & torch::LayerPart) != 0;
 }

@@ -27,6 +27,9 @@ struct Lit {
     std::span<const TorchPicture> torches; ///< one for each of the plan's
 };
 enum class Contents { All, Layers };
+/// The shader of its own parts; otherwise the one for any content. Null: neither was prepared.
+[[nodiscard]] const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key,
+                                       const scene::TorchLight& light);
 /// True if the torch's content is among `contents`.
 [[nodiscard]] bool takes(Contents contents, const scene::TorchLight& light);
 void bind(unsigned unit, unsigned texture);

@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
+#include "app/pack/pack_torches.h"
 #include "app/scene/other_prop.h"
 #include "app/scene/prop_outline.h"
 #include "app/scene/stereo.h"
@@ -56,6 +57,16 @@ Result<void> find_whole_zone(const settings::Settings& settings, KnownArtifact& 
     return {};
 }
 
+/// Plain light, and each of the contents.
+scene::RenderNeeds with_torches(scene::RenderNeeds needs, std::span<const pack::PackTorchContent> contents) {
+    const torch::Content plain = torch::white();
+    needs = scene::with_torch(std::move(needs), torch::parts_of(plain.stages, plain.blend));
+    for (const pack::PackTorchContent& each : contents) {
+        needs = scene::with_torch(std::move(needs), torch::parts_of(each.content.stages, each.content.blend));
+    }
+    return needs;
+}
+
 Result<KnownArtifact> open_pack(const settings::Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
     KnownArtifact opened{.file = file, .outline = {}, .plan = {}, .texts = {}};
@@ -66,7 +77,8 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
             opened.outline = outline;
             opened.plan = std::move(plan);
             if (settings.torch.exists()) {
-                opened.plan.needs = scene::with_torches(std::move(opened.plan.needs));
+                TRY(const pack::PackTorches torches, pack::torches_of(outline.description));
+                opened.plan.needs = with_torches(std::move(opened.plan.needs), torches.contents);
             }
             return std::vector<std::uint32_t>{};
         });
@@ -180,9 +192,6 @@ Result<OpenedArtifacts> open_artifacts(const settings::Settings& settings,
         all.needs = scene::united(all.needs, opened->plan.needs);
         all.known.push_back(std::move(*opened));
     }
-    if (settings.torch.exists()) {
-        all.needs = scene::with_torches(std::move(all.needs));
-    }
     if (!all.first) {
         return nothing_to_show(all.left_out, options.packs_key);
     }
@@ -210,7 +219,8 @@ scene::RenderNeeds needs_of_any_pack(const settings::Settings& settings, int sam
     needs.draws.insert({scene::ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({scene::ShaderKey::Pass::TablePicture});
     needs = with_cut_outs(scene::with_cells(std::move(needs)));
-    return settings.torch.exists() ? scene::with_torches(std::move(needs)) : needs;
+    // Contents of packs that come later are prepared when their set does.
+    return settings.torch.exists() ? with_torches(std::move(needs), {}) : needs;
 }
 
 TextStyle text_style(const settings::Settings& settings) {

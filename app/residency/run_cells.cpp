@@ -109,7 +109,7 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
         const std::size_t parts = 2 * cells_.size() + 1;
         plans_.push_back(scene::make_plan(whole.prop, indices, parts));
-        if (whole.needs.torches) {
+        if (!whole.needs.torches.empty()) {
             scene::make_torch_space(plans_.back(), whole.prop.faces.size(), indices, parts);
         }
     }

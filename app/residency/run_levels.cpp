@@ -135,7 +135,7 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
     }
     for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(plan.prop, indices, 2));
-        if (plan.needs.torches) {
+        if (!plan.needs.torches.empty()) {
             scene::make_torch_space(plans_.back(), plan.prop.faces.size(), indices, 2);
         }
     }

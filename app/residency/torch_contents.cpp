@@ -103,7 +103,7 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
     switch (part.kind) {
     case Kind::Picture: {
         TRY(const image::Image8 picture, pack::load_torch_picture(file, torches.pictures[part.number]));
-        std::vector<image::Image8> mips = image::light_mips(picture);
+        std::vector<image::Image8> mips = image::cut_out_mips(picture);
         const auto fits = std::find_if(mips.begin(), mips.end(), [](const image::Image8& mip) {
             return bytes_of(mip) <= max_upload_bytes;
         });
@@ -114,7 +114,7 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
         TRY(std::vector<Bytes> frames, pack::load_film(file, torches.films[part.number]));
         ReadFilm film;
         TRY(const image::Image8 first, pack::film_frame_of(torches.films[part.number], frames.front()));
-        film.first = image::light_mips(first);
+        film.first = image::cut_out_mips(first);
         for (const Bytes& frame : frames) {
             film.packed_bytes += frame.size();
         }
@@ -134,7 +134,7 @@ Result<TorchContents::Read> TorchContents::read(std::size_t item) {
     }
     TRY(const image::Image8 picture,
         pack::film_frame_of(torches.films[part.number], frames->second.at(part.frame)));
-    return Read(ReadFrame{std::move(image::light_mips(picture).front())}); // its colours over black
+    return Read(ReadFrame{std::move(image::cut_out_mips(picture).front())}); // its colours over black
 }
 
 void TorchContents::leave_out(const Part& part, std::string_view why) {

@@ -1,5 +1,7 @@
 #include "app/scene/shader_key.h"
 
+#include "app/torch/content.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,6 +112,15 @@ RenderNeeds with_cells(RenderNeeds needs) {
 
 RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content) {
     needs.torches.insert(content);
+    return needs;
+}
+
+RenderNeeds with_torches(RenderNeeds needs) {
+    using namespace torch;
+    for (const unsigned content : {0U, unsigned{PicturePart}, unsigned{EffectPart}, unsigned{all_parts},
+                                   unsigned{LayerPart} | OverPart, unsigned{all_parts} | OverPart}) {
+        needs.torches.insert(static_cast<std::uint8_t>(content));
+    }
     return needs;
 }
 

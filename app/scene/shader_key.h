@@ -72,6 +72,8 @@ struct RenderNeeds {
 [[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
 /// What a torch with such a content needs beyond what it lights (torch::parts_of).
 [[nodiscard]] RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content);
+/// What torches with any content need: the usual ones have shaders of their own.
+[[nodiscard]] RenderNeeds with_torches(RenderNeeds needs);
 /// Shows again, in a torch's light, what `key` has shown.
 [[nodiscard]] ShaderKey torch_of(ShaderKey key, std::uint8_t content);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.

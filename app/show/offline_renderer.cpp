@@ -1,5 +1,6 @@
 #include "app/show/offline_renderer.h"
 
+#include "app/image/light_mips.h"
 #include "app/render/read_back.h"
 #include "app/scene/cell_plan.h"
 #include "app/scene/exposure.h"
@@ -46,7 +47,7 @@ std::vector<Source> sources_of(const OfflineScene& scene) {
 }
 
 scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves,
-                            const std::optional<torch::Content>& content) {
+                            const std::optional<OfflineTorch>& torch) {
     scene::RenderNeeds needs;
     for (const Source& source : sources) {
         const scene::RenderNeeds own =
@@ -54,8 +55,9 @@ scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves,
         needs = scene::united(needs, own);
     }
     needs = moves ? scene::with_cells(std::move(needs)) : std::move(needs);
-    return content ? scene::with_torch(std::move(needs), torch::parts_of(content->stages, content->blend))
-                   : needs;
+    return torch ? scene::with_torch(std::move(needs),
+                                     torch::parts_of(torch->content.stages, torch->content.blend))
+                 : needs;
 }
 
 Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
@@ -121,7 +123,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     const std::vector<Source> sources = sources_of(scene);
     TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
-                                            needs_of(sources, scene.world.has_value(), scene.content)));
+                                            needs_of(sources, scene.world.has_value(), scene.torch)));
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
@@ -140,13 +142,11 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     }
     for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
-        if (scene.content) {
+        if (scene.torch) {
             scene::make_torch_space(plans_.back(), prop_.faces.size(), indices, parts_.size());
         }
     }
-    content_ = scene.content;
-    beam_ = scene.setup.settings->torch.beam;
-    return {};
+    return scene.torch ? take_torch(scene) : Result<void>();
 }
 
 void OfflineRenderer::pose_cells(double seconds) {
@@ -159,9 +159,47 @@ void OfflineRenderer::pose_cells(double seconds) {
     }
 }
 
+Result<void> OfflineRenderer::take_torch(const OfflineScene& scene) {
+    torch_ = *scene.torch;
+    beam_ = scene.setup.settings->torch.beam;
+    render::GpuStore& store = renderer_->store();
+    if (!torch_->picture.empty()) {
+        TRY(torch_picture_, store.upload_picture(torch_->picture));
+    }
+    for (std::size_t k = 0; k < torch_->textures.size(); ++k) {
+        scene::Drawable& drawable = parts_[k].level.drawable;
+        if (!torch_->textures[k].texels.empty()) {
+            TRY_VOID(store.add_layer(drawable, torch_->layer, torch_->textures[k]));
+        } else if (torch_->colours[k]) {
+            store.add_layer(drawable, torch_->layer, torch_->colours[k]);
+        }
+    }
+    return {};
+}
+
+void OfflineRenderer::show_film(double seconds) {
+    const auto count = static_cast<std::int64_t>(torch_->frames.size());
+    const auto frame =
+        static_cast<std::size_t>(static_cast<std::int64_t>(seconds * torch_->film.rate_hz) % count);
+    if (frame == film_frame_) {
+        return;
+    }
+    if (const Result<image::Image8> picture = pack::film_frame_of(torch_->film, torch_->frames[frame])) {
+        renderer_->store().replace_picture(torch_picture_, image::cut_out_mips(*picture).front());
+        film_frame_ = frame;
+    }
+}
+
 scene::PlacedTorch OfflineRenderer::torch_at(const geometry::RigidTransform& table_from_torch,
-                                             double seconds) const {
-    return scene::placed(content_.value(), beam_, table_from_torch, seconds);
+                                             double seconds) {
+    static_cast<void>(display_->make_current());
+    if (!torch_->frames.empty()) {
+        show_film(seconds);
+    }
+    scene::PlacedTorch placed = scene::placed(torch_.value().content, beam_, table_from_torch, seconds);
+    placed.picture = torch_picture_;
+    placed.picture_version = static_cast<std::uint32_t>(film_frame_);
+    return placed;
 }
 
 void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {

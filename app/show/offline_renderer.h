@@ -45,7 +45,7 @@ public:
                                       std::span<const scene::PlacedTorch> torches = {});
     /// The torch of the settings with the content of the options, `seconds` after it began. Needs OfflineOptions::torch.
     [[nodiscard]] scene::PlacedTorch torch_at(const geometry::RigidTransform& table_from_torch,
-                                              double seconds) const;
+                                              double seconds);
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
                                       const glm::dvec3& eye_m) {
         return draw(table_from_prop, std::span(&eye_m, 1));
@@ -66,6 +66,9 @@ private:
     OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan);
     /// Creates a renderer for all of the scene, and takes what it draws.
     [[nodiscard]] Result<void> take(const OfflineScene& scene);
+    [[nodiscard]] Result<void> take_torch(const OfflineScene& scene);
+    /// The film's frame at a time since its content began.
+    void show_film(double seconds);
     void pose_cells(double seconds);
     void draw_once(std::span<const scene::PlanView> views);
     [[nodiscard]] std::optional<scene::ErrorEstimate> error_in(const scene::PlanView& view,
@@ -84,8 +87,10 @@ private:
     std::vector<scene::Part> parts_; ///< one for each of `shown_`
     std::vector<world::Cell> cells_;
     world::Behaviour behaviour_;
-    std::optional<torch::Content> content_;
+    std::optional<OfflineTorch> torch_;
     torch::Beam beam_;
+    scene::TextureId torch_picture_ = scene::TextureId::None;
+    std::size_t film_frame_ = 0;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     std::unique_ptr<display::SurfacelessDisplay>
         display_; ///< declared before everything that lives in its context

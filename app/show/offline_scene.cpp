@@ -4,6 +4,7 @@
 #include "app/pack/pack_world.h"
 #include "app/render/renderer.h"
 #include "app/scene/cell_plan.h"
+#include "app/show/offline_torch.h"
 
 #include <fmt/format.h>
 
@@ -49,13 +50,6 @@ Result<std::size_t> find_behaviour(const pack::PackWorld& world, const std::stri
     }
     return bad_input("render.no_behaviour", "--behaviour {}: the pack has no such behaviour; it has {}", name,
                      names);
-}
-
-Result<torch::Content> find_content(const pack::Pack& /*pack*/, const std::string& name) {
-    if (name == torch::white_name) {
-        return torch::white();
-    }
-    return bad_input("render.no_torch", "--torch {}: the pack has no such content; it has white", name);
 }
 
 /// Reads the cell's level or relief.
@@ -148,14 +142,14 @@ load_offline(const std::filesystem::path& file,
                        .pack = *std::move(pack),
                        .relief = nullptr,
                        .world = std::nullopt};
-    if (!scene.setup.options.torch.empty()) {
-        TRY(scene.content, find_content(*scene.pack, scene.setup.options.torch));
-    }
     if (cells) {
         TRY(scene.world, load_offline_world(file, scene));
     } else if (!scene.plan.reliefs.empty()) {
         TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));
         scene.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
+    }
+    if (!scene.setup.options.torch.empty()) {
+        TRY(scene.torch, load_offline_torch(file, scene, scene.setup.options.torch));
     }
     return scene;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_torches.h"
 #include "app/relief/block_relief.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
@@ -53,13 +54,24 @@ struct OfflineWorld {
     world::Behaviour behaviour;     ///< moves nothing: the cells are drawn at rest
     std::vector<OfflineCell> drawn; ///< the cells with geometry
 };
+/// What torches throw.
+struct OfflineTorch {
+    torch::Content content;
+    std::vector<image::Image8> picture{}; ///< its mips; of a film, those of the first frame
+    pack::PackFilm film{};
+    std::vector<Bytes> frames{};
+    std::size_t layer = 0; ///< index into Drawable::layers
+    /// In place of the texture or the colours of each thing drawn: the whole, or OfflineWorld::drawn; empty: it shows no layer.
+    std::vector<image::Image8> textures{};
+    std::vector<std::shared_ptr<const std::vector<glm::u8vec4>>> colours{};
+};
 struct OfflineScene {
     OfflineSetup setup;
     scene::ScenePlan plan; ///< of the whole artifact
     pack::VerifiedPack pack;
-    std::shared_ptr<const relief::BlockRelief> relief;    ///< in place of a level
-    std::optional<OfflineWorld> world;                    ///< drawn in place of the whole
-    std::optional<torch::Content> content = std::nullopt; ///< that torches throw; none: there are none
+    std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
+    std::optional<OfflineWorld> world;                 ///< drawn in place of the whole
+    std::optional<OfflineTorch> torch = std::nullopt;  ///< none: no torch is drawn
 };
 
 /// `setup_of` returns the set-up for a pack's outline.

@@ -80,6 +80,8 @@ enum ContentPart : std::uint8_t {
     SeveralPart = 16, ///< more stages than one
     OverPart = 32,    ///< Blend::Over
 };
+/// All parts but the blending: any content is drawn with it, or with it and OverPart.
+inline constexpr std::uint8_t all_parts = 31;
 [[nodiscard]] std::uint8_t parts_of(std::span<const Stage> stages, Blend blend);
 
 /// `--torch white`: plain light, which every artifact has.

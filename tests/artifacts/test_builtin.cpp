@@ -169,6 +169,27 @@ TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
     }
 }
 
+TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndTitlesInFiveLanguages) {
+    const std::vector<BuiltinLayer> layers = builtin_layers(GetParam());
+    std::set<std::string> named;
+    for (const folder::ArtifactTorch& content : folder_of(GetParam()).torches) {
+        EXPECT_EQ(content.titles.size(), 5U) << content.name;
+        for (const folder::ArtifactTorchStage& stage : content.stages) {
+            if (!stage.file.empty()) {
+                named.insert(stage.file.string());
+            }
+        }
+    }
+    EXPECT_EQ(named.size(), layers.size());
+    const image::Image8& own = *built(GetParam(), 8'000).textures.front().image;
+    for (const BuiltinLayer& layer : layers) {
+        EXPECT_TRUE(named.contains(std::string(layer.file))) << layer.file;
+        EXPECT_EQ(layer.picture.width, own.width);
+        EXPECT_EQ(layer.picture.height, own.height);
+        EXPECT_NE(layer.picture.texels, own.texels);
+    }
+}
+
 TEST_P(EveryBuiltin, HasTwoHotspotsOnItsSurfaceThatLookOutward) {
     const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     const Result<bake::BoxFrame> frame = bake::make_box_frame(mesh, {"y", 0.0, 0.0});

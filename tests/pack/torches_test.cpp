@@ -4,8 +4,10 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_torches.h"
+#include "app/pack/pack_world.h"
 #include "tests/base/told.h"
 #include "tests/pack/samples.h"
+#include "tests/pack/world_samples.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -158,6 +160,34 @@ TEST(Torches, a_pack_without_contents_is_as_before) {
     EXPECT_TRUE(check_torches(pack));
 }
 
+TEST(Torches, a_cell_has_the_artifacts_layers_and_no_contents) {
+    const auto with_layer = [](Pack pack, const char* name) {
+        TorchParts its;
+        TorchParts::Layer& layer = its.layers.emplace_back();
+        for (const image::Image8& texture : pack.textures) {
+            layer.textures.push_back(image::encode_webp(texture));
+        }
+        EXPECT_TRUE(put_torches(pack, {{}, {}, {}, {{.name = name}}}, std::move(its)));
+        return pack;
+    };
+    const auto told = [&](const Pack& whole, Pack cell) {
+        PackWorld world{{samples::cells().front()}, {samples::behaviours().back()}};
+        Pack made = whole;
+        const Result<void> put = put_world(made, world, std::vector{std::move(cell)});
+        const Result<void> good = put ? check_world(made) : put;
+        return good ? std::string() : test::told(good.error());
+    };
+    const Pack whole = with_layer(samples::pack(), "a");
+    EXPECT_EQ(told(whole, with_layer(samples::small_cell_pack(), "a")), "");
+    expect_told(told(whole, samples::small_cell_pack()), "[world.nested_layers]");
+    expect_told(told(whole, with_layer(samples::small_cell_pack(), "b")), "[world.nested_layers]");
+    Pack with_content = samples::small_cell_pack();
+    PackTorches content;
+    content.contents.push_back({{.name = "light", .stages = {torch::Stage{}}}, {}});
+    ASSERT_TRUE(put_torches(with_content, content, {}));
+    expect_told(told(samples::pack(), with_content), "[world.nested_torches]");
+}
+
 TEST(Torches, a_layers_colours_lie_where_the_format_page_says) {
     const std::vector<glm::u8vec4> colours = layer_colours(7);
     const Bytes bytes = encode_colours(colours);
@@ -215,7 +245,7 @@ TEST(Torches, contents_that_are_not_allowed_are_told) {
         {[](PackTorches& torches, TorchParts&) {
              torches.pictures[0] = {16384, 16384};
          },
-         "allowed are 0 to 2048"},
+         "whole numbers from 0 to 2048"},
         {[](PackTorches& torches, TorchParts&) { torches.films[0].rate_hz = 0.0; }, "0 a second"},
         {[](PackTorches& torches, TorchParts& its) {
              torches.films[0].width = 1024;
@@ -248,13 +278,13 @@ TEST(Torches, contents_that_are_not_allowed_are_told) {
 }
 
 TEST(Torches, data_that_are_not_allowed_are_told) {
-    expect_told(refusal_of_data(R"("blend":"over")", R"("blend":"under")"), "\"under\"");
+    expect_told(refusal_of_data(R"("blend":"over")", R"("blend":"under")"), "'under'");
     expect_told(refusal_of_data(R"("blend":"over")", R"("shader":"x","blend":"over")"), "shader");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":1000000)"), "frames");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":4)"), "[torch_section.parts]");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":2)"), "[torch_section.parts]");
     expect_told(refusal_of_data(R"("textures":2)", R"("textures":3)"), "[torch_section.parts]");
-    expect_told(refusal_of_data(R"("size":0.9)", R"("size":1e400)"), "sections.torches");
+    expect_told(refusal_of_data(R"("size":0.9)", R"("size":1e400)"), "too large");
     std::string many = "\"contents\":[";
     for (int k = 0; k < 17; ++k) {
         many += "{},";

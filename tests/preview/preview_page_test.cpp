@@ -64,6 +64,15 @@ protected:
         moves.sheet = image::Image8(16, 4, {9, 8, 7, 255});
         media.behaviours = {moves};
         media.languages[1].labels = {text};
+        TorchPictures torch;
+        torch.content.content.name = hostile;
+        torch.content.titles = {{"en", hostile}};
+        torch.shows = hostile;
+        torch.frames = 2;
+        torch.size = {8, 4};
+        torch.plain = torch.lit = image::Image8(16, 4, {9, 90, 7, 255});
+        torch.picture = image::Image8(8, 8, {1, 2, 3, 255});
+        media.torches = {torch};
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
         put("page.html", page);
@@ -80,7 +89,7 @@ protected:
 TEST_F(PreviewPage, LoadsNothingRunsNothingElseAndSaysAll) {
     const std::string page = preview_page(pack, facts, media);
     EXPECT_EQ(check(page,
-                    "--pictures 8 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
+                    "--pictures 11 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
                     "--text 'first line' --text 'جرة' --text 0.123 --text 'أدر الغطاء' --text 'place 1 is "
                     "turned to the visitor' --text 'could not set this text'"),
               0);
@@ -102,12 +111,28 @@ TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
     media.turn.marks.clear();
     media.languages.clear();
     media.behaviours.clear();
+    media.torches.clear();
     media.table_picture = image::Image8();
     EXPECT_EQ(check(preview_page(bare, {}, media), "--pictures 1 --sounds 0 --text 'Nothing of the scan'"),
               0);
 }
 
 /// RFC 4648, section 10.
+TEST(TorchPictures, AreWhatTheTorchShowsAtFullIntensity) {
+    const image::Image8 texture(1, 2, {188, 0, 255, 100}); // 0.5, 0 and 1 in linear light
+    image::Image8 layer(1, 2, {0, 188, 255, 255});
+    layer.at(0, 1).w = 0;
+    torch::Stage stage;
+    const image::Image8 over = with_layer(texture, layer, stage, torch::Blend::Over);
+    EXPECT_EQ(over.at(0, 0), glm::u8vec4(0, 188, 255, 100)) << "the layer's colour, the texture's holes";
+    EXPECT_EQ(over.at(0, 1), texture.at(0, 1)) << "where the layer is transparent";
+    const image::Image8 light = with_layer(texture, layer, stage, torch::Blend::Light);
+    EXPECT_EQ(light.at(0, 0), glm::u8vec4(188, 0, 255, 100)) << "0.5 + 0.5 x 0, 0 + 0, clipped at 1";
+    stage.opacity = 0.5;
+    EXPECT_EQ(with_layer(texture, layer, stage, torch::Blend::Over).at(0, 0).y, 137)
+        << "0.25 in linear light";
+}
+
 TEST(Base64, IsThatOfTheStandard) {
     constexpr std::array<std::pair<const char*, const char*>, 7> vectors{{{"", ""},
                                                                           {"f", "Zg=="},

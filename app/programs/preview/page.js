@@ -84,16 +84,29 @@
     });
   });
 
-  // A torch: the lit pictures are seen in a disc around the pointer.
+  // A torch: what it shows is seen around the pointer. One plain sheet serves all contents.
+  const plain = document.querySelector('.beam .plain');
   document.querySelectorAll('.beam').forEach((beam) => {
-    const lit = beam.querySelector('.lit');
+    const copy = (kind) => {
+      const made = plain.cloneNode();
+      made.alt = '';
+      made.className = kind;
+      return made;
+    };
+    if (!beam.contains(plain)) {
+      beam.prepend(copy('plain'));
+    }
+    if (beam.dataset.lens) {
+      beam.style.setProperty('--zoom', beam.dataset.lens);
+      beam.firstElementChild.after(copy('lit lens'));
+    }
     beam.addEventListener('pointermove', (event) => {
       const box = beam.getBoundingClientRect();
-      lit.style.setProperty('--x', event.clientX - box.left + 'px');
-      lit.style.setProperty('--y', event.clientY - box.top + 'px');
-      lit.style.setProperty('--radius', '3.5rem');
+      beam.style.setProperty('--x', event.clientX - box.left + 'px');
+      beam.style.setProperty('--y', event.clientY - box.top + 'px');
+      beam.style.setProperty('--radius', '3.5rem');
     });
-    beam.addEventListener('pointerleave', () => lit.style.setProperty('--radius', '0'));
+    beam.addEventListener('pointerleave', () => beam.style.setProperty('--radius', '0px'));
   });
 
   // A page that loads itself again goes on where it was.

@@ -1,5 +1,6 @@
 #include "app/programs/preview/torch_part.h"
 
+#include "app/image/film_frame.h"
 #include "app/programs/preview/html_parts.h"
 #include "firmware_host/base/xml_text.h"
 
@@ -15,21 +16,45 @@ constexpr float quality = 80.0F;
 
 std::string sheet_of(const image::Image8& sheet, std::string_view kind, const std::string& alt) {
     return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"{}\">", kind, alt,
-                       data_address("image/webp", image::encode_lossy_webp(sheet, quality)));
+                       data_address("image/webp", image::encode_film_frame(sheet, quality)));
+}
+
+/// What the script moves with the pointer.
+std::string thrown_of(const TorchPictures& torch, const std::string& name) {
+    std::string html;
+    if (!torch.lit.texels.empty()) {
+        html += sheet_of(torch.lit, "lit", name + ": the same in the torch's light");
+    }
+    if (!torch.picture.texels.empty()) {
+        html += sheet_of(torch.picture, "thrown", name + ": what the torch throws");
+    }
+    for (const torch::Stage& stage : torch.content.content.stages) {
+        using enum torch::Source;
+        if (stage.source == Plain || stage.source == Ring || stage.source == Grid || stage.source == Ruler) {
+            html += fmt::format("<span class=\"thrown {}\"></span>",
+                                stage.source == Plain
+                                    ? "light"
+                                    : torch::source_names.at(static_cast<std::size_t>(stage.source)));
+        }
+    }
+    return html;
+}
+
+/// The magnification of its lens, for the script; empty: none.
+std::string lens_of(const torch::Content& content) {
+    const auto lens =
+        std::find_if(content.stages.begin(), content.stages.end(),
+                     [](const torch::Stage& stage) { return stage.source == torch::Source::Lens; });
+    return lens == content.stages.end() ? std::string()
+                                        : fmt::format(" data-lens=\"{:.3g}\"", lens->magnification);
 }
 
 std::string pictures_of(const TorchPictures& torch, const std::string& name) {
-    std::string html;
-    if (torch.frames > 0) {
-        html += fmt::format("<div class=\"beam\">{}{}</div>\n",
-                            sheet_of(torch.plain, "plain", "the artifact from four sides"),
-                            sheet_of(torch.lit, "lit", name + ": the same in the torch's light"));
-    }
-    if (!torch.picture.texels.empty()) {
-        html += fmt::format("<div class=\"thrown\">{}</div>\n",
-                            sheet_of(torch.picture, "picture", name + ": what the torch throws"));
-    }
-    return html;
+    const std::string plain = torch.plain.texels.empty()
+                                  ? std::string()
+                                  : sheet_of(torch.plain, "plain", "the artifact from four sides");
+    return fmt::format("<div class=\"beam\"{}>{}{}</div>\n", lens_of(torch.content.content), plain,
+                       thrown_of(torch, name));
 }
 
 std::string figure_of(const TorchPictures& torch) {
@@ -60,11 +85,10 @@ std::string torches_part(const std::vector<TorchPictures>& torches) {
 }
 
 std::string style_of(const std::vector<TorchPictures>& torches) {
-    const auto drawn = std::find_if(torches.begin(), torches.end(),
-                                    [](const TorchPictures& torch) { return torch.frames > 0; });
-    return drawn == torches.end() ? std::string()
-                                  : fmt::format(".scripted .beam {{ aspect-ratio: {} / {}; }}\n",
-                                                drawn->frames * drawn->size.x, drawn->size.y);
+    return torches.empty()
+               ? std::string()
+               : fmt::format(".scripted .beam {{ aspect-ratio: {} / {}; }}\n",
+                             torches.front().frames * torches.front().size.x, torches.front().size.y);
 }
 
 } // namespace frustumscreen::programs

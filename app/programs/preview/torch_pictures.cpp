@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -119,21 +118,19 @@ Result<std::vector<TorchPictures>> torch_pictures(const std::filesystem::path& p
     smaller.columns = frames;
     smaller.rows = 1;
     smaller.size = options.size / 2;
-    std::optional<image::Image8> plain;
     std::vector<TorchPictures> all;
     for (const pack::PackTorchContent& packed : torches.contents) {
         TorchPictures pictures;
         pictures.content = packed;
         pictures.shows = words_of(torches, packed.content);
         TRY(pictures.picture, picture_in(pack, pack_file, torches, packed.content));
+        pictures.frames = frames;
+        pictures.size = smaller.size;
+        if (all.empty()) {
+            TRY(TurnPictures turn, turn_pictures(pack_file, smaller));
+            pictures.plain = std::move(turn.sheet);
+        }
         if (const torch::Stage* const stage = layer_in(packed.content)) {
-            if (!plain) {
-                TRY(TurnPictures turn, turn_pictures(pack_file, smaller));
-                plain = std::move(turn.sheet);
-            }
-            pictures.frames = frames;
-            pictures.size = smaller.size;
-            pictures.plain = *plain;
             TRY(pictures.lit, lit_sheet(pack_file, pack, torches, packed.content, *stage, smaller));
         }
         all.push_back(std::move(pictures));

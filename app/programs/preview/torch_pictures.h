@@ -1,7 +1,7 @@
 /// Pictures for the preview's page: the artifact as a torch shows it that lights all of it, beside the artifact as it is.
 ///
-/// Drawn    layers, in place of the artifact's texture, with the content's blend and opacity. Pictures and films are shown
-///          as they are, effects in words: they lie where the torch points.
+/// Drawn    layers, in place of the artifact's texture, with the content's blend and opacity. Pictures, films and effects
+///          lie where the torch points: the page lays them over the artifact, about as bright.
 /// Errors   as turn_pictures and load_layer_texture.
 /// Threads  one: it holds a GL context while it draws.
 #pragma once
@@ -23,10 +23,10 @@ namespace frustumscreen::programs {
 struct TorchPictures {
     pack::PackTorchContent content;
     std::string shows;     ///< in words
-    int frames = 0;        ///< of both sheets, side by side; 0: no layer
+    int frames = 0;        ///< of a sheet, side by side
     glm::ivec2 size{0};    ///< of one picture
-    image::Image8 plain;   ///< sheet without the torch
-    image::Image8 lit;     ///< sheet in the torch's light
+    image::Image8 plain;   ///< sheet without the torch; of the first content, for all
+    image::Image8 lit;     ///< sheet in the torch's light; empty: no layer
     image::Image8 picture; ///< or a film's first frame; empty: none
 };
 
