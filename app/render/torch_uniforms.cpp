@@ -84,8 +84,8 @@ void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scen
     const glm::vec3 brightness = draw.brightness * draw.light;
     glUniform4fv(shader.location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
     glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(light.inverse_depth));
-    glUniform2f(shader.location(Uniform::FaceGain), even ? light.per_cubic_metre : 1e30F,
-                even ? light.most : 1.0F);
+    glUniform4f(shader.location(Uniform::FaceGain), even ? light.per_cubic_metre : 1e30F,
+                even ? light.most : 1.0F, 0.0F, 0.0F);
     glUniform3fv(shader.location(Uniform::Brightness), 1, glm::value_ptr(brightness));
 }
 
