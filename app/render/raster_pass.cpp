@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -52,6 +53,25 @@ PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) 
 bool has_layers(const scene::RenderNeeds& needs) {
     return std::any_of(needs.torches.begin(), needs.torches.end(),
                        [](std::uint8_t content) { return (content & torch::LayerPart) != 0; });
+}
+
+/// A torch's draw of every relief on its face: they share one picture, in which a pixel is lit once. nullopt: the draw of another
+/// relief before it has them all.
+std::optional<scene::TorchDraw> of_all_reliefs(const scene::FramePlan& plan, const scene::TorchDraw& draw) {
+    const int face = plan.draws[draw.draw].face;
+    scene::TorchDraw all = draw;
+    for (const scene::TorchDraw& other : plan.torch_draws) {
+        const scene::Draw& shown = plan.draws[other.draw];
+        if (other.torch != draw.torch || shown.face != face ||
+            shown.shader.pass != scene::ShaderKey::Pass::Raster) {
+            continue;
+        }
+        if (other.draw < draw.draw) {
+            return std::nullopt;
+        }
+        all.bounds = united(all.bounds, other.bounds);
+    }
+    return all;
 }
 
 /// The edges of the draw's face as half spaces of rays.
@@ -407,12 +427,15 @@ int RasterPass::light_with(const Lit& lit, const scene::ShaderKey& key, Contents
     for (const scene::TorchDraw& draw : lit.plan.torch_draws) {
         const scene::TorchLight& light = lit.plan.torches[draw.torch];
         const Shader* const shader = find_torch(lit.shaders, key, light);
-        if (lit.plan.draws[draw.draw].shader.pass == scene::ShaderKey::Pass::Raster && shader != nullptr &&
-            takes(contents, light)) {
+        if (lit.plan.draws[draw.draw].shader.pass != scene::ShaderKey::Pass::Raster || shader == nullptr ||
+            !takes(contents, light)) {
+            continue;
+        }
+        if (const std::optional<scene::TorchDraw> all = of_all_reliefs(lit.plan, draw)) {
             shader->use();
             set_torch(*shader, light, lit.torches[draw.torch], lit.store);
             begin_blending(light);
-            calls += light_rectangles(lit.plan, draw, *shader, lit.raster, rectangles);
+            calls += light_rectangles(lit.plan, *all, *shader, lit.raster, rectangles);
         }
     }
     end_blending();

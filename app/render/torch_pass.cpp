@@ -98,7 +98,7 @@ int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, con
     glStencilMask(0xFF);
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
     glClearDepthf(1.0F);
-    glClearStencil(0);
+    glClearStencil(static_cast<GLint>(stencil_value(0))); // its only face is the whole picture
     glClear((colours ? GL_COLOR_BUFFER_BIT : 0U) | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     const int calls = faces_.draw(view, store, shaders, whole);
     return calls + (view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0);

@@ -254,17 +254,22 @@ void main() {
 inline constexpr std::string_view torch_on_samples = R"(
 uniform highp sampler2D depths; // of the larger picture
 void main() {
-    vec3 ray = ray_at(gl_FragCoord.xy);
-    vec3 on_face = on_face_at(ray);
-    float from_depth = 2.0 / dot(depth_from_nearness.xyz, ray);
-    float offset = -(0.5 * depth_from_nearness.w + 0.5) * from_depth;
+    vec3 middle = ray_at(gl_FragCoord.xy);
+    mat3 rays = mat3(middle, ray_at(gl_FragCoord.xy + vec2(0.5, 0.0)) - middle,
+                     ray_at(gl_FragCoord.xy + vec2(0.0, 0.5)) - middle);
+    mat3 turned = mat3(torch_from_projector) * rays;
+    vec3 on_plane = inverse_depth * rays;
+    vec3 by_nearness = depth_from_nearness.xyz * rays;
     ivec2 first = (ivec2(gl_FragCoord.xy) - raster.zw) * raster.xy;
     vec3 sum = vec3(0.0);
     float lit = 0.0;
     for (int y = 0; y < raster.y; ++y) {
         for (int x = 0; x < raster.x; ++x) {
+            // The sample's own ray: on a steep surface the pixel's would lie before the sample's place, in its shadow.
+            vec3 at = vec3(1.0, (2.0 * vec2(x, y) + 1.0) / vec2(raster.xy) - 1.0);
             float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
-            vec3 p = place_of(on_face, depth * from_depth + offset);
+            vec3 on_face = turned * at / dot(on_plane, at) + torch_from_projector[3].xyz;
+            vec3 p = place_of(on_face, (2.0 * depth - 1.0 - depth_from_nearness.w) / dot(by_nearness, at));
             if (depth < 1.0 && is_lit(p)) {
                 sum += p;
                 lit += 1.0;

@@ -69,6 +69,7 @@ ShaderKey places_of(ShaderKey key) {
     key.places = true;
     key.even_light = false;
     key.coloured = false;
+    key.torch = false;
     return key;
 }
 

@@ -2,6 +2,7 @@
 /// which of them a pixel shows.
 #pragma once
 
+#include "app/scene/torch_plan.h"
 #include "tests/render/reference_cast.h"
 #include "tests/render/relief_rig.h"
 
@@ -103,7 +104,8 @@ inline constexpr std::array<Way, 3> ways{Way::Mesh, Way::DrawnRelief, Way::Raste
 /// The pixel's part and place by a ray; part -1: none.
 struct SeenPart {
     int part = -1;
-    glm::dvec3 point{0.0}; ///< prop frame
+    glm::dvec3 point{0.0};  ///< prop frame
+    glm::dvec3 normal{0.0}; ///< of the triangle, of any length and either sign
 };
 
 /// A world whose parts are red, green and blue.
@@ -117,14 +119,19 @@ public:
     std::vector<scene::Part> parts;
 
     Interlocked(const geometry::PropShape& shape, std::vector<WorldObject> objects, int samples,
-                const geometry::Lens& lens = {}, int texels = 160)
+                const geometry::Lens& lens = {}, int texels = 160, bool torches = false)
         : prop(shape) {
         stand(objects);
         const geometry::Pinhole projector = table_of(lens).projector;
         display = display::SurfacelessDisplay::create(projector.width, projector.height).value();
-        renderer = render::Renderer::create(projector.width, projector.height,
-                                            scene::with_cells(needs_with_reliefs(samples, projector)))
-                       .value();
+        scene::RenderNeeds needs = scene::with_cells(needs_with_reliefs(samples, projector));
+        if (torches) {
+            const torch::Content plain = torch::white();
+            for (const torch::Blend blend : {torch::Blend::Light, torch::Blend::Over}) {
+                needs = scene::with_torch(std::move(needs), torch::parts_of(plain.stages, blend));
+            }
+        }
+        renderer = render::Renderer::create(projector.width, projector.height, needs).value();
         hit_points = render::HitPointRenderer::create(*renderer).value();
         const double metres = scale_inside(objects);
         packs_.reserve(objects.size());
@@ -136,6 +143,9 @@ public:
             indices += pack.levels[0].indices.size();
         }
         plan = scene::make_plan(prop, indices, objects.size());
+        if (torches) {
+            scene::make_torch_space(plan, prop.faces.size(), indices, objects.size());
+        }
         parts.resize(objects.size());
     }
 
@@ -158,22 +168,27 @@ public:
     /// The first part that the pixel's ray meets. `only`: as if the world had one part alone.
     [[nodiscard]] SeenPart seen(const TestTable& table, const glm::dvec2& pixel,
                                 std::optional<int> only = std::nullopt) const {
-        SeenPart first;
         const std::optional<ReferenceCast::Ray> ray = ReferenceCast::ray_of(table, pixel);
+        return ray ? first_on(ray->eye, ray->lit - ray->eye, only) : SeenPart{};
+    }
+    /// The first part that a ray of the prop's frame meets.
+    [[nodiscard]] SeenPart first_on(const glm::dvec3& from, const glm::dvec3& direction,
+                                    std::optional<int> only = std::nullopt) const {
+        SeenPart first;
         double nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; ray && k < casts_.size(); ++k) {
+        for (std::size_t k = 0; k < casts_.size(); ++k) {
             if (only && *only != static_cast<int>(k)) {
                 continue;
             }
-            const auto in_placed = [&](const glm::dvec3& point) {
-                return glm::dvec3(placed_from_prop_[k] * glm::dvec4(point, 1.0));
-            };
-            const glm::dvec3 eye = in_placed(ray->eye);
-            const ReferenceCast::Hit hit = casts_[k].first_hit(eye, in_placed(ray->lit) - eye);
+            const glm::dmat4& placed_from_prop = placed_from_prop_[k];
+            const ReferenceCast::Hit hit =
+                casts_[k].first_hit(glm::dvec3(placed_from_prop * glm::dvec4(from, 1.0)),
+                                    glm::dmat3(placed_from_prop) * direction);
             const glm::dvec3 point(levels_[k][0].prop_from_placed * glm::dvec4(hit.point, 1.0));
-            if (hit.found && glm::distance(point, ray->eye) < nearest) {
-                nearest = glm::distance(point, ray->eye);
-                first = {static_cast<int>(k), point};
+            if (hit.found && glm::distance(point, from) < nearest) {
+                nearest = glm::distance(point, from);
+                first = {static_cast<int>(k), point,
+                         glm::transpose(glm::dmat3(placed_from_prop)) * hit.normal};
             }
         }
         return first;

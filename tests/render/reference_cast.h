@@ -28,7 +28,8 @@ public:
     struct Hit {
         bool found = false;
         glm::dvec3 point{0.0};
-        double edge = 1.0; ///< smallest barycentric coordinate of the hit
+        double edge = 1.0;      ///< smallest barycentric coordinate of the hit
+        glm::dvec3 normal{0.0}; ///< of the triangle, its length is twice its area
     };
 
     /// Method: Möller and Trumbore 1997.
@@ -113,7 +114,7 @@ private:
         const double t = glm::dot(ac, q) / determinant;
         if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < nearest) {
             nearest = t;
-            hit = {true, origin + t * direction, std::min(u, std::min(v, 1.0 - u - v))};
+            hit = {true, origin + t * direction, std::min(u, std::min(v, 1.0 - u - v)), glm::cross(ab, ac)};
         }
     }
 

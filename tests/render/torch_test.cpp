@@ -1,0 +1,254 @@
+// Torches that light a world of meshes and reliefs, against rays: pixels that no torch touches are the same bytes, lit ones have the
+// intensity of their way, and shadows end within a pixel of the torch's own picture.
+
+#include "tests/render/torch_compare.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+/// Writes a picture where TORCH_PICTURES names a folder.
+void keep(const image::Image8& picture, const std::string& name) {
+    if (const char* const folder = std::getenv("TORCH_PICTURES"); folder != nullptr) {
+        const Bytes bytes = image::encode_png(picture);
+        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+}
+
+struct Lit {
+    std::string name;
+    std::vector<WorldObject> objects;
+    std::vector<Way> chosen;
+    geometry::PropShape prop = geometry::make_frustum({});
+    geometry::Lens lens{};
+    std::size_t torches = 1;
+    int samples = 1;
+    int poses = 16;
+    std::size_t min_lit = 300; ///< pixels a pose
+};
+
+image::Image8 picture_of(Interlocked& world, const TestTable& table,
+                         std::span<const scene::PlacedTorch> torches) {
+    scene::PlanView view = table.view();
+    view.torches = torches;
+    return world.picture(view);
+}
+
+/// Of several samples a pixel, and of triangles whose corners alone a lens bends, each shows places beside the pixel's middle.
+Tolerance tolerance_of(const Lit& lit) {
+    const bool all_meshes = std::ranges::count(lit.chosen, Way::Mesh) == std::ssize(lit.chosen);
+    return all_meshes && lit.samples == 1 && lit.lens.is_plain() ? of_mesh : of_relief;
+}
+
+void check(const Lit& lit) {
+    Interlocked world(lit.prop, lit.objects, lit.samples, lit.lens, 256, true);
+    world.choose(lit.chosen);
+    for (scene::Part& part : world.parts) {
+        part.level.light = glm::vec3(base_light);
+    }
+    TestTable table = table_of(lit.lens);
+    table.prop = lit.prop;
+    std::mt19937 random(48);
+    Counts counts;
+    for (int pose = 0; pose < lit.poses; ++pose) {
+        (table.*(lit.prop.faces.size() == 6 ? &TestTable::hold : &TestTable::shuffle))(random);
+        std::vector<scene::PlacedTorch> torches;
+        for (std::size_t k = 0; k < lit.torches; ++k) {
+            torches.push_back(seeded_torch(table, random, pose + 7 * static_cast<int>(k)));
+        }
+        const image::Image8 without = picture_of(world, table, {});
+        const image::Image8 with = picture_of(world, table, torches);
+        Compared(world, table, torches, tolerance_of(lit)).count(without, with, counts);
+        keep(with, lit.name + "_" + std::to_string(pose));
+    }
+    const std::size_t pixels = counts.lit + counts.dark;
+    std::printf(
+        "%s: %zu lit, %zu dark, %zu of them in a shadow; excused: %zu at an outline, %zu at an edge of the "
+        "light; %zu wrong, by up to %.2f codes more than allowed\n",
+        lit.name.c_str(), counts.lit, counts.dark, counts.shadow, counts.outline, counts.edge, counts.wrong,
+        counts.worst);
+    const auto poses = static_cast<std::size_t>(lit.poses);
+    EXPECT_GT(counts.lit, lit.min_lit * poses);
+    EXPECT_GT(counts.dark, lit.min_lit * poses);
+    EXPECT_GT(counts.shadow, lit.min_lit / 6 * poses);
+    const bool exact = tolerance_of(lit).eye_px < 1.0;
+    // Where two surfaces meet within a pixel, the light's pass may take the other one.
+    EXPECT_LE(counts.wrong, pixels / (exact ? 20000 : 2000)) << "by up to " << counts.worst << " codes";
+    EXPECT_LT(counts.outline, pixels / 20);
+    EXPECT_LT(counts.edge, pixels / (exact ? 50 : 12));
+}
+
+TEST(Torch, LightsMeshesAsRaysSay) {
+    check({.name = "mesh", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}});
+}
+
+TEST(Torch, LightsARasterizedReliefAsRaysSay) {
+    check({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
+}
+
+TEST(Torch, LightsAReliefOfTheGpuAsRaysSay) {
+    check({.name = "gpu", .objects = as_one(ball_and_post()), .chosen = {Way::DrawnRelief}});
+}
+
+TEST(Torch, CellsCastShadowsOnEachOther) {
+    check({.name = "cells_m", .objects = ball_and_post(), .chosen = {Way::Mesh, Way::Mesh, Way::Mesh}});
+    check({.name = "cells_mr",
+           .objects = ball_and_post(),
+           .chosen = {Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief}});
+    check({.name = "cells_rgm",
+           .objects = ball_and_post(),
+           .chosen = {Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief}});
+}
+
+TEST(Torch, LooksIntoACrate) {
+    check({.name = "crate_m", .objects = box_in_crate(), .chosen = {Way::Mesh, Way::Mesh}});
+    check({.name = "crate_r",
+           .objects = box_in_crate(),
+           .chosen = {Way::RasterizedRelief, Way::RasterizedRelief}});
+}
+
+TEST(Torch, SeveralShineAtOnce) {
+    check({.name = "three",
+           .objects = ball_and_post(),
+           .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
+           .torches = 3});
+    check({.name = "four_r",
+           .objects = as_one(ball_and_post()),
+           .chosen = {Way::RasterizedRelief},
+           .torches = 4,
+           .poses = 8});
+}
+
+TEST(Torch, LightsACubeInTheHandBehindALensThatDistorts) {
+    Lit cube{.name = "cube_m",
+             .objects = ball_in_ring(), // of small triangles: a lens bends their corners alone
+             .chosen = {Way::Mesh, Way::Mesh},
+             .prop = geometry::make_cube(0.16),
+             .lens = lenses[2],
+             .min_lit = 60};
+    check(cube);
+    cube.name = "cube_mr";
+    cube.chosen = {Way::Mesh, Way::RasterizedRelief};
+    check(cube);
+}
+
+TEST(Torch, SeveralSamplesAPixelAreRightAwayFromEdges) {
+    check({.name = "samples",
+           .objects = ball_and_post(),
+           .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
+           .samples = 4});
+}
+
+/// The ball and the post at one pose.
+struct Still {
+    Interlocked world{geometry::make_frustum({}), ball_and_post(), 1, {}, 160, true};
+    TestTable table = table_of({});
+
+    explicit Still(Way way, unsigned seed = 5) {
+        world.choose(std::array{way, way, way});
+        for (scene::Part& part : world.parts) {
+            part.level.light = glm::vec3(base_light);
+        }
+        std::mt19937 random(seed);
+        table.shuffle(random);
+    }
+    [[nodiscard]] glm::dvec3 middle() const { return table.table_from_prop.point(table.prop.middle); }
+    [[nodiscard]] image::Image8 lit_by(std::span<const scene::PlacedTorch> torches) {
+        return picture_of(world, table, torches);
+    }
+};
+
+torch::Beam wide_beam() {
+    torch::Beam beam;
+    beam.opening_rad = glm::radians(60.0);
+    beam.attenuation = torch::Attenuation::None;
+    return beam;
+}
+
+/// Whoever holds the torch at his eye sees no shadow.
+TEST(Torch, AtTheEyeLightsAllThatTheEyeSees) {
+    for (const Way way : ways) {
+        Still still(way);
+        const std::array torches{torch_of(looking(still.table.eye_m, still.middle()), wide_beam())};
+        const image::Image8 without = still.lit_by({});
+        const image::Image8 with = still.lit_by(torches);
+        std::size_t seen = 0;
+        std::size_t dark = 0;
+        for (std::size_t k = 0; k < with.texels.size(); ++k) {
+            const bool shown = without.texels[k] != glm::u8vec4(0, 0, 0, 255);
+            seen += shown ? 1U : 0U;
+            dark += shown && with.texels[k] == without.texels[k] ? 1U : 0U;
+        }
+        EXPECT_GT(seen, 1500U);
+        EXPECT_LE(dark, way == Way::Mesh ? seen / 500 : seen / 50) << static_cast<int>(way) << " of " << seen;
+    }
+}
+
+TEST(Torch, ThatLightsNothingChangesNoByte) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const Way way : ways) {
+        Still still(way);
+        const image::Image8 without = still.lit_by({});
+        const glm::dvec3 middle = still.middle();
+        const glm::dvec3 aside = middle + glm::dvec3(0.0, -0.4, 0.1);
+        std::vector<std::pair<std::string, scene::PlacedTorch>> none{
+            {"looks away", torch_of(looking(aside, 2.0 * aside - middle), wide_beam())},
+            {"is far away", torch_of(looking(middle + glm::dvec3(0.0, 0.0, 1000.0), middle), torch::Beam{})},
+            {"is off", torch_of(looking(aside, middle), wide_beam())},
+            {"has no content", torch_of(looking(aside, middle), wide_beam())},
+            {"is nowhere", torch_of({glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dvec3(nan)}, wide_beam())},
+            {"has no direction", torch_of({glm::dquat(0.0, 0.0, 0.0, 0.0), aside}, wide_beam())},
+            {"points nowhere", torch_of({glm::dquat(nan, 0.0, 0.0, 1.0), aside}, wide_beam())}};
+        none[2].second.brightness = 0.0F;
+        none[3].second.stage_count = 0;
+        for (const auto& [name, torch] : none) {
+            EXPECT_EQ(still.lit_by(std::span(&torch, 1)).texels, without.texels)
+                << name << ' ' << static_cast<int>(way);
+        }
+    }
+}
+
+/// In the plate, in the ball, in the post: at most what is in the beam is lit.
+TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
+    for (const Way way : ways) {
+        Still still(way);
+        const image::Image8 without = still.lit_by({});
+        std::size_t unchanged = 0;
+        for (std::size_t part = 0; part < 3; ++part) {
+            const scene::PlacedLevel& level = still.world.parts[part].level;
+            const geometry::Box placed = level.placed_box();
+            const glm::dvec3 inside(level.prop_from_placed *
+                                    glm::dvec4(0.5 * (placed.low + placed.high), 1.0));
+            const glm::dvec3 from = still.table.table_from_prop.point(inside);
+            for (const glm::dvec3& towards : {glm::dvec3(0.3, 0.2, 1.0), glm::dvec3(-1.0, 0.1, 0.2)}) {
+                const std::array torches{torch_of(looking(from, from + towards), wide_beam())};
+                const image::Image8 with = still.lit_by(torches);
+                const TorchTruth truth(still.world, torches[0], still.table);
+                for (int y = 0; y < with.height; ++y) {
+                    for (int x = 0; x < with.width; ++x) {
+                        const glm::dvec2 pixel(x + 0.5, y + 0.5);
+                        if (without.at(x, y) == with.at(x, y)) {
+                            ++unchanged;
+                            continue;
+                        }
+                        bool may_be_lit = false;
+                        for (int k = 0; k < 9; ++k) {
+                            const SeenPart place =
+                                still.world.seen(still.table, pixel + glm::dvec2(k % 3 - 1, k / 3 - 1));
+                            may_be_lit = may_be_lit || (place.part >= 0 && truth.in_beam(place.point));
+                        }
+                        EXPECT_TRUE(may_be_lit) << x << ' ' << y << ' ' << static_cast<int>(way);
+                    }
+                }
+            }
+        }
+        EXPECT_GT(unchanged, 300'000U);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
