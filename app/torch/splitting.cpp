@@ -58,11 +58,15 @@ double max_second_derivative(const Beam& beam, const Ways& ways, const Angles& c
     case Attenuation::SmoothStep: {
         const double from = (ways.min_m - beam.full_m) / depth_m;
         const double to = (ways.max_m - beam.full_m) / depth_m;
-        const double steepest = std::clamp(0.5, from, to);
-        const double slope = 6.0 * steepest * (1.0 - steepest) / depth_m;
-        const double bend =
-            std::max(std::abs(12.0 * from - 6.0), std::abs(12.0 * to - 6.0)) / (depth_m * depth_m);
-        return bend * c2.max + slope / ways.min_m * (1.0 - c2.min);
+        const auto slope = [depth_m](double t) { return 6.0 * t * (1.0 - t) / depth_m; }; // -I'
+        const double steepest = slope(std::clamp(0.5, from, to)) / ways.min_m;
+        const double flattest = std::min(slope(from), slope(to)) / ways.max_m;
+        const auto bend = [depth_m](double t) { return (12.0 * t - 6.0) / (depth_m * depth_m); };
+        const auto between = [](double c2_at, double along, double across) {
+            return std::abs(c2_at * along + (1.0 - c2_at) * across);
+        };
+        return std::max({between(c2.min, bend(from), -steepest), between(c2.max, bend(from), -steepest),
+                         between(c2.min, bend(to), -flattest), between(c2.max, bend(to), -flattest)});
     }
     case Attenuation::None:
         break;

@@ -38,9 +38,11 @@ struct CellWays {
 
 class CellSet {
 public:
-    /// `samples`: a pixel; 0: the pack's own number.
-    [[nodiscard]] static Result<std::unique_ptr<CellSet>>
-    open(const settings::Settings& settings, const std::filesystem::path& pack, int samples);
+    enum class Torches { None, Some };
+    /// `samples`: a pixel; 0: the pack's own number. `torches`: whether the renderer is ready for torches.
+    [[nodiscard]] static Result<std::unique_ptr<CellSet>> open(const settings::Settings& settings,
+                                                               const std::filesystem::path& pack, int samples,
+                                                               Torches torches = Torches::None);
     CellSet(const CellSet&) = delete;
     CellSet& operator=(const CellSet&) = delete;
 
@@ -66,7 +68,7 @@ public:
 private:
     CellSet(settings::Settings settings, scene::ScenePlan plan)
         : settings_(std::move(settings)), plan_(std::move(plan)) {}
-    [[nodiscard]] Result<void> upload();
+    [[nodiscard]] Result<void> upload(Torches torches);
     void list_ways();
 
     settings::Settings settings_;
