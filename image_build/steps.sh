@@ -243,11 +243,14 @@ make_kernel_image() {
     image_build/initrd.sh "$debian/tree" "$work/root" "$level" "$initrd"
     # console=ttyS0: what the kernel and the service manager say at a restart goes to a serial line, which a PC need not have; else the
     # kernel writes it onto the table, once the exhibit has let go of the screen.
+    # no_timer_check: at the start the kernel waits some 60 ms of the processor's clock for four ticks of the timer, and panics without
+    # them ("IO-APIC + timer doesn't work!"). A processor that stands still meanwhile, as an emulated one on a busy machine does, is no
+    # broken timer.
     # watchdog.stop_on_reboot=0: drivers stop the hardware's watchdog when the kernel is to restart the machine, and then nobody
     # watches whether it does.
     {
         printf '%s ' quiet loglevel=3 console=ttyS0 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
-            gpt i8042.nokbd i8042.noaux watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
+            gpt i8042.nokbd i8042.noaux no_timer_check watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
         printf 'frustumscreen.root_hash=%s frustumscreen.root_blocks=%d frustumscreen.hash_blocks=%d frustumscreen.salt=%s' \
             "$root_hash" "$root_blocks" "$hash_blocks" "$salt"
     } >"$work/cmdline"

@@ -28,9 +28,11 @@ public:
 
     void clear();
     /// Returns the number of the relief's first block. `light`: 0..1, linear; each channel of the colours is multiplied.
-    std::uint32_t add(const BlockRelief& relief, const glm::vec3& light = glm::vec3(1.0F));
+    /// `colours`: others, in the order of the relief's own; null: those.
+    std::uint32_t add(const BlockRelief& relief, const glm::vec3& light = glm::vec3(1.0F),
+                      const std::vector<glm::u8vec4>* colours = nullptr);
 
-    /// The relief if it is the only one and keeps its light; its blocks have their own numbers. Otherwise null.
+    /// The relief if it is the only one and keeps its colours and light; its blocks have their own numbers. Otherwise null.
     [[nodiscard]] const BlockRelief* only() const { return only_; }
     /// True if some relief's light is not 1.
     [[nodiscard]] bool changes_light() const { return changes_light_; }

@@ -71,10 +71,12 @@ void ReliefPainter::list(std::span<const SeenRelief> reliefs) {
     count_ = reliefs.size();
     listed_.resize(std::max(listed_.size(), count_));
     pages_.clear();
+    layer_pages_.clear();
     for (std::size_t k = 0; k < count_; ++k) {
         Listed& listed = listed_[k];
         listed.seen = reliefs[k];
         listed.share = {pages_.add(*reliefs[k].relief, reliefs[k].light), reliefs[k].dither};
+        layer_pages_.add(*reliefs[k].relief, glm::vec3(1.0F), reliefs[k].layer);
         begin_list(listed.items, *reliefs[k].relief, *reliefs[k].view);
     }
     list_blocks_of_all();
@@ -133,7 +135,17 @@ void ReliefPainter::resolve_columns(const RasterSamples& samples, int y, const R
 
 void ReliefPainter::resolve(const RasterSamples& samples, const PixelRectangle& part,
                             const Picture& picture) const {
-    const PixelRectangle deep = depth_part(part, picture.depth.parts);
+    const DepthPicture& depth = picture.depth;
+    const PixelRectangle deep = depth_part(part, depth.parts);
+    const PixelRectangle overlaid = depth_part(part, depth.overlaid);
+    for (int y = overlaid.y; !overlaid.empty() && y < overlaid.y + overlaid.height; ++y) {
+        const auto width = static_cast<std::size_t>(overlaid.width);
+        nearness_row(samples, nearness_, y, overlaid.x, {&depth.nearness.at(overlaid.x, y), width});
+        if (depth.layer.first != nullptr) {
+            resolve_row(samples, layer_pages_, light_, y, overlaid.x, {&depth.layer.at(overlaid.x, y), width},
+                        Outline::Coverage);
+        }
+    }
     for (int y = part.y; y < part.y + part.height; ++y) {
         std::fill_n(&picture.codes.at(part.x, y), part.width, glm::u8vec4(0));
         const RasterSamples::Extent& extent = samples.extent(y);
@@ -165,7 +177,7 @@ std::span<const PixelRectangle> ReliefPainter::paint(std::span<const SeenRelief>
         return {};
     }
     list(reliefs);
-    if (!depth.parts.empty()) {
+    if (!depth.parts.empty() || !depth.overlaid.empty()) {
         nearness_.begin(*reliefs[0].view);
         for (const SeenRelief& seen : reliefs.subspan(1)) {
             nearness_.add(*seen.view);

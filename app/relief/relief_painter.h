@@ -50,12 +50,18 @@ struct SeenRelief {
     const RasterView* view = nullptr;
     std::optional<Dither> dither = std::nullopt; ///< nullopt: every pixel
     glm::vec3 light{1.0F};                       ///< 0..1, linear: factor of its colours
+    /// Other colours, in the order of its own, for DepthPicture::layer; null: its own.
+    const std::vector<glm::u8vec4>* layer = nullptr;
 };
 
 /// Where something else may hide a relief, or a relief hide it.
 struct DepthPicture {
     std::span<const PixelRectangle> parts;
     PictureSpan<float> nearness; ///< as nearness_row.h
+    /// Where something is laid over the picture by its depth: there `nearness` is written too, and `layer`, if there is one: each
+    /// pixel's mean of its hits in the reliefs' other colours, unlit.
+    std::span<const PixelRectangle> overlaid = {};
+    PictureSpan<glm::u8vec4> layer = {};
 };
 /// The part of a painted rectangle that has depth: all its rows, between the outermost columns of `parts` in it.
 [[nodiscard]] PixelRectangle depth_part(const PixelRectangle& painted, std::span<const PixelRectangle> parts);
@@ -112,7 +118,7 @@ private:
     std::vector<Listed> listed_; ///< the first `count_` are of this picture
     std::size_t count_ = 0;
     std::vector<std::size_t> order_; ///< of these, roughly front to back
-    BlockPages pages_;
+    BlockPages pages_, layer_pages_;
     NearnessView nearness_;
     std::vector<RasterSamples> samples_; ///< one per thread, each for one band at a time
     std::vector<PixelRectangle> painted_;

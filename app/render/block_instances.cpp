@@ -24,7 +24,7 @@ std::array<std::uint16_t, indices_of_block> indices() {
     return made;
 }
 
-/// Sets the matrices of each direction's grid, computed in 64-bit arithmetic.
+/// Sets the matrices of each direction's grid, computed in 64-bit arithmetic. `prop_from_box`: or into a torch's frame.
 void set_grids(const relief::BlockRelief& relief, const scene::Draw& draw, const glm::dmat4& prop_from_box,
                const Shader& shader) {
     std::array<glm::mat4, max_directions> clip{};
@@ -87,7 +87,8 @@ void BlockInstances::list(const scene::FramePlan& plan, const GpuStore& store) {
 }
 
 void BlockInstances::draw(const scene::FramePlan& plan, const scene::Draw& draw,
-                          const GpuStore::Blocks& blocks, const Shader& shader) const {
+                          const glm::dmat4& places_from_box, const GpuStore::Blocks& blocks,
+                          const Shader& shader) const {
     const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
     const auto run = std::find_if(runs_.begin(), runs_.end(), [&](const Run& each) {
         return each.relief_draw == draw.relief_draw && each.face == face;
@@ -95,7 +96,7 @@ void BlockInstances::draw(const scene::FramePlan& plan, const scene::Draw& draw,
     if (run == runs_.end() || run->count == 0) {
         return;
     }
-    set_grids(*blocks.relief, draw, plan.relief_draws[draw.relief_draw].prop_from_box, shader);
+    set_grids(*blocks.relief, draw, places_from_box, shader);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, blocks.numbers.get());
     glActiveTexture(GL_TEXTURE2);

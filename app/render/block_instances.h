@@ -27,8 +27,9 @@ public:
     /// Lists the plan's reliefs that are in the store and that the GPU draws.
     void list(const scene::FramePlan& plan, const GpuStore& store);
     /// Draws a relief's blocks for `draw`, one of the plan's draws, with `shader`, which must be in use.
-    void draw(const scene::FramePlan& plan, const scene::Draw& draw, const GpuStore::Blocks& blocks,
-              const Shader& shader) const;
+    /// `places_from_box`: to the frame of the places that the shader takes.
+    void draw(const scene::FramePlan& plan, const scene::Draw& draw, const glm::dmat4& places_from_box,
+              const GpuStore::Blocks& blocks, const Shader& shader) const;
 
 private:
     struct Run {

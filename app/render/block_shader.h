@@ -28,10 +28,11 @@ uniform highp usampler2D covers;
 uniform sampler2D image;         // 9 x 9 texels a block, of its corners: colour, and the residual's code
 uniform mat4 clip_from_grid[6];
 uniform uint mirrored;           // bits: directions whose grid is left-handed
-#ifdef PLACES
-uniform mat4 prop_from_grid[6];  // metres
+#if defined(PLACES) || defined(TORCH)
+uniform mat4 prop_from_grid[6];  // metres; of a torch: into its frame
 out vec3 point;
-#else
+#endif
+#ifndef PLACES
 out vec2 texel;
 #endif
 flat out uvec2 cover; // of the cell
@@ -85,9 +86,10 @@ void main() {
     float w = uintBitsToFloat(plane.z) + dot(slope, uv) + uintBitsToFloat(residual.y) + uintBitsToFloat(residual.z) * height;
     vec4 place = vec4(uintBitsToFloat(plane.xy) + uv, w, 1.0);
     gl_Position = bent(clip_from_grid[block_and_direction.y] * place);
-#ifdef PLACES
+#if defined(PLACES) || defined(TORCH)
     point = (prop_from_grid[block_and_direction.y] * place).xyz;
-#else
+#endif
+#ifndef PLACES
     texel = (vec2(tile + first + corner) + 0.5) / vec2(textureSize(image, 0));
 #endif
 }

@@ -1,6 +1,7 @@
 #include "app/render/face_pass.h"
 
 #include "app/geometry/corner_fan.h"
+#include "app/scene/torch_plan.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -15,6 +16,9 @@ namespace {
 
 /// A factor of light to this power is the factor of codes: sRGB's own power, away from black.
 constexpr float code_power = 1.0F / 2.4F;
+/// Bit of the stencil that marks what a torch has lit; faces have the lower ones.
+constexpr GLuint lit_bit = 0x80;
+static_assert(geometry::max_faces < lit_bit);
 
 void set_view(const Shader& shader, const geometry::Pinhole& pinhole, const Raster& raster) {
     const glm::vec4 pixel(1.0F / glm::vec2(raster.fragments), raster.corner);
@@ -109,10 +113,10 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
         }
         begin_surface(plan, draw, *texture, *shader, raster);
         if (mesh != nullptr) {
-            draw_mesh(draw, *mesh);
+            draw_mesh(draw, draw.range, *mesh);
         } else {
             glFrontFace(GL_CW); // the shader mirrors
-            blocks_.draw(plan, draw, *blocks, *shader);
+            blocks_.draw(plan, draw, plan.relief_draws[draw.relief_draw].prop_from_box, *blocks, *shader);
         }
         ++calls;
     }
@@ -149,6 +153,78 @@ int FacePass::soften_edges(const scene::FramePlan& plan, const ShaderCache& shad
     }
     glDisable(GL_BLEND);
     return static_cast<int>(plan.feathers.size());
+}
+
+int FacePass::light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+                    const Raster& raster, std::span<const TorchPicture> torches) const {
+    if (!draws(plan) || torches.empty()) {
+        return 0;
+    }
+    glEnable(GL_STENCIL_TEST);
+    glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_CULL_FACE);
+    glEnable(GL_POLYGON_OFFSET_FILL); // another program may round the same place to another depth
+    glPolygonOffset(-1.0F, -2.0F);
+    set_channels(channels_of(plan, raster));
+    glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT); // of one bit: a fragment is lit once by a torch
+    glStencilMask(lit_bit);
+    int calls = 0;
+    for (std::size_t torch = 0; torch < torches.size(); ++torch) {
+        glDisable(GL_SCISSOR_TEST);
+        glClearStencil(0);
+        glClear(GL_STENCIL_BUFFER_BIT);
+        glEnable(GL_SCISSOR_TEST);
+        begin_blending(plan.torches[torch]);
+        for (const scene::TorchDraw& lit : plan.torch_draws) {
+            calls += lit.torch == torch ? light_draw(plan, lit, store, shaders, raster, torches[torch]) : 0;
+        }
+    }
+    end_blending();
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glStencilMask(0xFF);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+    return calls;
+}
+
+int FacePass::light_draw(const scene::FramePlan& plan, const scene::TorchDraw& lit, const GpuStore& store,
+                         const ShaderCache& shaders, const Raster& raster, const TorchPicture& torch) const {
+    const scene::Draw& draw = plan.draws[lit.draw];
+    const scene::TorchLight& light = plan.torches[lit.torch];
+    const Shader* const shader = shaders.find(scene::torch_of(draw.shader));
+    const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
+    const GpuStore::Blocks* const blocks = store.find_blocks(draw.drawable.mesh);
+    const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
+    if (draw.shader.pass != scene::ShaderKey::Pass::Surface || shader == nullptr || texture == nullptr ||
+        (mesh == nullptr && blocks == nullptr)) {
+        return 0;
+    }
+    begin_surface(plan, draw, *texture, *shader, raster);
+    set_torch(*shader, light, torch, store);
+    set_lit_face(*shader, plan, draw, raster);
+    const GpuStore::Texture* const layer = store.find(layer_of(light, draw.drawable));
+    glActiveTexture(GL_TEXTURE0 + layer_unit);
+    glBindTexture(GL_TEXTURE_2D, layer != nullptr ? layer->texels.get() : 0);
+    glActiveTexture(GL_TEXTURE0);
+    if (mesh != nullptr) {
+        const glm::mat4 torch_from_unit(light.torch_from_prop * glm::dmat4(draw.prop_from_unit));
+        glUniformMatrix4fv(shader->location(Uniform::PropFromUnit), 1, GL_FALSE,
+                           glm::value_ptr(torch_from_unit));
+        draw_mesh(draw, lit.range, *mesh);
+    } else {
+        glFrontFace(GL_CW); // the shader mirrors
+        blocks_.draw(plan, draw, light.torch_from_prop * plan.relief_draws[draw.relief_draw].prop_from_box,
+                     *blocks, *shader);
+    }
+    return 1;
 }
 
 void FacePass::upload_indices(const scene::FramePlan& plan) const {
@@ -195,14 +271,15 @@ void FacePass::begin_surface(const scene::FramePlan& plan, const scene::Draw& dr
     set_scissor(draw.bounds, raster);
 }
 
-void FacePass::draw_mesh(const scene::Draw& draw, const GpuStore::Mesh& mesh) const {
+void FacePass::draw_mesh(const scene::Draw& draw, const scene::IndexRange& range,
+                         const GpuStore::Mesh& mesh) const {
     // A face is lit from the side that it is seen from, so only y is mirrored (row 0 is the top), unless a cell's pose
     // mirrors too.
     glFrontFace(glm::determinant(glm::mat3(draw.prop_from_unit)) < 0.0F ? GL_CCW : GL_CW);
     glBindVertexArray(mesh.vertex_array.get());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
-    const std::uintptr_t offset = std::uintptr_t{draw.range.first} * sizeof(std::uint32_t);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw.range.count), GL_UNSIGNED_INT,
+    const std::uintptr_t offset = std::uintptr_t{range.first} * sizeof(std::uint32_t);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                    // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                    reinterpret_cast<const void*>(offset));
 }

@@ -13,8 +13,11 @@
 #include "app/render/gpu_store.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
+#include "app/render/torch_uniforms.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/gl/gl_handle.h"
+
+#include <span>
 
 namespace frustumscreen::render {
 
@@ -31,7 +34,14 @@ public:
     int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours);
 
+    /// The plan's torches on the meshes and blocks that `draw` has just drawn there. Returns the number of draw calls.
+    int light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+              const Raster& raster, std::span<const TorchPicture> torches) const;
+
 private:
+    /// Returns the number of draw calls: 0 if something is missing.
+    int light_draw(const scene::FramePlan& plan, const scene::TorchDraw& lit, const GpuStore& store,
+                   const ShaderCache& shaders, const Raster& raster, const TorchPicture& torch) const;
     void upload_indices(const scene::FramePlan& plan) const;
     void mark_faces(const scene::FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.
@@ -39,7 +49,7 @@ private:
     /// Sets the state that a mesh and a relief share.
     void begin_surface(const scene::FramePlan& plan, const scene::Draw& draw,
                        const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
-    void draw_mesh(const scene::Draw& draw, const GpuStore::Mesh& mesh) const;
+    void draw_mesh(const scene::Draw& draw, const scene::IndexRange& range, const GpuStore::Mesh& mesh) const;
 
     BlockInstances blocks_;
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();

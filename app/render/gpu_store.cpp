@@ -132,7 +132,52 @@ scene::TextureId GpuStore::keep(gl::GlTexture texels, int finest_mip) {
     return id;
 }
 
+Result<void> GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer, const image::Image8& texture) {
+    const int limit = max_texels();
+    if (texture.width < 1 || texture.height < 1 || std::max(texture.width, texture.height) > limit) {
+        return fail(ErrorKind::BadConfiguration, "render.layer_size",
+                    "render: a layer of {} x {} texels; this driver allows 1 to {}", texture.width,
+                    texture.height, limit);
+    }
+    gl::GlTexture texels = gl::GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texels.get());
+    const auto longest = static_cast<unsigned>(std::max(texture.width, texture.height));
+    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(std::bit_width(longest)), GL_RGBA8, texture.width,
+                   texture.height);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texture.width, texture.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    texture.texels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
+    release(drawable.layers[layer]);
+    drawable.layers[layer] = keep(std::move(texels), 0);
+    return {};
+}
+
+void GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer,
+                         std::shared_ptr<const std::vector<glm::u8vec4>> colours) {
+    release(drawable.layers[layer]);
+    drawable.layers[layer] = scene::TextureId{++last_};
+    colours_.emplace(drawable.layers[layer], std::move(colours));
+}
+
+void GpuStore::replace_picture(scene::TextureId texture, const image::Image8& picture) {
+    if (const Texture* const held = find(texture)) {
+        glBindTexture(GL_TEXTURE_2D, held->texels.get());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        picture.texels.data());
+        glGenerateMipmap(GL_TEXTURE_2D);
+    }
+}
+
+const std::vector<glm::u8vec4>* GpuStore::find_colours(scene::TextureId layer) const {
+    const auto* const held = found(colours_, layer);
+    return held != nullptr ? held->get() : nullptr;
+}
+
 void GpuStore::release(const scene::Drawable& drawable) {
+    for (const scene::TextureId layer : drawable.layers) {
+        release(layer);
+    }
     meshes_.erase(drawable.mesh);
     reliefs_.erase(drawable.mesh);
     blocks_.erase(drawable.mesh);
@@ -141,6 +186,7 @@ void GpuStore::release(const scene::Drawable& drawable) {
 
 void GpuStore::release(scene::TextureId texture) {
     textures_.erase(texture);
+    colours_.erase(texture);
 }
 
 const GpuStore::Mesh* GpuStore::find(scene::MeshId mesh) const {

@@ -39,6 +39,14 @@ public:
     [[nodiscard]] Result<scene::TextureId> upload(const image::Image<std::uint8_t>& coverage);
     /// Uploads a picture on the table, row 0 at its top: `mips` from light_mips.
     [[nodiscard]] Result<scene::TextureId> upload_picture(std::span<const image::Image8> mips);
+    /// Gives a level another texture of its surface, or a relief other colours in the order of its own, which torches show.
+    /// `layer`: below scene::max_layers. One that the drawable has is released.
+    [[nodiscard]] Result<void> add_layer(scene::Drawable& drawable, std::size_t layer,
+                                         const image::Image8& texture);
+    void add_layer(scene::Drawable& drawable, std::size_t layer,
+                   std::shared_ptr<const std::vector<glm::u8vec4>> colours);
+    /// The next picture of a film, as large as the first; `picture` gives colours over black.
+    void replace_picture(scene::TextureId texture, const image::Image8& picture);
     /// From now on, draws that name it show nothing.
     void release(const scene::Drawable& drawable);
     void release(scene::TextureId texture);
@@ -60,6 +68,8 @@ public:
     [[nodiscard]] const Mesh* find(scene::MeshId mesh) const;
     /// As above, for a relief's data in main memory, whichever way it is drawn.
     [[nodiscard]] const relief::BlockRelief* find_relief(scene::MeshId relief) const;
+    /// Other colours of a relief.
+    [[nodiscard]] const std::vector<glm::u8vec4>* find_colours(scene::TextureId layer) const;
     /// As above, for a relief that the GPU draws.
     [[nodiscard]] const Blocks* find_blocks(scene::MeshId relief) const;
     [[nodiscard]] const Texture* find(scene::TextureId texture) const;
@@ -77,6 +87,7 @@ private:
         reliefs_; ///< rasterized on the processor
     std::map<scene::MeshId, Blocks> blocks_;
     std::map<scene::TextureId, Texture> textures_;
+    std::map<scene::TextureId, std::shared_ptr<const std::vector<glm::u8vec4>>> colours_;
     std::uint32_t last_ = 0; ///< last number given out
 };
 

@@ -1,6 +1,7 @@
 #include "app/render/raster_pass.h"
 
 #include "app/render/gl_memory.h"
+#include "app/scene/torch_plan.h"
 #include "firmware_host/base/usable_cores.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -49,6 +50,24 @@ PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) 
     return {};
 }
 
+/// The edges of the draw's face as half spaces of rays.
+void set_edges(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw) {
+    const geometry::Pinhole& pinhole = plan.projector;
+    const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
+    std::array<glm::vec3, geometry::max_face_corners> edges{};
+    std::size_t count = 0;
+    for (const relief::RasterFace& seen : plan.relief_draws[draw.relief_draw].view.faces) {
+        for (std::size_t k = 0; seen.face == face && k < seen.edges.size(); ++k) {
+            const glm::dvec3& edge = seen.edges[k]; // times (x, y, 1) of a pixel
+            edges[count++] = glm::vec3(edge.x * pinhole.fx, edge.y * pinhole.fy,
+                                       edge.x * pinhole.cx + edge.y * pinhole.cy + edge.z);
+        }
+    }
+    glUniform1i(shader.location(Uniform::EdgeCount), static_cast<GLint>(count));
+    glUniform3fv(shader.location(Uniform::Edges), static_cast<GLsizei>(edges.size()),
+                 glm::value_ptr(edges[0]));
+}
+
 /// The colour texture of the framebuffer that is drawn into.
 GLuint texture_of_framebuffer() {
     const auto ask = [](GLenum what) {
@@ -74,7 +93,9 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
         upload(zeros, std::span(&whole, 1), {});
     };
     const bool rasterizes = needs.rasterizes && !painter_;
-    const bool interlocks = needs.rasterizes && needs.interlocks && nearness_.texels.empty();
+    const bool interlocks =
+        needs.rasterizes && (needs.interlocks || needs.torches) && nearness_.texels.empty();
+    const bool layers = needs.rasterizes && needs.torches && layer_.texels.empty();
     if (rasterizes) {
         painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
         memory_ = image::Image8(width, height);
@@ -84,7 +105,11 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
         nearness_ = image::Image<float>(width, height);
         make(nearness_texels_, GL_R32F, depths());
     }
-    if ((rasterizes || interlocks) && glGetError() != GL_NO_ERROR) {
+    if (layers) {
+        layer_ = image::Image8(width, height);
+        make(layer_texels_, GL_RGBA8, layers_of_torches());
+    }
+    if ((rasterizes || interlocks || layers) && glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration, "render.no_room_for_cast",
                     "render: the driver has no memory for a picture that is cast; use a technique of meshes");
     }
@@ -105,6 +130,13 @@ RasterPass::Upload RasterPass::depths() const {
             .texels = nearness_.texels.data(),
             .bytes_of_texel = sizeof(float),
             .width = nearness_.width};
+}
+
+RasterPass::Upload RasterPass::layers_of_torches() const {
+    Upload upload = colours();
+    upload.texels = layer_.texels.data();
+    upload.width = layer_.width;
+    return upload;
 }
 
 void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& store) {
@@ -153,6 +185,23 @@ void RasterPass::find_meeting(const scene::FramePlan& plan) {
     }
 }
 
+void RasterPass::find_lit(const scene::FramePlan& plan, const GpuStore& store) {
+    lit_.clear();
+    for (const scene::TorchDraw& lit : plan.torch_draws) {
+        const scene::Draw& draw = plan.draws[lit.draw];
+        if (draw.shader.pass != scene::ShaderKey::Pass::Raster || nearness_.texels.empty()) {
+            continue;
+        }
+        lit_.push_back(lit.bounds);
+        const scene::TextureId layer = layer_of(plan.torches[lit.torch], draw.drawable);
+        for (relief::SeenRelief& seen : seen_) {
+            if (seen.view == &plan.relief_draws[draw.relief_draw].view && seen.layer == nullptr) {
+                seen.layer = store.find_colours(layer);
+            }
+        }
+    }
+}
+
 void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle& part) {
     const auto add = [&](int left, int right) {
         const PixelRectangle columns{.x = left, .y = part.y, .width = right - left, .height = part.height};
@@ -161,6 +210,9 @@ void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle&
         }
     };
     const int right = part.x + part.width;
+    if (const PixelRectangle overlaid = relief::depth_part(part, lit_); !overlaid.empty()) {
+        overlaid_.push_back(overlaid);
+    }
     const PixelRectangle deep = relief::depth_part(part, meeting_);
     if (deep.empty()) {
         add(part.x, right);
@@ -171,16 +223,24 @@ void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle&
     add(deep.x + deep.width, right);
 }
 
-void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
+void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth_of) {
     copied_.clear();
     drawn_.clear();
     in_depth_.clear();
+    overlaid_.clear();
     if (!painter_) {
         return;
     }
     light_.begin(plan);
     list_reliefs(plan, store);
-    find_meeting(plan);
+    if (depth_of == Depth::Everywhere) {
+        meeting_.assign(1, {.x = 0, .y = 0, .width = memory_.width, .height = memory_.height});
+    } else {
+        find_meeting(plan);
+    }
+    find_lit(plan, store);
+    const bool layered = std::any_of(seen_.begin(), seen_.end(),
+                                     [](const relief::SeenRelief& seen) { return seen.layer != nullptr; });
     int samples = 1;
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         samples = plan.relief_draws[k].on_gpu ? samples : std::max(samples, plan.relief_draws[k].samples);
@@ -189,7 +249,12 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
                                      .nearness = {.first = nearness_.texels.data(),
                                                   .width = nearness_.width,
                                                   .height = nearness_.height,
-                                                  .stride = nearness_.width}};
+                                                  .stride = nearness_.width},
+                                     .overlaid = lit_,
+                                     .layer = {.first = layered ? layer_.texels.data() : nullptr,
+                                               .width = layer_.width,
+                                               .height = layer_.height,
+                                               .stride = layer_.width}};
     const std::span<const PixelRectangle> painted = painter_->paint(seen_, samples,
                                                                     {.first = memory_.texels.data(),
                                                                      .width = memory_.width,
@@ -208,6 +273,14 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store) {
     if (!in_depth_.empty()) {
         glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
         upload(depths(), in_depth_, plan.picture.viewport);
+    }
+    if (!overlaid_.empty()) {
+        glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
+        upload(depths(), overlaid_, plan.picture.viewport);
+    }
+    if (!overlaid_.empty() && layered) {
+        glBindTexture(GL_TEXTURE_2D, layer_texels_.get());
+        upload(layers_of_torches(), overlaid_, plan.picture.viewport);
     }
 }
 
@@ -277,8 +350,90 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
     return 1;
 }
 
+int RasterPass::light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit,
+                                 const Shader& shader, const Raster& raster,
+                                 std::span<const PixelRectangle> rectangles) {
+    rectangles_.clear();
+    for (const PixelRectangle& each : rectangles) {
+        if (const PixelRectangle part = intersected(each, lit.bounds); !part.empty()) {
+            rectangles_.push_back(part);
+        }
+    }
+    if (rectangles_.empty()) {
+        return 0;
+    }
+    const scene::Draw& draw = plan.draws[lit.draw];
+    const scene::FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
+    const scene::TorchLight& light = plan.torches[lit.torch];
+    set_lit_face(shader, plan, draw, raster);
+    const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
+    glUniform4i(shader.location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x, corner.y);
+    glUniformMatrix4fv(shader.location(Uniform::TorchFromProjector), 1, GL_FALSE,
+                       glm::value_ptr(light.torch_from_projector));
+    glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(light.eye));
+    glUniform4fv(shader.location(Uniform::DepthFromNearness), 1, glm::value_ptr(face.depth_from_nearness));
+    set_edges(shader, plan, draw);
+    shader.draw_rectangles({plan.projector.width, plan.projector.height}, rectangles_);
+    return 1;
+}
+
+int RasterPass::light_in_depth(const scene::FramePlan& plan, const GpuStore& store,
+                               const ShaderCache& shaders, const Raster& raster,
+                               std::span<const TorchPicture> torches) {
+    const Shader* const shader =
+        shaders.find(scene::torch_of(scene::ShaderKey{scene::ShaderKey::Pass::RasterInDepth}));
+    if (in_depth_.empty() || shader == nullptr) {
+        return 0;
+    }
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    const int calls = light_with(plan, store, *shader, raster, torches, in_depth_);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+    return calls;
+}
+
+int RasterPass::light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+                      const Raster& raster, std::span<const TorchPicture> torches) {
+    const Shader* const shader = shaders.find(scene::torch_of(scene::raster_shader()));
+    if (overlaid_.empty() || shader == nullptr) {
+        return 0;
+    }
+    return light_with(plan, store, *shader, raster, torches, copied_) +
+           light_with(plan, store, *shader, raster, torches, drawn_);
+}
+
+int RasterPass::light_with(const scene::FramePlan& plan, const GpuStore& store, const Shader& shader,
+                           const Raster& raster, std::span<const TorchPicture> torches,
+                           std::span<const PixelRectangle> rectangles) {
+    int calls = 0;
+    shader.use();
+    glBindVertexArray(no_attributes_.get());
+    const auto bind = [](unsigned unit, const gl::GlTexture& texture) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_2D, texture.get());
+    };
+    bind(3, nearness_texels_);
+    bind(layer_unit, layer_texels_);
+    bind(0, colour_texels_);
+    for (const scene::TorchDraw& lit : plan.torch_draws) {
+        if (plan.draws[lit.draw].shader.pass == scene::ShaderKey::Pass::Raster &&
+            lit.torch < torches.size()) {
+            set_torch(shader, plan.torches[lit.torch], torches[lit.torch], store);
+            begin_blending(plan.torches[lit.torch]);
+            calls += light_rectangles(plan, lit, shader, raster, rectangles);
+        }
+    }
+    end_blending();
+    glBindVertexArray(0);
+    return calls;
+}
+
 std::uint64_t RasterPass::bytes() const {
-    return bytes_of_texture(colour_texels_) + bytes_of_texture(nearness_texels_);
+    return bytes_of_texture(colour_texels_) + bytes_of_texture(nearness_texels_) +
+           bytes_of_texture(layer_texels_);
 }
 
 } // namespace frustumscreen::render

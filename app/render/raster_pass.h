@@ -14,6 +14,7 @@
 #include "app/render/gpu_store.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
+#include "app/render/torch_uniforms.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/raster_light.h"
 #include "firmware_host/base/pixel_rectangle.h"
@@ -33,13 +34,21 @@ public:
     /// Allocates what the needs' reliefs take: a picture as large as the whole picture, and its depth.
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs, int width, int height);
 
-    /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws.
-    void paint(const scene::FramePlan& plan, const GpuStore& store);
+    enum class Depth { WhereItMeets, Everywhere };
+    /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws. Everywhere: all of it is to be
+    /// shown by `show_in_depth`.
+    void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets);
     /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
     /// has drawn them; returns the number of draw calls.
     int show_in_depth(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
+
+    /// The plan's torches on what `show_in_depth` has drawn, and on what `show` has; each returns the number of draw calls.
+    int light_in_depth(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+                       const Raster& raster, std::span<const TorchPicture> torches);
+    int light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+              const Raster& raster, std::span<const TorchPicture> torches);
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -55,9 +64,17 @@ private:
                        const PixelRectangle& viewport);
     [[nodiscard]] Upload colours() const;
     [[nodiscard]] Upload depths() const;
+    [[nodiscard]] Upload layers_of_torches() const;
 
     void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
     void find_meeting(const scene::FramePlan& plan);
+    void find_lit(const scene::FramePlan& plan, const GpuStore& store);
+    int light_with(const scene::FramePlan& plan, const GpuStore& store, const Shader& shader,
+                   const Raster& raster, std::span<const TorchPicture> torches,
+                   std::span<const PixelRectangle> rectangles);
+    /// A torch on a draw, in those of `rectangles` that it may light.
+    int light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit, const Shader& shader,
+                         const Raster& raster, std::span<const PixelRectangle> rectangles);
     /// Sorts what was painted by the way in which it is shown.
     void add_painted(const scene::FramePlan& plan, const PixelRectangle& part);
 
@@ -68,6 +85,11 @@ private:
     gl::GlTexture colour_texels_; ///< valid in the rectangles that are drawn; the rest is from earlier frames
     gl::GlTexture nearness_texels_;
     std::vector<relief::SeenRelief> seen_;
+    std::vector<PixelRectangle> lit_;        ///< by torches
+    std::vector<PixelRectangle> overlaid_;   ///< what was painted of it
+    std::vector<PixelRectangle> rectangles_; ///< of one draw
+    image::Image8 layer_; ///< what a torch shows in place of the reliefs' colours; empty: nothing yet
+    gl::GlTexture layer_texels_;
     std::vector<PixelRectangle> meeting_; ///< where the GPU draws something at other depths
     std::vector<PixelRectangle> copied_, drawn_, in_depth_;
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();

@@ -59,6 +59,9 @@ Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
     const scene::RenderNeeds all = scene::united(needs_, needs);
     TRY_VOID(shaders_.prepare(scene::shaders_of(all), all.bent_by));
     TRY_VOID(raster_pass_.prepare(all, width_, height_));
+    if (all.torches) {
+        TRY_VOID((torches_ ? *torches_ : torches_.emplace()).prepare(all));
+    }
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
         TRY(sample_grid_, SampleGrid::create(all.outline.value_or(PixelSize{width_, height_}), all.samples));
     }
@@ -67,7 +70,8 @@ Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
 }
 
 std::uint64_t Renderer::bytes() const {
-    return store_.bytes() + raster_pass_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0);
+    return store_.bytes() + raster_pass_.bytes() + (sample_grid_ ? sample_grid_->bytes() : 0) +
+           (torches_ ? torches_->bytes() : 0);
 }
 
 bool Renderer::Picture::lies(const OnTable& draw) const {
@@ -172,6 +176,15 @@ DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderT
     return result;
 }
 
+int Renderer::light_in_depth(const scene::FramePlan& plan, const Raster& raster,
+                             std::span<const TorchPicture> torches) {
+    if (torches.empty()) {
+        return 0;
+    }
+    return faces_.light(plan, store_, shaders_, raster, torches) +
+           raster_pass_.light_in_depth(plan, store_, shaders_, raster, torches);
+}
+
 /// The larger picture comes first, so that a tiling GPU visits the display's framebuffer once. Codes are
 /// written unchanged throughout; passes that compute in linear light (captions, averages) enable the encoding
 /// themselves.
@@ -186,8 +199,13 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     const bool meshes = repaint.prop && !smooth && FacePass::draws(plan);
     const glm::ivec2 viewport(plan.picture.viewport.x, plan.picture.viewport.y);
     const Raster direct{.fragments = {1, 1}, .corner = -viewport};
+    std::span<const TorchPicture> torches;
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
+        if (torches_) {
+            result.draw_calls += torches_->see(plan, store_, shaders_);
+            torches = torches_->pictures();
+        }
     }
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
@@ -195,6 +213,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, raster);
+        result.draw_calls += light_in_depth(plan, raster, torches);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
@@ -217,9 +236,13 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     } else if (meshes) {
         result.draw_calls += faces_.draw(plan, store_, shaders_, direct);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, direct);
+        result.draw_calls += light_in_depth(plan, direct, torches);
     }
     if (repaint.prop) {
         result.draw_calls += raster_pass_.show(plan, shaders_);
+        if (!torches.empty()) {
+            result.draw_calls += raster_pass_.light(plan, store_, shaders_, direct, torches);
+        }
     }
     set_channels(glm::bvec3(true));
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);

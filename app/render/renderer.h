@@ -12,6 +12,7 @@
 #include "app/render/sample_grid.h"
 #include "app/render/shader_cache.h"
 #include "app/render/table_pass.h"
+#include "app/render/torch_pass.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/shader_key.h"
 #include "firmware_host/base/result.h"
@@ -112,6 +113,9 @@ private:
     Renderer(int width, int height) : width_(width), height_(height) {}
     void paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                DrawResult& result);
+    /// The plan's torches on what has depth. Returns the number of draw calls.
+    int light_in_depth(const scene::FramePlan& plan, const Raster& raster,
+                       std::span<const TorchPicture> torches);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
                                     const RenderTarget& target, Redraw redraw) const;
     /// Clears two whole pictures at once: a driver on the processor clears a part of a framebuffer, or some of its
@@ -129,6 +133,7 @@ private:
     RasterPass raster_pass_;
     FacePass faces_;
     TablePass table_;
+    std::optional<TorchPass> torches_;      ///< if plans may have torches
     std::optional<SampleGrid> sample_grid_; ///< for more than one sample a pixel
     std::array<EyePictures, 4> history_{};  ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_

@@ -13,14 +13,41 @@ namespace {
 
 /// In the order of Uniform.
 constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> uniform_names{
-    "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
-    "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
-    "face_gain", "edge_share",          "rectangles",        "picture",
-    "raster",    "clip_from_grid",      "prop_from_grid",    "mirrored",
-    "light",     "depth_from_nearness"};
+    "corners",
+    "clip_from_unit",
+    "prop_from_unit",
+    "brightness",
+    "dither",
+    "pixel_from_fragment",
+    "ray_from_fragment",
+    "inverse_depth",
+    "face_gain",
+    "edge_share",
+    "rectangles",
+    "picture",
+    "raster",
+    "clip_from_grid",
+    "prop_from_grid",
+    "mirrored",
+    "light",
+    "depth_from_nearness",
+    "beam",
+    "fall",
+    "depth_of_inverse_z",
+    "content_kind",
+    "stage_kind",
+    "stage_colour",
+    "stage_size",
+    "stage_from_content",
+    "height_per_width",
+    "torch_from_projector",
+    "eye",
+    "edge_count",
+    "edges"};
 
-/// In the order of the texture units that they read (GpuStore::Texture, GpuStore::Blocks, RasterPass).
-constexpr std::array<const char*, 4> sampler_names{"image", "blocks", "covers", "nearness"};
+/// In the order of the texture units that they read (GpuStore::Texture, GpuStore::Blocks, RasterPass, torch_uniforms.h).
+constexpr std::array<const char*, 8> sampler_names{"image",  "blocks",  "covers", "nearness",
+                                                   "shadow", "content", "layer",  "seen_by_torch"};
 
 /// The lens is constant during a program's lifetime, so its uniforms are set once.
 void set_lens(GLuint program, const geometry::Pinhole& pinhole) {

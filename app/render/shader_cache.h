@@ -39,6 +39,20 @@ enum class Uniform : std::size_t {
     Mirrored,
     Light,
     DepthFromNearness,
+    // Of torches (torch_shader.h):
+    Beam,
+    Fall,
+    DepthOfInverseZ,
+    ContentKind,
+    StageKind,
+    StageColour,
+    StageSize,
+    StageFromContent,
+    HeightPerWidth,
+    TorchFromProjector,
+    Eye,
+    EdgeCount,
+    Edges,
     Count
 };
 

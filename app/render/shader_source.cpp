@@ -1,6 +1,7 @@
 #include "app/render/shader_source.h"
 
 #include "app/render/block_shader.h"
+#include "app/render/torch_shader.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>
@@ -59,8 +60,8 @@ void main() {}
 constexpr std::string_view surface_vertex = R"(
 layout(location = 0) in vec3 position; // 0..1 over the artifact's box
 uniform mat4 clip_from_unit;
-#ifdef PLACES
-uniform mat4 prop_from_unit;
+#if defined(PLACES) || defined(TORCH)
+uniform mat4 prop_from_unit; // of a torch: into its frame
 out vec3 point;
 #endif
 #if !defined(PLACES) || defined(CUT_OUT)
@@ -69,7 +70,7 @@ out vec2 texel;
 #endif
 void main() {
     gl_Position = bent(clip_from_unit * vec4(position, 1.0));
-#ifdef PLACES
+#if defined(PLACES) || defined(TORCH)
     point = vec3(prop_from_unit * vec4(position, 1.0));
 #endif
 #if !defined(PLACES) || defined(CUT_OUT)
@@ -307,7 +308,13 @@ std::string defines_of(const scene::ShaderKey& key) {
     define(key.even_light, "EVEN_LIGHT");
     define(key.blocks, "BLOCKS");
     define(key.coloured, "COLOURED");
+    define(key.torch, "TORCH");
+    define(key.pass == scene::ShaderKey::Pass::RasterInDepth, "IN_DEPTH");
     return defines;
+}
+
+std::string torch_on_raster() {
+    return fmt::format("{}{}{}", unbent_fragment, torch_light, torch_raster);
 }
 
 } // namespace
@@ -325,16 +332,22 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     case scene::ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case scene::ShaderKey::Pass::Surface:
-        return {
-            defines,
-            key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
-                       : fmt::format("{}{}", bent_vertex, surface_vertex),
-            fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment, surface_fragment)};
+        return {defines,
+                key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
+                           : fmt::format("{}{}", bent_vertex, surface_vertex),
+                key.torch ? fmt::format("{}{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment,
+                                        torch_light, torch_surface)
+                          : fmt::format("{}{}{}{}{}", dither, block_bits, block_cover, unbent_fragment,
+                                        surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
+        if (key.torch) {
+            return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles, torch_on_raster()};
+        }
         return {tiles_defines, tiles, std::string(rasterize_fragment)};
     case scene::ShaderKey::Pass::RasterInDepth:
         return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles,
-                fmt::format("{}{}", unbent_fragment, rasterize_in_depth_fragment)};
+                key.torch ? torch_on_raster()
+                          : fmt::format("{}{}", unbent_fragment, rasterize_in_depth_fragment)};
     case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case scene::ShaderKey::Pass::TablePicture:

@@ -7,6 +7,7 @@
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/torch_plan.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -160,6 +161,7 @@ std::optional<Draw> draw_part(const Part& part, std::size_t index, const FaceVie
         clip_from_box[axis] *= scale;
     }
     Draw draw = draw_level(part, clip_from_placed, clip_from_box, shared);
+    draw.clip_from_placed = clip_from_placed;
     if (level.relief) {
         if (level.on_gpu) {
             draw.shader.blocks = true;
@@ -251,12 +253,15 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
                     added.corners_clip.push_back(corner_in_clip(corner, shared.clip_from_prop));
                 }
                 added.pixels_per_m = draw->pixels_per_box / part.level.metres_per_box;
+                added.light.inverse_depth =
+                    inverse_depth_of(shared.prop.faces[face], shared.projector_from_prop);
                 added.depth_from_nearness = depth_from_nearness(
                     shared.prop.faces[face], through[face]->clip_from_prop, shared.projector_from_prop);
             }
             FacePlan& on = plan.faces[*planned[face]];
             on.bounds = united(on.bounds, draw->bounds);
             draw->face = static_cast<int>(*planned[face]);
+            draw->part = static_cast<std::size_t>(&part - parts.data());
             plan.draws.push_back(*draw);
         }
     }
@@ -472,6 +477,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
     if (view.light) {
         compensate(shared, *view.light, open, plan);
     }
+    plan_torches(parts, view, shared.box, plan);
     plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);
 }

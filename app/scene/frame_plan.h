@@ -114,7 +114,7 @@ struct PlanView {
     EyePicture picture = {};
     /// Table frame. The eyes that decide together how far the artifact dims; empty: `eyes_m`.
     std::span<const glm::dvec3> dimming_eyes_m = {};
-    /// They light what is in the prop, in this order; at most torch::max_torches.
+    /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has room for them.
     std::span<const PlacedTorch> torches = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
@@ -163,8 +163,10 @@ struct Draw {
     /// PackVertex::position / 65535 -> clip. A quadrilateral's columns are its corners, depth 0: top left,
     /// top right, bottom right, bottom left of its picture.
     glm::mat4 clip_from_unit{1.0F};
-    glm::dmat4 clip_from_box{1.0};  ///< for a relief drawn by the GPU, for its grids
-    glm::mat4 prop_from_unit{1.0F}; ///< PackVertex::position / 65535 -> metres
+    glm::dmat4 clip_from_box{1.0};    ///< for a relief drawn by the GPU, for its grids
+    glm::dmat4 clip_from_placed{1.0}; ///< PlacedLevel::placed_box -> clip
+    std::size_t part = 0;             ///< index into the frame's parts, in the prop
+    glm::mat4 prop_from_unit{1.0F};   ///< PackVertex::position / 65535 -> metres
     IndexRange range;
     PixelRectangle bounds;       ///< contains every pixel that it can light
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
@@ -176,12 +178,20 @@ struct Draw {
 
 /// A torch's light on what the plan draws, for the shader.
 struct TorchLight {
-    glm::mat4 torch_from_prop{1.0F};       ///< metres; torch.h
-    glm::vec2 per_half_extent{1.0F};       ///< x / (z half_extent) is -1..1 in the content
-    glm::mat4 shadow_clip_from_prop{1.0F}; ///< of the torch's own picture, with its depth
+    glm::dmat4 torch_from_prop{1.0}; ///< metres; torch.h
+    glm::mat4 torch_from_projector{1.0F};
+    glm::vec3 eye{0.0F}; ///< torch's frame: the first eye, for reliefs that are rasterized on the processor
+    glm::vec2 per_half_extent{1.0F}; ///< x / z times this is -1..1 in the content
+    glm::vec2 depth_of_inverse_z{
+        0.0F}; ///< factor of 1 / z, and offset: depth 0..1 in the torch's own picture
     float reach_m = 0.0F;
-    bool has_shadows = true;
-    const PlacedTorch* placed = nullptr; ///< valid until the view's torches are
+    PlacedTorch torch;
+};
+/// A draw in the prop that a torch lights, in whole or in part.
+struct TorchDraw {
+    std::size_t draw = 0, torch = 0; ///< indices into FramePlan::draws, FramePlan::torches
+    PixelRectangle bounds;           ///< contains every pixel that it lights
+    IndexRange range;                ///< of a mesh: the triangles that meet the beam
 };
 /// Pixels along each side of the torch's own picture, in which its shadows are found.
 inline constexpr int torch_picture_px = 512;
@@ -205,12 +215,15 @@ struct FramePlan {
     std::vector<ReliefDraw>
         relief_draws; ///< one per part that may be a relief; the first `relief_draw_count` belong to the frame
     std::size_t relief_draw_count = 0;
-    std::vector<TorchLight> torches; ///< that light some of the plan's draws
-    std::vector<FramePlan>
-        torch_views; ///< what each of `torches` sees: its shadows. The first ones belong to the frame
+    std::vector<TorchLight> torches;    ///< that may light some of the draws in the prop
+    std::vector<TorchDraw> torch_draws; ///< torch by torch
+    /// What each of `torches` sees, for its shadows; of the frame are as many as there are torches.
+    std::vector<FramePlan> torch_views;
+    std::vector<Part> casters; ///< the parts of a torch's own picture
 };
 
-/// A plan with room for every face of `parts` parts that have `indices` indices together.
+/// A plan with room for every face of `parts` parts that have `indices` indices together. A plan for torches takes some
+/// more room (torch_plan.h); without it none are planned.
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 

@@ -95,14 +95,19 @@ double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projec
     return compensation.reference * share;
 }
 
+glm::vec3 inverse_depth_of(const geometry::PropFace& face, const glm::dmat4& projector_from_prop) {
+    // The plane in the projector's frame: m.Q = h with m = R n; with Q = Z r, 1 / Z = m.r / h.
+    const glm::dvec3 m = glm::dmat3(projector_from_prop) * face.plane.normal;
+    return glm::vec3(m / (face.plane.offset + glm::dot(m, glm::dvec3(projector_from_prop[3]))));
+}
+
 FaceLight face_light(const geometry::PropFace& face, const glm::dmat4& projector_from_prop,
                      double reference) {
-    // The plane in the projector's frame: m.Q = h with m = R n; with Q = Z r, 1 / Z = m.r / h.
     const glm::dmat3 rotation(projector_from_prop);
     const glm::dvec3 m = rotation * face.plane.normal;
     const double h = face.plane.offset + glm::dot(m, glm::dvec3(projector_from_prop[3]));
     FaceLight light;
-    light.inverse_depth = glm::vec3(m / h);
+    light.inverse_depth = inverse_depth_of(face, projector_from_prop);
     const glm::dvec3 projector = glm::transpose(rotation) * -glm::dvec3(projector_from_prop[3]);
     const double most = geometry::ease((sine_above(face, projector) - settings::min_sine_of_light) /
                                        (full_sine_of_light - settings::min_sine_of_light));

@@ -70,6 +70,9 @@ struct FaceLight {
     float per_cubic_metre = 0.0F;
     float most = 1.0F; ///< less where the light grazes the face
 };
+/// FaceLight::inverse_depth.
+[[nodiscard]] glm::vec3 inverse_depth_of(const geometry::PropFace& face,
+                                         const glm::dmat4& projector_from_prop);
 /// `projector_from_prop` is rigid; the projector is above the face.
 [[nodiscard]] FaceLight face_light(const geometry::PropFace& face, const glm::dmat4& projector_from_prop,
                                    double reference);

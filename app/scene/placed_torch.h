@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace frustumscreen::scene {
 
@@ -23,6 +24,7 @@ struct PlacedTorch {
     std::array<torch::StageAt, torch::max_stages> stages_at{};
     std::size_t stage_count = 0;
     TextureId picture = TextureId::None; ///< of the stage that is a picture or a film; one a content
+    std::uint32_t picture_version = 0;   ///< another number for another picture: a film's frame
     float brightness = 1.0F;             ///< factor of its light: fades. 0: it is off
     bool casts_shadows = true;           ///< false only to measure their cost
 };

@@ -49,6 +49,33 @@ void hash_draw(const Draw& draw, Hash& hash) {
     hash.add(static_cast<std::uint64_t>(draw.dither.complement));
 }
 
+void hash_torch(const TorchLight& light, Hash& hash) {
+    const torch::Beam& beam = light.torch.beam;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            hash.add_float(static_cast<float>(light.torch_from_prop[column][row]));
+        }
+    }
+    hash.add(static_cast<std::uint64_t>(beam.shape) << 8U | static_cast<std::uint64_t>(beam.attenuation));
+    for (const double number : {beam.opening_rad, beam.height_per_width, beam.full_m, beam.dark_m}) {
+        hash.add(std::bit_cast<std::uint64_t>(number));
+    }
+    hash.add(static_cast<std::uint64_t>(light.torch.picture));
+    hash.add(light.torch.picture_version);
+    hash.add_float(light.torch.brightness);
+    for (std::size_t k = 0; k < light.torch.stage_count; ++k) {
+        const torch::Stage& stage = light.torch.stages[k];
+        const torch::StageAt& at = light.torch.stages_at[k];
+        hash.add(static_cast<std::uint64_t>(stage.source) << 8U | static_cast<std::uint64_t>(stage.item));
+        hash_colour(stage.colour, hash);
+        hash.add_float(at.opacity);
+        for (int column = 0; column < 3; ++column) {
+            hash.add_float(at.stage_from_content[column].x);
+            hash.add_float(at.stage_from_content[column].y);
+        }
+    }
+}
+
 } // namespace
 
 std::uint64_t hash_of(const Draw& draw) {
@@ -80,6 +107,9 @@ std::uint64_t hash_of_prop(const FramePlan& plan) {
     }
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         hash.add(static_cast<std::uint64_t>(plan.relief_draws[k].samples));
+    }
+    for (const TorchLight& light : plan.torches) {
+        hash_torch(light, hash);
     }
     for (const FacePlan& face : plan.faces) {
         hash.add(static_cast<std::uint64_t>(face.face));

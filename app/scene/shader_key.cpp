@@ -1,5 +1,7 @@
 #include "app/scene/shader_key.h"
 
+#include "app/scene/torch_plan.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -24,6 +26,11 @@ std::string name_of_surface(const ShaderKey& key) {
 } // namespace
 
 std::string name_of(const ShaderKey& key) {
+    if (key.torch) {
+        ShaderKey lit = key;
+        lit.torch = false;
+        return "torch on: " + name_of(lit);
+    }
     switch (key.pass) {
     case ShaderKey::Pass::Outline:
         return "outline of a face";
@@ -49,8 +56,9 @@ std::string name_of(const ShaderKey& key) {
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 6U | bit(key.coloured, 5) | bit(key.blocks, 4) |
-           bit(key.places, 3) | bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
+    return static_cast<std::uint32_t>(key.pass) << 7U | bit(key.torch, 6) | bit(key.coloured, 5) |
+           bit(key.blocks, 4) | bit(key.places, 3) | bit(key.cut_out, 2) | bit(key.dithered, 1) |
+           bit(key.even_light, 0);
 }
 
 ShaderKey places_of(ShaderKey key) {
@@ -78,6 +86,7 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
         both.outline = united(*a.outline, *b.outline);
     }
     both.interlocks = a.interlocks || b.interlocks;
+    both.torches = a.torches || b.torches;
     both.bent_by = b.bent_by ? b.bent_by : a.bent_by;
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
@@ -95,11 +104,29 @@ RenderNeeds with_cells(RenderNeeds needs) {
     return needs;
 }
 
+RenderNeeds with_torches(RenderNeeds needs) {
+    needs.torches = true;
+    return needs;
+}
+
 std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
     std::set<ShaderKey> shaders = needs.draws;
     shaders.insert({ShaderKey::Pass::Outline});
-    if (needs.interlocks) {
+    // A torch's own picture holds reliefs by their depth.
+    if (needs.interlocks || (needs.torches && needs.rasterizes)) {
         shaders.insert({ShaderKey::Pass::RasterInDepth});
+    }
+    if (needs.torches) {
+        for (const ShaderKey& key : std::set<ShaderKey>(shaders)) {
+            if (key.pass == ShaderKey::Pass::Surface) {
+                ShaderKey depth = key; // of the torch's own picture
+                depth.even_light = depth.dithered = depth.coloured = false;
+                shaders.insert({depth, torch_of(key)});
+            }
+            if (key.pass == ShaderKey::Pass::Raster || key.pass == ShaderKey::Pass::RasterInDepth) {
+                shaders.insert(torch_of(key));
+            }
+        }
     }
     if (needs.samples > 1) {
         shaders.insert({ShaderKey::Pass::TileClear});

@@ -35,6 +35,8 @@ struct ShaderKey {
     bool even_light : 1 = false; ///< evens out the projector's light
     bool blocks : 1 = false;     ///< draws a relief's blocks, which leave out no texels
     bool coloured : 1 = false;   ///< multiplies its colours by the draw's light
+    // For Surface, Raster and RasterInDepth:
+    bool torch : 1 = false; ///< outputs a torch's light on what was drawn, to be blended
 
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };
@@ -54,6 +56,7 @@ struct RenderNeeds {
     std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
     bool rasterizes = false;   ///< a plan may rasterize reliefs into memory, all into one picture
     bool interlocks = false;   ///< such a relief may hide, or be hidden by, what the GPU draws
+    bool torches = false;      ///< a plan may have torches
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<geometry::Pinhole> bent_by =
@@ -64,6 +67,8 @@ struct RenderNeeds {
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// What a world of cells needs of a renderer beyond its artifact: a light for each, and depth between relief and polygons.
 [[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
+/// What torches need beyond what they light.
+[[nodiscard]] RenderNeeds with_torches(RenderNeeds needs);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
 

@@ -4,6 +4,7 @@
 #include "app/scene/cell_plan.h"
 #include "app/scene/exposure.h"
 #include "app/scene/scene_level.h"
+#include "app/scene/torch_plan.h"
 #include "app/world/player.h"
 
 #include <algorithm>
@@ -44,14 +45,15 @@ std::vector<Source> sources_of(const OfflineScene& scene) {
     return sources;
 }
 
-scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves) {
+scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves, bool torches) {
     scene::RenderNeeds needs;
     for (const Source& source : sources) {
         const scene::RenderNeeds own =
             source.level ? scene::needs_of(source.plan, *source.level) : source.plan.needs;
         needs = scene::united(needs, own);
     }
-    return moves ? scene::with_cells(std::move(needs)) : needs;
+    needs = moves ? scene::with_cells(std::move(needs)) : std::move(needs);
+    return torches ? scene::with_torches(std::move(needs)) : needs;
 }
 
 Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
@@ -116,8 +118,9 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 
 Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     const std::vector<Source> sources = sources_of(scene);
-    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
-                                            needs_of(sources, scene.world.has_value())));
+    TRY(renderer_,
+        render::Renderer::create(layout_.display.width, layout_.display.height,
+                                 needs_of(sources, scene.world.has_value(), scene.content.has_value())));
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
@@ -136,7 +139,12 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     }
     for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
+        if (scene.content) {
+            scene::make_torch_space(plans_.back(), prop_.faces.size(), indices, parts_.size());
+        }
     }
+    content_ = scene.content;
+    beam_ = scene.setup.settings->torch.beam;
     return {};
 }
 
@@ -148,6 +156,11 @@ void OfflineRenderer::pose_cells(double seconds) {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         scene::set_pose(parts_[k].level, poses[shown_[k].cell.value()], metres_per_box_);
     }
+}
+
+scene::PlacedTorch OfflineRenderer::torch_at(const geometry::RigidTransform& table_from_torch,
+                                             double seconds) const {
+    return scene::placed(content_.value(), beam_, table_from_torch, seconds);
 }
 
 void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {
@@ -188,7 +201,8 @@ std::optional<scene::ErrorEstimate> OfflineRenderer::error_of(std::span<const sc
 }
 
 OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_prop,
-                                     std::span<const glm::dvec3> eyes_m, double seconds) {
+                                     std::span<const glm::dvec3> eyes_m, double seconds,
+                                     std::span<const scene::PlacedTorch> torches) {
     static_cast<void>(display_->make_current());
     pose_cells(seconds);
     const scene::PlanView view{.projector = projector_,
@@ -196,7 +210,8 @@ OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_
                                .table_from_prop = table_from_prop,
                                .eyes_m = {},
                                .light = light_,
-                               .brightness = exposure_};
+                               .brightness = exposure_,
+                               .torches = torches};
     const std::array<scene::PlanView, 2> of_eyes = scene::views_of(layout_, view, eyes_m);
     const std::span<const scene::PlanView> views = std::span(of_eyes).first(layout_.count);
     if (!warm_) {

@@ -39,8 +39,13 @@ public:
 
     /// `eyes_m`: one, or with OfflineOptions::both_eyes one for each eye of the layout (scene/stereo.h). `seconds`: since
     /// the behaviour began.
+    /// `torches`: none without OfflineOptions::torch.
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
-                                      std::span<const glm::dvec3> eyes_m, double seconds = 0.0);
+                                      std::span<const glm::dvec3> eyes_m, double seconds = 0.0,
+                                      std::span<const scene::PlacedTorch> torches = {});
+    /// The torch of the settings with the content of the options, `seconds` after it began. Needs OfflineOptions::torch.
+    [[nodiscard]] scene::PlacedTorch torch_at(const geometry::RigidTransform& table_from_torch,
+                                              double seconds) const;
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
                                       const glm::dvec3& eye_m) {
         return draw(table_from_prop, std::span(&eye_m, 1));
@@ -79,6 +84,8 @@ private:
     std::vector<scene::Part> parts_; ///< one for each of `shown_`
     std::vector<world::Cell> cells_;
     world::Behaviour behaviour_;
+    std::optional<torch::Content> content_;
+    torch::Beam beam_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     std::unique_ptr<display::SurfacelessDisplay>
         display_; ///< declared before everything that lives in its context

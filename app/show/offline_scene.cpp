@@ -51,6 +51,13 @@ Result<std::size_t> find_behaviour(const pack::PackWorld& world, const std::stri
                      names);
 }
 
+Result<torch::Content> find_content(const pack::Pack& /*pack*/, const std::string& name) {
+    if (name == torch::white_name) {
+        return torch::white();
+    }
+    return bad_input("render.no_torch", "--torch {}: the pack has no such content; it has white", name);
+}
+
 /// Reads the cell's level or relief.
 Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const OfflineScene& scene,
                                       const pack::PackCell& cell, std::size_t number,
@@ -141,6 +148,9 @@ load_offline(const std::filesystem::path& file,
                        .pack = *std::move(pack),
                        .relief = nullptr,
                        .world = std::nullopt};
+    if (!scene.setup.options.torch.empty()) {
+        TRY(scene.content, find_content(*scene.pack, scene.setup.options.torch));
+    }
     if (cells) {
         TRY(scene.world, load_offline_world(file, scene));
     } else if (!scene.plan.reliefs.empty()) {

@@ -9,6 +9,7 @@
 #include "app/relief/block_relief.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
+#include "app/torch/content.h"
 #include "app/world/behaviour.h"
 #include "app/world/cell.h"
 
@@ -33,6 +34,8 @@ struct OfflineOptions {
     /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
     std::vector<scene::KnownView> views;
     std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn at rest
+    std::string torch =
+        {}; ///< content that torches throw: torch::white_name, or one of the pack's; empty: there are none
 };
 
 struct OfflineSetup {
@@ -54,8 +57,9 @@ struct OfflineScene {
     OfflineSetup setup;
     scene::ScenePlan plan; ///< of the whole artifact
     pack::VerifiedPack pack;
-    std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
-    std::optional<OfflineWorld> world;                 ///< drawn in place of the whole
+    std::shared_ptr<const relief::BlockRelief> relief;    ///< in place of a level
+    std::optional<OfflineWorld> world;                    ///< drawn in place of the whole
+    std::optional<torch::Content> content = std::nullopt; ///< that torches throw; none: there are none
 };
 
 /// `setup_of` returns the set-up for a pack's outline.

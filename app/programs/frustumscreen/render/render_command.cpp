@@ -81,6 +81,9 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         .one_of({"left", "right", "both"});
     app.add_option("--behaviour", request.options.behaviour,
                    "move the pack's cells by this behaviour; it begins with the first pose");
+    app.add_option("--torch", request.options.torch,
+                   "light the artifact with the torch, station 3 of the poses: white, for plain light, or a "
+                   "content of the pack");
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -158,8 +161,14 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                                const tracking::TrackedState& tracked_state,
                                std::vector<simulation::VisitorFrame>& visitor_frames) {
     const std::vector<glm::dvec3> eyes_m = studio.eyes_m(tracked_state);
-    show::OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, eyes_m,
-                                                        to_seconds(tracked_state.time - studio.begin));
+    const double seconds = to_seconds(tracked_state.time - studio.begin);
+    std::vector<scene::PlacedTorch> torches;
+    if (const tracking::TrackedTorch& torch = tracked_state.torches.front();
+        torch.share > 0.0 && !studio.request.options.torch.empty()) {
+        torches.push_back(studio.renderer.torch_at(torch.table_from_torch, seconds));
+    }
+    show::OfflinePicture picture =
+        studio.renderer.draw(tracked_state.table_from_prop, eyes_m, seconds, torches);
     const std::int64_t t_us = to_microseconds(tracked_state.time);
     if (studio.request.view != "projector") {
         const simulation::VisitorScene scene = visitor_scene(studio, tracked_state, eyes_m.front());

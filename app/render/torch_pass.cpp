@@ -1,0 +1,99 @@
+#include "app/render/torch_pass.h"
+
+#include "app/render/gl_memory.h"
+
+#include <GLES2/gl2ext.h>
+
+namespace frustumscreen::render {
+
+namespace {
+
+gl::GlTexture make_texture(GLenum format, GLint filter) {
+    gl::GlTexture texture = gl::GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, scene::torch_picture_px, scene::torch_picture_px);
+    for (const GLenum direction : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+        glTexParameteri(GL_TEXTURE_2D, direction, filter);
+    }
+    for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+        glTexParameteri(GL_TEXTURE_2D, direction, GL_CLAMP_TO_EDGE);
+    }
+    return texture;
+}
+
+} // namespace
+
+Result<void> TorchPass::prepare(const scene::RenderNeeds& needs) {
+    if (!needs.torches) {
+        return {};
+    }
+    scene::RenderNeeds own = needs;
+    own.interlocks = true;
+    TRY_VOID(rasters_.prepare(own, scene::torch_picture_px, scene::torch_picture_px));
+    return targets_.empty() ? make_targets() : Result<void>();
+}
+
+Result<void> TorchPass::make_targets() {
+    targets_.resize(torch::max_torches);
+    pictures_.reserve(torch::max_torches);
+    for (Target& target : targets_) {
+        target.framebuffer = gl::GlFramebuffer::generate();
+        target.depth = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
+        target.colour = make_texture(GL_RGBA8, GL_LINEAR);
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, target.depth.get(),
+                               0);
+        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE ||
+            glGetError() != GL_NO_ERROR) {
+            return fail(ErrorKind::BadConfiguration, "render.no_room_for_torches",
+                        "render: the driver has no memory for a torch's picture of {0} x {0} pixels; "
+                        "set torch.source = \"none\"",
+                        scene::torch_picture_px);
+        }
+    }
+    return {};
+}
+
+int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders) {
+    pictures_.clear();
+    int calls = 0;
+    for (std::size_t k = 0; k < plan.torches.size() && k < targets_.size(); ++k) {
+        const Target& target = targets_[k];
+        pictures_.push_back({.depth = target.depth.get(), .colour = target.colour.get()});
+        if (!plan.torches[k].torch.casts_shadows) {
+            continue;
+        }
+        const scene::FramePlan& view = plan.torch_views[k];
+        const bool colours = shows_own_view(plan.torches[k]);
+        rasters_.paint(view, store, RasterPass::Depth::Everywhere);
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+        constexpr Raster whole{};
+        set_viewport({scene::torch_picture_px, scene::torch_picture_px}, whole);
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+        set_channels(glm::bvec3(colours));
+        glDepthMask(GL_TRUE);
+        glStencilMask(0xFF);
+        glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+        glClearDepthf(1.0F);
+        glClearStencil(0);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        const scene::EyePicture shown = view.picture;
+        static_cast<void>(shown);
+        calls += faces_.draw(view, store, shaders, whole);
+        calls += rasters_.show_in_depth(view, shaders, whole);
+    }
+    set_channels(glm::bvec3(true));
+    return calls;
+}
+
+std::uint64_t TorchPass::bytes() const {
+    std::uint64_t bytes = rasters_.bytes();
+    for (const Target& target : targets_) {
+        bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour);
+    }
+    return bytes;
+}
+
+} // namespace frustumscreen::render

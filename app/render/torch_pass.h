@@ -1,0 +1,47 @@
+/// What torches see: a small picture with depth for each, from which their light's shadows come.
+///
+/// Threads  the render thread; `see` allocates nothing, but for what it rasterizes a first time.
+/// Errors   the driver is out of memory.
+#pragma once
+
+#include "app/render/face_pass.h"
+#include "app/render/gpu_store.h"
+#include "app/render/raster_pass.h"
+#include "app/render/shader_cache.h"
+#include "app/render/torch_uniforms.h"
+#include "app/scene/frame_plan.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/gl/gl_handle.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::render {
+
+class TorchPass {
+public:
+    /// Makes the pictures if plans may have torches.
+    [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
+    /// Draws what each of the plan's torches sees. Returns the number of draw calls.
+    int see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders);
+    /// One for each of the plan's torches, since `see`.
+    [[nodiscard]] std::span<const TorchPicture> pictures() const { return pictures_; }
+
+    /// Bytes of GPU memory, as the driver reports.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+private:
+    struct Target {
+        gl::GlFramebuffer framebuffer;
+        gl::GlTexture depth, colour;
+    };
+    [[nodiscard]] Result<void> make_targets();
+
+    std::vector<Target> targets_; ///< empty: there are no torches
+    std::vector<TorchPicture> pictures_;
+    FacePass faces_;
+    RasterPass rasters_;
+};
+
+} // namespace frustumscreen::render

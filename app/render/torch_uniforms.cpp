@@ -1,0 +1,110 @@
+#include "app/render/torch_uniforms.h"
+
+#include <GLES2/gl2ext.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace frustumscreen::render {
+
+namespace {
+
+void bind(unsigned unit, unsigned texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+void set_beam(const Shader& shader, const scene::TorchLight& light) {
+    const torch::Beam& beam = light.torch.beam;
+    glUniform4f(shader.location(Uniform::Beam), light.per_half_extent.x, light.per_half_extent.y,
+                light.reach_m, beam.shape == torch::Shape::Round ? 1.0F : 0.0F);
+    glUniform4f(shader.location(Uniform::Fall), static_cast<float>(beam.attenuation),
+                static_cast<float>(beam.full_m), static_cast<float>(1.0 / (beam.dark_m - beam.full_m)),
+                light.torch.brightness);
+    // Half a pixel of the torch's picture: the depth of a surface that bends within a pixel.
+    const glm::dvec2 extent = torch::half_extent(beam);
+    const double nearer = std::min({extent.x, extent.y, 1.0}) / scene::torch_picture_px;
+    glUniform3f(shader.location(Uniform::DepthOfInverseZ), light.depth_of_inverse_z.x,
+                light.depth_of_inverse_z.y, light.torch.casts_shadows ? static_cast<float>(nearer) : 0.0F);
+}
+
+void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
+    constexpr std::size_t count = torch::max_stages;
+    std::array<glm::ivec2, count> kind{};
+    std::array<glm::vec4, count> colour{};
+    std::array<glm::vec3, count> size{};
+    std::array<glm::mat3x2, count> frame{};
+    for (std::size_t k = 0; k < torch.stage_count; ++k) {
+        const torch::Stage& stage = torch.stages[k];
+        kind[k] = {static_cast<int>(stage.source), static_cast<int>(stage.mix)};
+        colour[k] = {stage.colour, torch.stages_at[k].opacity};
+        size[k] = {stage.size, stage.width, stage.magnification};
+        frame[k] = torch.stages_at[k].stage_from_content;
+    }
+    glUniform2i(shader.location(Uniform::ContentKind), static_cast<GLint>(torch.stage_count),
+                torch.blend == torch::Blend::Over ? 1 : 0);
+    glUniform2iv(shader.location(Uniform::StageKind), count, glm::value_ptr(kind[0]));
+    glUniform4fv(shader.location(Uniform::StageColour), count, glm::value_ptr(colour[0]));
+    glUniform3fv(shader.location(Uniform::StageSize), count, glm::value_ptr(size[0]));
+    glUniformMatrix3x2fv(shader.location(Uniform::StageFromContent), count, GL_FALSE, &frame[0][0].x);
+    glUniform1f(shader.location(Uniform::HeightPerWidth), static_cast<float>(torch.beam.height_per_width));
+}
+
+} // namespace
+
+void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
+               const GpuStore& store) {
+    set_beam(shader, light);
+    set_stages(shader, light.torch);
+    const GpuStore::Texture* const content = store.find(light.torch.picture);
+    bind(shadow_unit, picture.depth);
+    bind(content_unit, content != nullptr ? content->texels.get() : 0);
+    bind(seen_unit, shows_own_view(light) ? picture.colour : 0);
+}
+
+void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
+                  const Raster& raster) {
+    const scene::FaceLight& light = plan.faces[static_cast<std::size_t>(draw.face)].light;
+    const bool even = light.per_cubic_metre > 0.0F;
+    const glm::vec4 ray = ray_from_fragment(plan.projector, raster);
+    const glm::vec3 brightness = draw.brightness * draw.light;
+    glUniform4fv(shader.location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
+    glUniform3fv(shader.location(Uniform::InverseDepth), 1, glm::value_ptr(light.inverse_depth));
+    glUniform4f(shader.location(Uniform::FaceGain), even ? light.per_cubic_metre : 1e30F,
+                even ? light.most : 1.0F, 0.0F, 0.0F);
+    glUniform3fv(shader.location(Uniform::Brightness), 1, glm::value_ptr(brightness));
+}
+
+scene::TextureId layer_of(const scene::TorchLight& light, const scene::Drawable& drawable) {
+    for (std::size_t k = 0; k < light.torch.stage_count; ++k) {
+        const torch::Stage& stage = light.torch.stages[k];
+        if (stage.source == torch::Source::Layer && stage.item < drawable.layers.size()) {
+            return drawable.layers[stage.item];
+        }
+    }
+    return scene::TextureId::None;
+}
+
+bool shows_own_view(const scene::TorchLight& light) {
+    const auto end = light.torch.stages.begin() + static_cast<std::ptrdiff_t>(light.torch.stage_count);
+    return std::any_of(light.torch.stages.begin(), end,
+                       [](const torch::Stage& stage) { return stage.source == torch::Source::Lens; });
+}
+
+void begin_blending(const scene::TorchLight& light) {
+    const bool over = light.torch.blend == torch::Blend::Over;
+    glEnable(GL_FRAMEBUFFER_SRGB_EXT);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(over ? GL_SRC_ALPHA : GL_DST_COLOR, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE, GL_ZERO,
+                        GL_ONE);
+}
+
+void end_blending() {
+    glDisable(GL_BLEND);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+}
+
+} // namespace frustumscreen::render

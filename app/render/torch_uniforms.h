@@ -1,0 +1,34 @@
+/// Sets what a torch's shader takes (torch_shader.h), and binds its textures.
+///
+/// Threads  the render thread. Allocates nothing.
+#pragma once
+
+#include "app/render/gpu_store.h"
+#include "app/render/raster.h"
+#include "app/render/shader_cache.h"
+#include "app/scene/frame_plan.h"
+
+namespace frustumscreen::render {
+
+/// What a torch sees, as textures; 0: none.
+struct TorchPicture {
+    unsigned depth = 0, colour = 0;
+};
+
+/// Texture units of torch_shader.h.
+inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7;
+
+void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
+               const GpuStore& store);
+/// Of a draw on its face.
+void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
+                  const Raster& raster);
+/// The layer that the torch shows; TextureId::None if it shows none.
+[[nodiscard]] scene::TextureId layer_of(const scene::TorchLight& light, const scene::Drawable& drawable);
+/// True if the content is the torch's own view.
+[[nodiscard]] bool shows_own_view(const scene::TorchLight& light);
+/// Blending for the torch's content, in linear light.
+void begin_blending(const scene::TorchLight& light);
+void end_blending();
+
+} // namespace frustumscreen::render

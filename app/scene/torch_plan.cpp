@@ -1,0 +1,251 @@
+#include "app/scene/torch_plan.h"
+
+#include "app/scene/face_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace frustumscreen::scene {
+
+namespace {
+
+/// The half spaces a.X + d >= 0 of a beam, in a frame given by torch_from_frame: before the torch, the four sides of its
+/// rectangle and the plane across the axis at its reach. `a` is a unit vector in the torch's frame.
+using BeamPlanes = std::array<glm::dvec4, 6>;
+
+BeamPlanes planes_of(const torch::Beam& beam, const glm::dmat4& torch_from_frame) {
+    const glm::dvec2 extent = torch::half_extent(beam);
+    const double reach = std::min(torch::reach_m(beam), 1e6);
+    const auto side = [](double x, double y, double z) {
+        return glm::dvec4(x, y, z, 0.0) / std::sqrt(x * x + y * y + z * z);
+    };
+    BeamPlanes planes{glm::dvec4(0.0, 0.0, 1.0, 0.0), side(1.0, 0.0, extent.x),
+                      side(-1.0, 0.0, extent.x),      side(0.0, 1.0, extent.y),
+                      side(0.0, -1.0, extent.y),      glm::dvec4(0.0, 0.0, -1.0, reach)};
+    const glm::dmat4 transposed = glm::transpose(torch_from_frame);
+    for (glm::dvec4& plane : planes) {
+        plane = transposed * plane;
+    }
+    return planes;
+}
+
+/// False only if no point of the sphere is lit; `torch_from_frame` is rigid.
+bool may_light(const BeamPlanes& planes, const glm::dvec3& centre, double radius) {
+    return std::all_of(planes.begin(), planes.end(), [&](const glm::dvec4& plane) {
+        return glm::dot(plane, glm::dvec4(centre, 1.0)) >= -radius;
+    });
+}
+
+/// Appends the triangles of `range` that may meet the beam: not all corners are outside of one of its planes
+/// (Cohen-Sutherland; Francken 2007, 2).
+IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, const BeamPlanes& planes,
+                         std::vector<std::uint32_t>& indices) {
+    std::array<glm::vec4, std::tuple_size_v<BeamPlanes>> near{};
+    std::transform(planes.begin(), planes.end(), near.begin(), [](const glm::dvec4& plane) {
+        return glm::vec4(plane + glm::dvec4(0.0, 0.0, 0.0, 1e-6 * glm::length(glm::dvec3(plane))));
+    });
+    const auto outcode = [&](std::uint32_t index) {
+        const glm::vec3& at = level.positions[index];
+        unsigned code = 0;
+        for (std::size_t k = 0; k < near.size(); ++k) {
+            const glm::vec4& plane = near[k];
+            code |= static_cast<unsigned>(plane.x * at.x + plane.y * at.y + plane.z * at.z + plane.w < 0.0F)
+                    << k;
+        }
+        return code;
+    };
+    const auto first = static_cast<std::uint32_t>(indices.size());
+    for (std::size_t k = range.first; k < std::size_t{range.first} + range.count; k += 3) {
+        const std::array<std::uint32_t, 3> triangle{indices[k], indices[k + 1], indices[k + 2]};
+        if ((outcode(triangle[0]) & outcode(triangle[1]) & outcode(triangle[2])) == 0) {
+            indices.insert(indices.end(), triangle.begin(), triangle.end());
+        }
+    }
+    return {first, static_cast<std::uint32_t>(indices.size()) - first};
+}
+
+/// The pixels that a beam may light of a level: around those of its box's small parts that meet the beam.
+PixelRectangle lit_pixels(const PlacedLevel& level, const glm::dmat4& clip_from_placed,
+                          const BeamPlanes& planes, const geometry::Pinhole& pinhole) {
+    constexpr int parts = 6; // along each edge
+    const geometry::Box box = level.placed_box();
+    const glm::dvec3 size = (box.high - box.low) / static_cast<double>(parts);
+    double scale = 0.0; // of the pose
+    for (int axis = 0; axis < 3; ++axis) {
+        scale = std::max(scale, glm::length(glm::dvec3(level.prop_from_placed[axis])));
+    }
+    const double radius = 0.5 * scale * glm::length(size);
+    PixelRectangle lit;
+    for (int k = 0; k < parts * parts * parts; ++k) {
+        const glm::dvec3 low = box.low + size * glm::dvec3(k % parts, k / parts % parts, k / parts / parts);
+        const glm::dvec3 middle(level.prop_from_placed * glm::dvec4(low + 0.5 * size, 1.0));
+        if (!may_light(planes, middle, radius)) {
+            continue;
+        }
+        std::array<glm::dvec4, 8> corners{};
+        for (unsigned corner = 0; corner < corners.size(); ++corner) {
+            const glm::dvec3 share(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U);
+            corners[corner] = clip_from_placed * glm::dvec4(low + size * share, 1.0);
+        }
+        lit = united(lit, pixels_around(corners, pinhole));
+    }
+    return lit;
+}
+
+/// A square close before the torch that its whole picture meets, prop frame.
+geometry::PropShape surface_before(const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam,
+                                   double distance) {
+    geometry::PropShape surface;
+    geometry::PropFace& face = surface.faces.emplace_back();
+    const glm::dvec3 normal = prop_from_torch.direction({0.0, 0.0, -1.0});
+    face.plane = {normal, glm::dot(normal, prop_from_torch.point({0.0, 0.0, distance}))};
+    const glm::dvec2 half = 1.01 * distance * torch::half_extent(beam);
+    for (const glm::dvec2& side :
+         {glm::dvec2(-1, 1), glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)}) {
+        face.corners.push_back(prop_from_torch.point({side * half, distance}));
+    }
+    surface.bounds = {face.plane};
+    surface.corners.assign(face.corners.begin(), face.corners.end());
+    surface.middle = prop_from_torch.point({0.0, 0.0, distance});
+    return surface;
+}
+
+geometry::Pinhole pinhole_of(const torch::Beam& beam) {
+    const glm::dvec2 extent = torch::half_extent(beam);
+    constexpr double half = 0.5 * torch_picture_px;
+    return {.width = torch_picture_px,
+            .height = torch_picture_px,
+            .fx = half / extent.x,
+            .fy = half / extent.y,
+            .cx = half,
+            .cy = half};
+}
+
+/// Of a fade the level that shows more casts the shadow.
+bool casts(const Part& part) {
+    return !part.dither || (part.dither->complement ? 1.0F - part.dither->share : part.dither->share) >= 0.5F;
+}
+
+/// Plans what the torch sees; returns the depth of 1 / z in its picture.
+glm::vec2 plan_torch_view(std::span<const Part> parts, const PlanView& view, const PlacedTorch& torch,
+                          const geometry::Box& box, FramePlan& plan) {
+    const geometry::RigidTransform prop_from_torch = view.table_from_prop.inverse() * torch.table_from_torch;
+    const glm::dvec3 middle = 0.5 * (box.low + box.high);
+    const double distance =
+        0.01 * (glm::distance(prop_from_torch.translation, middle) + glm::distance(box.low, box.high));
+    const glm::dvec3 eye_m = torch.table_from_torch.translation;
+    PlanView seen{.projector = pinhole_of(torch.beam),
+                  .table_from_projector = torch.table_from_torch,
+                  .table_from_prop = view.table_from_prop,
+                  .eyes_m = std::span(&eye_m, 1)};
+    seen.picture.channels =
+        glm::bvec3(std::any_of(torch.stages.begin(), torch.stages.end(), [](const torch::Stage& stage) {
+            return stage.source == torch::Source::Lens;
+        }));
+    plan.casters.clear();
+    for (const Part& part : parts) {
+        if (casts(part)) {
+            plan.casters.push_back({part.level, std::nullopt});
+        }
+    }
+    plan_frame(surface_before(prop_from_torch, torch.beam, distance), plan.casters, seen, plan);
+    plan.samples = 1;
+    for (ReliefDraw& relief_draw : plan.relief_draws) {
+        relief_draw.samples = 1;
+    }
+    if (plan.faces.empty()) {
+        return {0.0F, 0.0F};
+    }
+    const glm::vec4& depth = plan.faces[0].depth_from_nearness;
+    return {static_cast<float>(0.5 * static_cast<double>(depth.z) * distance), 0.5F * depth.w + 0.5F};
+}
+
+/// The torch's frame as the shader takes it.
+TorchLight light_of(const PlacedTorch& torch, const PlanView& view) {
+    const geometry::RigidTransform torch_from_table = torch.table_from_torch.inverse();
+    TorchLight light;
+    light.torch_from_prop = (torch_from_table * view.table_from_prop).matrix();
+    light.torch_from_projector = glm::mat4((torch_from_table * view.table_from_projector).matrix());
+    light.eye = glm::vec3(torch_from_table.point(view.eyes_m.front()));
+    light.per_half_extent = glm::vec2(1.0 / torch::half_extent(torch.beam));
+    light.reach_m = static_cast<float>(std::min(torch::reach_m(torch.beam), 1e6));
+    light.torch = torch;
+    return light;
+}
+
+} // namespace
+
+ShaderKey torch_of(ShaderKey key) {
+    key.torch = true;
+    key.coloured = false;
+    return key;
+}
+
+void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts) {
+    plan.torches.reserve(torch::max_torches);
+    plan.torch_draws.reserve(torch::max_torches * parts * faces);
+    plan.indices.reserve((1 + torch::max_torches) * faces * indices);
+    plan.torch_views.clear();
+    geometry::PropShape one_face;
+    one_face.faces.resize(1);
+    for (int corner = 0; corner < 4; ++corner) {
+        one_face.faces.front().corners.push_back(glm::dvec3(0.0));
+    }
+    for (std::size_t k = 0; k < torch::max_torches; ++k) {
+        FramePlan& view = plan.torch_views.emplace_back(make_plan(one_face, indices, parts));
+        view.casters.reserve(parts);
+    }
+}
+
+void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
+                  FramePlan& plan) {
+    plan.torches.clear();
+    plan.torch_draws.clear();
+    if (plan.faces.empty()) {
+        return;
+    }
+    const double radius = 0.5 * glm::distance(box.low, box.high);
+    for (const PlacedTorch& torch : view.torches) {
+        if (!(torch.brightness > 0.0F) || torch.stage_count == 0 ||
+            plan.torches.size() == plan.torch_views.size()) {
+            continue;
+        }
+        const geometry::RigidTransform torch_from_prop =
+            torch.table_from_torch.inverse() * view.table_from_prop;
+        const BeamPlanes planes = planes_of(torch.beam, torch_from_prop.matrix());
+        if (!may_light(planes, 0.5 * (box.low + box.high), radius)) {
+            continue;
+        }
+        const std::size_t number = plan.torches.size();
+        const std::size_t draws = plan.draws.size();
+        for (std::size_t k = 0; k < draws; ++k) {
+            const Draw& draw = plan.draws[k];
+            if (draw.face == Draw::on_table) {
+                continue;
+            }
+            const PlacedLevel& level = parts[draw.part].level;
+            TorchDraw lit{.draw = k, .torch = number, .bounds = draw.bounds, .range = {}};
+            if (level.relief) {
+                lit.bounds = intersected(draw.bounds,
+                                         lit_pixels(level, draw.clip_from_placed, planes, plan.projector));
+            } else {
+                lit.range = lit_triangles(
+                    *level.triangles, draw.range,
+                    planes_of(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);
+            }
+            if (level.relief ? !lit.bounds.empty() : lit.range.count > 0) {
+                plan.torch_draws.push_back(lit);
+            }
+        }
+        TorchLight light = light_of(torch, view);
+        if (torch.casts_shadows) {
+            light.depth_of_inverse_z = plan_torch_view(parts, view, torch, box, plan.torch_views[number]);
+        }
+        plan.torches.push_back(light);
+    }
+}
+
+} // namespace frustumscreen::scene

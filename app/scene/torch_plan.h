@@ -1,0 +1,27 @@
+/// What torches light in a picture: which of its draws, in which pixels, and what each torch sees itself.
+///
+/// A torch's own picture is one of a flat surface with one face close before it, drawn by the pinhole of its beam; so
+/// `plan_frame` plans it too. Its depth tells the places that the torch sees from those in shadow.
+///
+/// Frames   as frame_plan.h; torch: torch/torch.h.
+/// Threads  pure; any. Allocates nothing into a plan that was made with room for torches.
+#pragma once
+
+#include "app/geometry/collineation.h"
+#include "app/scene/frame_plan.h"
+
+#include <span>
+
+namespace frustumscreen::scene {
+
+/// Makes room in a plan for torches that light `parts` parts of `indices` indices together.
+void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts);
+
+/// Adds the view's torches to a plan of the same parts. `box`: around all parts, prop frame.
+void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
+                  FramePlan& plan);
+
+/// The vertices and reliefs that a draw shows again in a torch's light.
+[[nodiscard]] ShaderKey torch_of(ShaderKey key);
+
+} // namespace frustumscreen::scene
