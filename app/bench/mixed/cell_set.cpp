@@ -71,8 +71,8 @@ Result<std::unique_ptr<CellSet>> CellSet::open(const settings::Settings& setting
 Result<void> CellSet::upload(Torches torches) {
     const geometry::Pinhole& pinhole = settings_.projector.pinhole;
     TRY(display_, display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
-    const scene::RenderNeeds needs = residency::needs_of(*known_, plan_.needs);
-    (void)torches;
+    scene::RenderNeeds needs = residency::needs_of(*known_, plan_.needs);
+    needs = torches == Torches::Some ? scene::with_torches(std::move(needs)) : needs;
     TRY(renderer_, render::Renderer::create(pinhole.width, pinhole.height, needs));
     for (const residency::PreparedLevel& level : prepared_.levels) {
         render::LevelUpload upload(level.data);

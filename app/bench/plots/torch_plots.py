@@ -70,13 +70,14 @@ def draw_torch_wall(path, rows):
 
 SIZE = 300  # of a wall's picture, pixels
 EXTENT = 0.6  # of its half width, metres
+MIDDLE = 0.12  # of the picture, to the right of the wall's, metres
 PANEL, GAP, ABOVE = 300, 16, 76  # of the figure, pixels
 
 
 def wall_picture(triangles):
     """Codes of the interpolated intensity in the round beam, and which pixels lie in it. A corner: x, y, intensity, s, t, q."""
     y, x = numpy.mgrid[0:SIZE, 0:SIZE]
-    x = ((x + 0.5) / SIZE * 2 - 1) * EXTENT
+    x = ((x + 0.5) / SIZE * 2 - 1) * EXTENT + MIDDLE
     y = (1 - (y + 0.5) / SIZE * 2) * EXTENT
     light = numpy.zeros((SIZE, SIZE))
     in_beam = numpy.zeros((SIZE, SIZE), bool)
@@ -94,20 +95,20 @@ def wall_picture(triangles):
 def draw_wall(axes, triangles):
     """Edges are whole where the light is, faint outside."""
     light, in_beam = wall_picture(triangles)
-    frame = (-EXTENT, EXTENT, -EXTENT, EXTENT)
+    frame = (MIDDLE - EXTENT, MIDDLE + EXTENT, -EXTENT, EXTENT)
     axes.imshow(light, cmap="gray", vmin=0, vmax=1, extent=frame, interpolation="nearest")
     edges = dict.fromkeys(tuple(sorted((a[:2], b[:2]))) for corners in triangles
                           for a, b in zip(corners, corners[1:] + corners[:1]))
     at = (numpy.arange(SIZE) + 0.5) / SIZE * 2 * EXTENT - EXTENT
-    beam = axes.contour(at, at, in_beam[::-1].astype(float), levels=[0.5], linewidths=0)
-    rim = MplPath(max((part for part in beam.allsegs[0]), key=len))
+    beam = axes.contour(at + MIDDLE, at, in_beam[::-1].astype(float), levels=[0.5], linewidths=0)
+    rim = MplPath(max(beam.allsegs[0], key=len))
     axes.add_collection(LineCollection(edges, colors="#e02020", linewidths=0.4, alpha=0.35))
     whole = LineCollection(edges, colors="#e02020", linewidths=0.7)
     axes.add_collection(whole)
     whole.set_clip_path(rim, axes.transData)
     axes.set_axis_off()
-    axes.set_xlim(-EXTENT, EXTENT)
-    axes.set_ylim(-EXTENT, EXTENT)
+    axes.set_xlim(frame[:2])
+    axes.set_ylim(frame[2:])
 
 
 def draw_torch_triangles(path, rows):

@@ -14,7 +14,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-constexpr std::array edge_lengths_m{0.032, 0.016, 0.008, 0.004, 0.002};
+constexpr std::array edge_lengths_m{0.032, 0.008, 0.004, 0.002};
 constexpr double steered_from_m =
     0.002; ///< the frame time that is held is what this length takes in the median
 struct NamedBound {

@@ -20,7 +20,7 @@
 namespace frustumscreen::bench {
 
 struct TorchOptions {
-    int frames = 60;
+    int frames = 80;
     int passes = 3;
     int errors = 6; ///< frames that are measured
     std::uint64_t seed = 1;

@@ -23,6 +23,14 @@ std::vector<glm::dvec3> unit_positions_of(const scene::PlacedLevel& placed) {
     return positions;
 }
 
+/// The coarsest that errs by no more than half a pixel of a usual set-up; else the finest.
+const CellWay& way_of(const std::vector<CellWay>& finest_first) {
+    constexpr double enough_mm = 0.1;
+    const auto coarsest = std::find_if(finest_first.rbegin(), finest_first.rend(),
+                                       [](const CellWay& way) { return way.worst_mm <= enough_mm; });
+    return coarsest != finest_first.rend() ? *coarsest : finest_first.front();
+}
+
 } // namespace
 
 Result<std::unique_ptr<TorchSet>> TorchSet::open(settings::Settings settings,
@@ -106,8 +114,8 @@ void TorchSet::add_cells() {
     const std::vector<CellWays>& cells = cells_->cells();
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const bool relief = k % 2 == 1 && !cells[k].reliefs.empty();
-        add_part(drawn, (relief ? cells[k].reliefs.back() : cells[k].meshes.front()).placed);
-        add_part(polygons, cells[k].meshes.front().placed);
+        add_part(drawn, (relief ? cells[k].reliefs.back() : way_of(cells[k].meshes)).placed);
+        add_part(polygons, way_of(cells[k].meshes).placed);
     }
     add_scene("cells", std::move(drawn), std::move(polygons));
 }

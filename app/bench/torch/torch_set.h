@@ -28,7 +28,7 @@ struct TorchScene {
     std::string name; ///< "mesh", "relief", "cells"
     TorchSurface drawn;
     TorchSurface
-        polygons; ///< for the paper, which knows no relief: at the levels of `drawn` where it has polygons
+        polygons; ///< for the paper, which knows no relief: as fine as those of `drawn`
     std::size_t max_indices = 0;
     std::size_t triangles = 0; ///< of `polygons`
 };

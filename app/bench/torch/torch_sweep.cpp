@@ -2,7 +2,9 @@
 
 #include "app/bench/truth/seeded_draw.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace frustumscreen::bench {
@@ -21,6 +23,16 @@ private:
     double hz_, phase_;
 };
 
+/// From a point in the box to its surface.
+double way_out(const geometry::Box& box, const glm::dvec3& point, const glm::dvec3& direction) {
+    double way = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = direction[axis] > 0.0 ? box.high[axis] : box.low[axis];
+        way = direction[axis] != 0.0 ? std::min(way, (side - point[axis]) / direction[axis]) : way;
+    }
+    return way;
+}
+
 struct Hand {
     Sway across, deep, high, around, up, away, twist;
     double first_around;
@@ -37,9 +49,9 @@ struct Hand {
             middle + 0.7 * half * glm::dvec3(across.at(seconds), deep.at(seconds), high.at(seconds));
         const double azimuth = first_around + 2.0 * around.at(seconds);
         const double elevation = 0.85 + 0.45 * up.at(seconds);
-        const double away_m = glm::length(half) + 0.07 + 0.05 * away.at(seconds);
         const glm::dvec3 towards_torch(std::cos(elevation) * std::cos(azimuth),
                                        std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        const double away_m = way_out(box, aim, towards_torch) + 0.08 + 0.05 * away.at(seconds);
         const glm::dvec3 down(0.0, 0.0, -1.0);
         const glm::dvec3 x = glm::normalize(glm::cross(down, -towards_torch));
         const glm::dmat3 axes(x, glm::cross(-towards_torch, x), -towards_torch);
@@ -55,7 +67,7 @@ torch::Beam sweep_beam() {
             .height_per_width = 1.0,
             .shape = torch::Shape::Round,
             .attenuation = torch::Attenuation::InverseSquare,
-            .full_m = 0.06};
+            .full_m = 0.04};
 }
 
 Result<std::vector<TorchFrame>> draw_sweep(const settings::Settings& settings,

@@ -1,6 +1,6 @@
 /// A torch that sweeps over the artifact while prop and eye move: seeded, continuous, the same on every machine.
 ///
-/// Frames   table frame, metres. The torch stays before its aim, a place in the artifact's box, outside of that box, on any
+/// Frames   table frame, metres. The torch looks at a place in the artifact's box, from 3 to 13 cm before that box, on any
 ///          side and above; it turns about its own axis too.
 /// Threads  pure; any.
 /// Errors   as draw_walk.
@@ -22,7 +22,7 @@ struct TorchFrame {
     geometry::RigidTransform table_from_torch;
 };
 
-/// In the hand: round, 40 degrees wide, as bright as it gets up to 6 cm.
+/// In the hand: round, 40 degrees wide, as bright as it gets up to 4 cm.
 [[nodiscard]] torch::Beam sweep_beam();
 /// `box`: of the artifact, prop frame.
 [[nodiscard]] Result<std::vector<TorchFrame>> draw_sweep(const settings::Settings& settings,

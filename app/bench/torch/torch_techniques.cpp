@@ -1,5 +1,7 @@
 #include "app/bench/torch/torch_techniques.h"
 
+#include "app/scene/torch_plan.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +33,9 @@ TorchTechnique::TorchTechnique(TorchSet& set, const TorchScene& scene, const tor
                                PaperTorch paper)
     : set_(set), surface_(is_paper(way) ? scene.polygons : scene.drawn), beam_(beam), way_(std::move(way)),
       content_(white_over()), paper_(std::move(paper)),
-      plan_(scene::make_plan(set.prop(), scene.max_indices, surface_.parts.size())) {}
+      plan_(scene::make_plan(set.prop(), scene.max_indices, surface_.parts.size())) {
+    scene::make_torch_space(plan_, set.prop().faces.size(), scene.max_indices, surface_.parts.size());
+}
 
 void TorchTechnique::draw(const TorchFrame& frame, std::size_t number, bool in_black) {
     scene::PlacedTorch torch = scene::placed(content_, beam_, frame.table_from_torch, 0.0);

@@ -110,7 +110,7 @@ std::string torch_triangles_csv() {
     std::string csv = "heuristic,tolerance,triangle,x_m,y_m,intensity,s,t,q\n";
     const torch::Beam beam = wall_beam(Attenuation::InverseSquare);
     for (const Splitting& splitting :
-         {Splitting{Splitting::By::Length, 0.06}, Splitting{Splitting::By::Length, 0.25},
+         {Splitting{Splitting::By::Length, 0.1}, Splitting{Splitting::By::Length, 0.25},
           Splitting{Splitting::By::Length, 0.9}, Splitting{Splitting::By::Bound, 0.04}}) {
         const bool by_length = splitting.by == Splitting::By::Length;
         const std::vector<torch::LitCorner> lit = split_wall(beam, splitting);
