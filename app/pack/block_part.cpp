@@ -1,6 +1,7 @@
 #include "app/pack/block_part.h"
 
 #include "app/pack/container/limits.h"
+#include "app/pack/corner_planes.h"
 #include "firmware_host/base/byte_reader.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ constexpr std::array<char, 4> blocks_magic{'F', 'S', 'R', 'B'};
 constexpr std::uint32_t blocks_version = 1;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t grid_bytes = 32;
-constexpr std::size_t corners = std::size_t{relief::block_corners} * relief::block_corners;
+constexpr std::size_t corners = plane_corners;
 constexpr std::size_t cells = std::size_t{relief::block_cells} * relief::block_cells;
 constexpr std::uint32_t max_directions = 6;
 constexpr double max_origin_box = 4.0;   ///< the box is 1 long
@@ -53,29 +54,6 @@ relief::ReliefGrid grid_towards(std::uint32_t direction) {
 
 std::uint32_t direction_of(const relief::ReliefGrid& grid) {
     return 2 * static_cast<std::uint32_t>(grid.axis[2]) + (grid.sign < 0.0 ? 1 : 0);
-}
-
-/// The corner that a corner is stored relative to: its left neighbour, or the one above at a row's beginning;
-/// neighbours are similar.
-std::size_t before(std::size_t corner) {
-    return corner % relief::block_corners > 0 ? corner - 1 : corner - relief::block_corners;
-}
-
-using Plane = std::array<std::uint8_t, corners>;
-
-void append_plane(Bytes& bytes, const Plane& values) {
-    for (std::size_t k = 0; k < corners; ++k) {
-        append(bytes, static_cast<std::uint8_t>(values.at(k) - (k > 0 ? values.at(before(k)) : 0)));
-    }
-}
-
-Plane read_plane(ByteReader& reader) {
-    Plane values{};
-    for (std::size_t k = 0; k < corners; ++k) {
-        values.at(k) =
-            static_cast<std::uint8_t>(reader.read<std::uint8_t>() + (k > 0 ? values.at(before(k)) : 0));
-    }
-    return values;
 }
 
 /// Codes of the corners, from the words of the 64 cells; neighbouring cells share corners.

@@ -188,6 +188,10 @@ std::string label_key(std::size_t hotspot) {
     return fmt::format("label.{}", hotspot);
 }
 
+std::string torch_key(std::size_t content) {
+    return fmt::format("torch.{}", content);
+}
+
 std::string behaviour_key(std::size_t behaviour) {
     return fmt::format("behaviour.{}", behaviour);
 }

@@ -3,7 +3,7 @@
 ///
 /// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit`
 ///          in its place); `description.0` ... for the description's portions (text_portions.h); `label.0` ... for
-///          the hotspots and `behaviour.0` ... for the titles of the behaviours, in their order. A text that is
+///          the hotspots `behaviour.0` ... for the titles of the behaviours and `torch.0` ... of a torch's contents, in their order. A text that is
 ///          empty, or that could not be set, is missing. The sound of the description has the key `description`.
 /// Errors   one line: data that FORMAT.md does not allow; a part that contradicts the manifest. Messages of
 ///          `load_...` begin with the file's name. A pack without the sections is no error.
@@ -27,6 +27,7 @@ namespace frustumscreen::pack {
 
 [[nodiscard]] std::string label_key(std::size_t hotspot);
 [[nodiscard]] std::string behaviour_key(std::size_t behaviour);
+[[nodiscard]] std::string torch_key(std::size_t content);
 
 struct SetLanguage {
     std::string language; ///< BCP 47

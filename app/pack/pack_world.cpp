@@ -8,6 +8,7 @@
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_sections.h"
+#include "app/pack/pack_torches.h"
 #include "app/pack/world_sections.h"
 #include "firmware_host/base/printable.h"
 
@@ -113,6 +114,11 @@ Result<void> check_nested(const PackDescription& pack) {
             "world.nested",
             "a cell's own pack has cells, behaviours, hotspots or texts; only the artifact's has these");
     }
+    TRY(const PackTorches torches, torches_of(pack));
+    if (!torches.contents.empty()) {
+        return bad_input("world.nested_torches",
+                         "a cell's own pack has contents for a torch; only the artifact's has these");
+    }
     return {};
 }
 
@@ -150,6 +156,7 @@ Result<void> check_place(const PackCell& cell, const glm::dmat4& box_from_geomet
 Result<void> check_cell_pack(const PackCell& cell, const glm::dmat4& box_from_geometry, const Pack& pack) {
     TRY(const VerifiedPack nested, at(cell.part, read_nested(pack.section_parts.at(cell.part), {})));
     TRY_VOID(at(cell.part, check_reliefs(*nested)));
+    TRY_VOID(at(cell.part, check_torches(*nested)));
     return check_place(cell, box_from_geometry, *nested);
 }
 

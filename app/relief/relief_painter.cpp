@@ -146,6 +146,9 @@ void ReliefPainter::resolve(const RasterSamples& samples, const PixelRectangle& 
                         Outline::Coverage);
         }
     }
+    if (picture.codes.first == nullptr) {
+        return;
+    }
     for (int y = part.y; y < part.y + part.height; ++y) {
         std::fill_n(&picture.codes.at(part.x, y), part.width, glm::u8vec4(0));
         const RasterSamples::Extent& extent = samples.extent(y);

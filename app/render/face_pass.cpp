@@ -1,7 +1,6 @@
 #include "app/render/face_pass.h"
 
 #include "app/geometry/corner_fan.h"
-#include "app/scene/torch_plan.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -44,15 +43,6 @@ void set_draw(const Shader& shader, const scene::Draw& draw) {
                        glm::value_ptr(draw.clip_from_unit));
 }
 
-void draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& outline) {
-    for (std::size_t k = 0; k < geometry::fan_quads(corners.size()); ++k) {
-        const auto [a, b, c, d] = geometry::fan_quad(corners.size(), k);
-        const std::array<glm::vec4, 4> quad{corners[a], corners[b], corners[c], corners[d]};
-        glUniform4fv(outline.location(Uniform::Corners), 4, glm::value_ptr(quad[0]));
-        outline.draw_quad();
-    }
-}
-
 /// The uploaded mip level for ::mip_level, one for the whole draw: choosing and mixing two levels for each
 /// pixel costs a software or small GPU more than the rest of the pixel.
 int mip_of(const scene::Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
@@ -76,6 +66,17 @@ int outline_calls(const scene::FramePlan& plan) {
 }
 
 } // namespace
+
+int draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& shader) {
+    const std::size_t quads = geometry::fan_quads(corners.size());
+    for (std::size_t k = 0; k < quads; ++k) {
+        const auto [a, b, c, d] = geometry::fan_quad(corners.size(), k);
+        const std::array<glm::vec4, 4> quad{corners[a], corners[b], corners[c], corners[d]};
+        glUniform4fv(shader.location(Uniform::Corners), 4, glm::value_ptr(quad[0]));
+        shader.draw_quad();
+    }
+    return static_cast<int>(quads);
+}
 
 bool FacePass::draws(const scene::FramePlan& plan) {
     return std::any_of(plan.draws.begin(), plan.draws.end(), [](const scene::Draw& draw) {
@@ -155,31 +156,33 @@ int FacePass::soften_edges(const scene::FramePlan& plan, const ShaderCache& shad
     return static_cast<int>(plan.feathers.size());
 }
 
-int FacePass::light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                    const Raster& raster, std::span<const TorchPicture> torches) const {
-    if (!draws(plan) || torches.empty()) {
+int FacePass::light(const Lit& lit, Contents contents) const {
+    const scene::FramePlan& plan = lit.plan;
+    if (!draws(plan) || lit.torches.empty()) {
         return 0;
     }
     glEnable(GL_STENCIL_TEST);
-    glEnable(GL_SCISSOR_TEST);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
     glEnable(GL_POLYGON_OFFSET_FILL); // another program may round the same place to another depth
     glPolygonOffset(-1.0F, -2.0F);
-    set_channels(channels_of(plan, raster));
+    set_channels(channels_of(plan, lit.raster));
     glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT); // of one bit: a fragment is lit once by a torch
     glStencilMask(lit_bit);
     int calls = 0;
-    for (std::size_t torch = 0; torch < torches.size(); ++torch) {
+    for (std::size_t torch = 0; torch < lit.torches.size(); ++torch) {
+        if (!takes(contents, plan.torches[torch])) {
+            continue;
+        }
         glDisable(GL_SCISSOR_TEST);
         glClearStencil(0);
         glClear(GL_STENCIL_BUFFER_BIT);
         glEnable(GL_SCISSOR_TEST);
         begin_blending(plan.torches[torch]);
-        for (const scene::TorchDraw& lit : plan.torch_draws) {
-            calls += lit.torch == torch ? light_draw(plan, lit, store, shaders, raster, torches[torch]) : 0;
+        for (const scene::TorchDraw& draw : plan.torch_draws) {
+            calls += draw.torch == torch ? light_draw(lit, draw) : 0;
         }
     }
     end_blending();
@@ -195,34 +198,32 @@ int FacePass::light(const scene::FramePlan& plan, const GpuStore& store, const S
     return calls;
 }
 
-int FacePass::light_draw(const scene::FramePlan& plan, const scene::TorchDraw& lit, const GpuStore& store,
-                         const ShaderCache& shaders, const Raster& raster, const TorchPicture& torch) const {
-    const scene::Draw& draw = plan.draws[lit.draw];
-    const scene::TorchLight& light = plan.torches[lit.torch];
-    const Shader* const shader = shaders.find(scene::torch_of(draw.shader));
-    const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
-    const GpuStore::Blocks* const blocks = store.find_blocks(draw.drawable.mesh);
-    const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
+int FacePass::light_draw(const Lit& lit, const scene::TorchDraw& lit_draw) const {
+    const scene::Draw& draw = lit.plan.draws[lit_draw.draw];
+    const scene::TorchLight& light = lit.plan.torches[lit_draw.torch];
+    const Shader* const shader = lit.shaders.find(scene::torch_of(draw.shader, scene::parts_of(light.torch)));
+    const GpuStore::Mesh* const mesh = lit.store.find(draw.drawable.mesh);
+    const GpuStore::Blocks* const blocks = lit.store.find_blocks(draw.drawable.mesh);
+    const GpuStore::Texture* const texture = lit.store.find(draw.drawable.material.texture);
     if (draw.shader.pass != scene::ShaderKey::Pass::Surface || shader == nullptr || texture == nullptr ||
         (mesh == nullptr && blocks == nullptr)) {
         return 0;
     }
-    begin_surface(plan, draw, *texture, *shader, raster);
-    set_torch(*shader, light, torch, store);
-    set_lit_face(*shader, plan, draw, raster);
-    const GpuStore::Texture* const layer = store.find(layer_of(light, draw.drawable));
-    glActiveTexture(GL_TEXTURE0 + layer_unit);
-    glBindTexture(GL_TEXTURE_2D, layer != nullptr ? layer->texels.get() : 0);
-    glActiveTexture(GL_TEXTURE0);
+    begin_surface(lit.plan, draw, *texture, *shader, lit.raster);
+    set_torch(*shader, light, lit.torches[lit_draw.torch], lit.store);
+    set_lit_face(*shader, lit.plan, draw, lit.raster);
+    const GpuStore::Texture* const layer = lit.store.find(layer_of(light, draw.drawable));
+    bind(layer_unit, layer != nullptr ? layer->texels.get() : 0);
     if (mesh != nullptr) {
         const glm::mat4 torch_from_unit(light.torch_from_prop * glm::dmat4(draw.prop_from_unit));
         glUniformMatrix4fv(shader->location(Uniform::PropFromUnit), 1, GL_FALSE,
                            glm::value_ptr(torch_from_unit));
-        draw_mesh(draw, lit.range, *mesh);
+        draw_mesh(draw, lit_draw.range.count > 0 ? lit_draw.range : draw.range, *mesh);
     } else {
         glFrontFace(GL_CW); // the shader mirrors
-        blocks_.draw(plan, draw, light.torch_from_prop * plan.relief_draws[draw.relief_draw].prop_from_box,
-                     *blocks, *shader);
+        blocks_.draw(lit.plan, draw,
+                     light.torch_from_prop * lit.plan.relief_draws[draw.relief_draw].prop_from_box, *blocks,
+                     *shader);
     }
     return 1;
 }

@@ -21,6 +21,9 @@
 
 namespace frustumscreen::render {
 
+/// Draws a face's outline, filled. Returns the number of draw calls.
+int draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& shader);
+
 class FacePass {
 public:
     enum class Output {
@@ -34,14 +37,13 @@ public:
     int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours);
 
-    /// The plan's torches on the meshes and blocks that `draw` has just drawn there. Returns the number of draw calls.
-    int light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-              const Raster& raster, std::span<const TorchPicture> torches) const;
+    /// The plan's torches with some of the contents on the meshes and blocks that `draw` has just drawn there. Returns the number of
+    /// draw calls.
+    int light(const Lit& lit, Contents contents) const;
 
 private:
     /// Returns the number of draw calls: 0 if something is missing.
-    int light_draw(const scene::FramePlan& plan, const scene::TorchDraw& lit, const GpuStore& store,
-                   const ShaderCache& shaders, const Raster& raster, const TorchPicture& torch) const;
+    int light_draw(const Lit& lit, const scene::TorchDraw& draw) const;
     void upload_indices(const scene::FramePlan& plan) const;
     void mark_faces(const scene::FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.

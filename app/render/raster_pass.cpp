@@ -1,7 +1,6 @@
 #include "app/render/raster_pass.h"
 
 #include "app/render/gl_memory.h"
-#include "app/scene/torch_plan.h"
 #include "firmware_host/base/usable_cores.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -50,6 +49,11 @@ PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) 
     return {};
 }
 
+bool has_layers(const scene::RenderNeeds& needs) {
+    return std::any_of(needs.torches.begin(), needs.torches.end(),
+                       [](std::uint8_t content) { return (content & torch::LayerPart) != 0; });
+}
+
 /// The edges of the draw's face as half spaces of rays.
 void set_edges(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw) {
     const geometry::Pinhole& pinhole = plan.projector;
@@ -94,8 +98,8 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
     };
     const bool rasterizes = needs.rasterizes && !painter_;
     const bool interlocks =
-        needs.rasterizes && (needs.interlocks || needs.torches) && nearness_.texels.empty();
-    const bool layers = needs.rasterizes && needs.torches && layer_.texels.empty();
+        needs.rasterizes && (needs.interlocks || !needs.torches.empty()) && nearness_.texels.empty();
+    const bool layers = needs.rasterizes && has_layers(needs) && layer_.texels.empty();
     if (rasterizes) {
         painter_ = std::make_unique<relief::ReliefPainter>(static_cast<int>(usable_cores()));
         memory_ = image::Image8(width, height);
@@ -363,72 +367,73 @@ int RasterPass::light_rectangles(const scene::FramePlan& plan, const scene::Torc
         return 0;
     }
     const scene::Draw& draw = plan.draws[lit.draw];
-    const scene::FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
-    const scene::TorchLight& light = plan.torches[lit.torch];
-    set_lit_face(shader, plan, draw, raster);
     const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
-    glUniform4i(shader.location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x, corner.y);
-    glUniformMatrix4fv(shader.location(Uniform::TorchFromProjector), 1, GL_FALSE,
-                       glm::value_ptr(light.torch_from_projector));
-    glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(light.eye));
-    glUniform4fv(shader.location(Uniform::DepthFromNearness), 1, glm::value_ptr(face.depth_from_nearness));
+    set_lit_face(shader, plan, draw, raster);
+    set_nearness(shader, plan, plan.torches[lit.torch], draw.face, {raster.fragments, corner});
     set_edges(shader, plan, draw);
     shader.draw_rectangles({plan.projector.width, plan.projector.height}, rectangles_);
     return 1;
 }
 
-int RasterPass::light_in_depth(const scene::FramePlan& plan, const GpuStore& store,
-                               const ShaderCache& shaders, const Raster& raster,
-                               std::span<const TorchPicture> torches) {
-    const Shader* const shader =
-        shaders.find(scene::torch_of(scene::ShaderKey{scene::ShaderKey::Pass::RasterInDepth}));
-    if (in_depth_.empty() || shader == nullptr) {
+int RasterPass::light_in_depth(const Lit& lit, Contents contents) {
+    if (in_depth_.empty()) {
         return 0;
     }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
-    const int calls = light_with(plan, store, *shader, raster, torches, in_depth_);
+    const int calls = light_with(lit, {scene::ShaderKey::Pass::RasterInDepth}, contents, in_depth_);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_DEPTH_TEST);
     return calls;
 }
 
-int RasterPass::light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                      const Raster& raster, std::span<const TorchPicture> torches) {
-    const Shader* const shader = shaders.find(scene::torch_of(scene::raster_shader()));
-    if (overlaid_.empty() || shader == nullptr) {
-        return 0;
-    }
-    return light_with(plan, store, *shader, raster, torches, copied_) +
-           light_with(plan, store, *shader, raster, torches, drawn_);
+int RasterPass::light(const Lit& lit) {
+    return light_with(lit, scene::raster_shader(), Contents::All, copied_) +
+           light_with(lit, scene::raster_shader(), Contents::All, drawn_);
 }
 
-int RasterPass::light_with(const scene::FramePlan& plan, const GpuStore& store, const Shader& shader,
-                           const Raster& raster, std::span<const TorchPicture> torches,
+int RasterPass::light_with(const Lit& lit, const scene::ShaderKey& key, Contents contents,
                            std::span<const PixelRectangle> rectangles) {
+    if (overlaid_.empty() || rectangles.empty()) {
+        return 0;
+    }
     int calls = 0;
-    shader.use();
     glBindVertexArray(no_attributes_.get());
-    const auto bind = [](unsigned unit, const gl::GlTexture& texture) {
-        glActiveTexture(GL_TEXTURE0 + unit);
-        glBindTexture(GL_TEXTURE_2D, texture.get());
-    };
-    bind(3, nearness_texels_);
-    bind(layer_unit, layer_texels_);
-    bind(0, colour_texels_);
-    for (const scene::TorchDraw& lit : plan.torch_draws) {
-        if (plan.draws[lit.draw].shader.pass == scene::ShaderKey::Pass::Raster &&
-            lit.torch < torches.size()) {
-            set_torch(shader, plan.torches[lit.torch], torches[lit.torch], store);
-            begin_blending(plan.torches[lit.torch]);
-            calls += light_rectangles(plan, lit, shader, raster, rectangles);
+    bind(3, nearness_texels_.get());
+    bind(layer_unit, layer_texels_.get());
+    bind(0, colour_texels_.get());
+    for (const scene::TorchDraw& draw : lit.plan.torch_draws) {
+        const scene::TorchLight& light = lit.plan.torches[draw.torch];
+        const Shader* const shader = lit.shaders.find(scene::torch_of(key, scene::parts_of(light.torch)));
+        if (lit.plan.draws[draw.draw].shader.pass == scene::ShaderKey::Pass::Raster && shader != nullptr &&
+            takes(contents, light)) {
+            shader->use();
+            set_torch(*shader, light, lit.torches[draw.torch], lit.store);
+            begin_blending(light);
+            calls += light_rectangles(lit.plan, draw, *shader, lit.raster, rectangles);
         }
     }
     end_blending();
     glBindVertexArray(0);
     return calls;
+}
+
+void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store) {
+    std::fill(nearness_.texels.begin(), nearness_.texels.end(), 0.0F);
+    list_reliefs(plan, store);
+    const PixelRectangle whole{.x = 0, .y = 0, .width = nearness_.width, .height = nearness_.height};
+    painter_->paint(seen_, 1, {}, nullptr,
+                    {.parts = {},
+                     .nearness = {.first = nearness_.texels.data(),
+                                  .width = nearness_.width,
+                                  .height = nearness_.height,
+                                  .stride = nearness_.width},
+                     .overlaid = std::span(&whole, 1)});
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
+    upload(depths(), std::span(&whole, 1), {});
 }
 
 std::uint64_t RasterPass::bytes() const {

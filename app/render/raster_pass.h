@@ -45,10 +45,12 @@ public:
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
     /// The plan's torches on what `show_in_depth` has drawn, and on what `show` has; each returns the number of draw calls.
-    int light_in_depth(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                       const Raster& raster, std::span<const TorchPicture> torches);
-    int light(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-              const Raster& raster, std::span<const TorchPicture> torches);
+    int light_in_depth(const Lit& lit, Contents contents);
+    int light(const Lit& lit);
+
+    /// In place of `paint`: the nearness alone, with one sample a pixel, of the whole picture. `nearness`: its texture.
+    void paint_nearness(const scene::FramePlan& plan, const GpuStore& store);
+    [[nodiscard]] unsigned nearness() const { return nearness_texels_.get(); }
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -69,8 +71,7 @@ private:
     void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);
-    int light_with(const scene::FramePlan& plan, const GpuStore& store, const Shader& shader,
-                   const Raster& raster, std::span<const TorchPicture> torches,
+    int light_with(const Lit& lit, const scene::ShaderKey& key, Contents contents,
                    std::span<const PixelRectangle> rectangles);
     /// A torch on a draw, in those of `rectangles` that it may light.
     int light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit, const Shader& shader,

@@ -59,7 +59,7 @@ Result<void> Renderer::prepare(const scene::RenderNeeds& needs) {
     const scene::RenderNeeds all = scene::united(needs_, needs);
     TRY_VOID(shaders_.prepare(scene::shaders_of(all), all.bent_by));
     TRY_VOID(raster_pass_.prepare(all, width_, height_));
-    if (all.torches) {
+    if (!all.torches.empty()) {
         TRY_VOID((torches_ ? *torches_ : torches_.emplace()).prepare(all));
     }
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
@@ -176,13 +176,8 @@ DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderT
     return result;
 }
 
-int Renderer::light_in_depth(const scene::FramePlan& plan, const Raster& raster,
-                             std::span<const TorchPicture> torches) {
-    if (torches.empty()) {
-        return 0;
-    }
-    return faces_.light(plan, store_, shaders_, raster, torches) +
-           raster_pass_.light_in_depth(plan, store_, shaders_, raster, torches);
+int Renderer::light_in_depth(const Lit& lit, Contents contents) {
+    return faces_.light(lit, contents) + raster_pass_.light_in_depth(lit, contents);
 }
 
 /// The larger picture comes first, so that a tiling GPU visits the display's framebuffer once. Codes are
@@ -213,7 +208,9 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, raster);
-        result.draw_calls += light_in_depth(plan, raster, torches);
+        if (!torches.empty()) {
+            result.draw_calls += light_in_depth({plan, store_, shaders_, raster, torches}, Contents::Layers);
+        }
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
@@ -233,15 +230,21 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, viewport, shaders_);
         glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+        if (!torches.empty()) {
+            result.draw_calls += torches_->light_samples({plan, store_, shaders_, direct, torches}, raster,
+                                                         sample_grid_->depths());
+        }
     } else if (meshes) {
         result.draw_calls += faces_.draw(plan, store_, shaders_, direct);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, direct);
-        result.draw_calls += light_in_depth(plan, direct, torches);
+        if (!torches.empty()) {
+            result.draw_calls += light_in_depth({plan, store_, shaders_, direct, torches}, Contents::All);
+        }
     }
     if (repaint.prop) {
         result.draw_calls += raster_pass_.show(plan, shaders_);
         if (!torches.empty()) {
-            result.draw_calls += raster_pass_.light(plan, store_, shaders_, direct, torches);
+            result.draw_calls += raster_pass_.light({plan, store_, shaders_, direct, torches});
         }
     }
     set_channels(glm::bvec3(true));

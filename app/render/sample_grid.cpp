@@ -58,19 +58,21 @@ Result<void> SampleGrid::make_target() {
     }
     framebuffer_ = gl::GlFramebuffer::generate();
     colour_ = gl::GlTexture::generate();
-    depth_stencil_ = gl::GlRenderbuffer::generate();
+    depth_stencil_ = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, colour_.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, size_.x, size_.y);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindRenderbuffer(GL_RENDERBUFFER, depth_stencil_.get());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size_.x, size_.y);
+    glBindTexture(GL_TEXTURE_2D, depth_stencil_.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH24_STENCIL8, size_.x, size_.y);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.get(), 0);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              depth_stencil_.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_stencil_.get(),
+                           0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration, "render.no_size_for_samples",
                     "render: the driver cannot hold {} x {} samples; use 1 sample a pixel", size_.x, size_.y);
@@ -84,7 +86,7 @@ Result<void> SampleGrid::make_target() {
 }
 
 std::uint64_t SampleGrid::bytes() const {
-    return bytes_of_texture(colour_) + bytes_of_renderbuffer(depth_stencil_);
+    return bytes_of_texture(colour_) + bytes_of_texture(depth_stencil_);
 }
 
 void SampleGrid::draw_tiles(const scene::LitTiles& tiles, const Shader& shader) const {

@@ -40,6 +40,9 @@ public:
     void average(const scene::LitTiles& tiles, const Raster& raster, const glm::ivec2& viewport,
                  const ShaderCache& shaders) const;
 
+    /// The texture of the larger picture's depth.
+    [[nodiscard]] unsigned depths() const { return depth_stencil_.get(); }
+
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -52,7 +55,7 @@ private:
     glm::ivec2 largest_viewport_{0, 0};
     gl::GlFramebuffer framebuffer_;
     gl::GlTexture colour_;
-    gl::GlRenderbuffer depth_stencil_;
+    gl::GlTexture depth_stencil_;
     gl::GlVertexArray no_attributes_;
 };
 

@@ -33,7 +33,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "depth_from_nearness",
     "beam",
     "fall",
-    "depth_of_inverse_z",
+    "inverse_z",
     "content_kind",
     "stage_kind",
     "stage_colour",
@@ -46,8 +46,8 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "edges"};
 
 /// In the order of the texture units that they read (GpuStore::Texture, GpuStore::Blocks, RasterPass, torch_uniforms.h).
-constexpr std::array<const char*, 8> sampler_names{"image",  "blocks",  "covers", "nearness",
-                                                   "shadow", "content", "layer",  "seen_by_torch"};
+constexpr std::array<const char*, 9> sampler_names{"image",   "blocks", "covers",        "nearness", "shadow",
+                                                   "content", "layer",  "seen_by_torch", "depths"};
 
 /// The lens is constant during a program's lifetime, so its uniforms are set once.
 void set_lens(GLuint program, const geometry::Pinhole& pinhole) {

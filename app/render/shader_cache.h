@@ -42,7 +42,7 @@ enum class Uniform : std::size_t {
     // Of torches (torch_shader.h):
     Beam,
     Fall,
-    DepthOfInverseZ,
+    InverseZ,
     ContentKind,
     StageKind,
     StageColour,

@@ -309,12 +309,13 @@ std::string defines_of(const scene::ShaderKey& key) {
     define(key.blocks, "BLOCKS");
     define(key.coloured, "COLOURED");
     define(key.torch, "TORCH");
+    defines += key.torch ? fmt::format("#define CONTENT_PARTS {}\n", static_cast<int>(key.content)) : "";
     define(key.pass == scene::ShaderKey::Pass::RasterInDepth, "IN_DEPTH");
     return defines;
 }
 
-std::string torch_on_raster() {
-    return fmt::format("{}{}{}", unbent_fragment, torch_light, torch_raster);
+std::string by_nearness(std::string_view main) {
+    return fmt::format("{}{}{}{}", unbent_fragment, torch_light, torch_nearness, main);
 }
 
 } // namespace
@@ -341,13 +342,15 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
                                         surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
         if (key.torch) {
-            return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles, torch_on_raster()};
+            return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles, by_nearness(torch_raster)};
         }
         return {tiles_defines, tiles, std::string(rasterize_fragment)};
     case scene::ShaderKey::Pass::RasterInDepth:
         return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles,
-                key.torch ? torch_on_raster()
+                key.torch ? by_nearness(torch_raster)
                           : fmt::format("{}{}", unbent_fragment, rasterize_in_depth_fragment)};
+    case scene::ShaderKey::Pass::TorchOnSamples:
+        return {defines, quad(outline_vertex), by_nearness(torch_on_samples)};
     case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case scene::ShaderKey::Pass::TablePicture:

@@ -24,7 +24,7 @@ gl::GlTexture make_texture(GLenum format, GLint filter) {
 } // namespace
 
 Result<void> TorchPass::prepare(const scene::RenderNeeds& needs) {
-    if (!needs.torches) {
+    if (needs.torches.empty()) {
         return {};
     }
     scene::RenderNeeds own = needs;
@@ -59,32 +59,90 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
     pictures_.clear();
     int calls = 0;
     for (std::size_t k = 0; k < plan.torches.size() && k < targets_.size(); ++k) {
+        const scene::TorchLight& light = plan.torches[k];
+        const scene::FramePlan& view = plan.torch_views[k];
         const Target& target = targets_[k];
-        pictures_.push_back({.depth = target.depth.get(), .colour = target.colour.get()});
-        if (!plan.torches[k].torch.casts_shadows) {
+        TorchPicture& picture = pictures_.emplace_back();
+        picture = {.shadow = target.depth.get(),
+                   .colour = target.colour.get(),
+                   .inverse_z = light.inverse_z_of_depth};
+        if (!light.torch.casts_shadows) {
             continue;
         }
-        const scene::FramePlan& view = plan.torch_views[k];
-        const bool colours = shows_own_view(plan.torches[k]);
-        rasters_.paint(view, store, RasterPass::Depth::Everywhere);
-        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-        constexpr Raster whole{};
-        set_viewport({scene::torch_picture_px, scene::torch_picture_px}, whole);
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
-        set_channels(glm::bvec3(colours));
-        glDepthMask(GL_TRUE);
-        glStencilMask(0xFF);
-        glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
-        glClearDepthf(1.0F);
-        glClearStencil(0);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-        const scene::EyePicture shown = view.picture;
-        static_cast<void>(shown);
-        calls += faces_.draw(view, store, shaders, whole);
-        calls += rasters_.show_in_depth(view, shaders, whole);
+        // One torch's nearness is drawn from before the next torch's is painted only if there is one.
+        if (plan.torches.size() == 1 && view.relief_draw_count > 0 && !FacePass::draws(view) &&
+            !shows_own_view(light)) {
+            rasters_.paint_nearness(view, store);
+            picture.shadow = rasters_.nearness();
+            picture.inverse_z = light.inverse_z_of_nearness;
+        } else {
+            calls += draw_view(view, target, store, shaders, shows_own_view(light));
+        }
     }
     set_channels(glm::bvec3(true));
+    return calls;
+}
+
+int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
+                         const ShaderCache& shaders, bool colours) {
+    constexpr Raster whole{};
+    if (view.relief_draw_count > 0) {
+        rasters_.paint(view, store, RasterPass::Depth::Everywhere);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+    set_viewport({scene::torch_picture_px, scene::torch_picture_px}, whole);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    set_channels(glm::bvec3(colours));
+    glDepthMask(GL_TRUE);
+    glStencilMask(0xFF);
+    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClearDepthf(1.0F);
+    glClearStencil(0);
+    glClear((colours ? GL_COLOR_BUFFER_BIT : 0U) | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    const int calls = faces_.draw(view, store, shaders, whole);
+    return calls + (view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0);
+}
+
+int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const {
+    const scene::FramePlan& plan = lit.plan;
+    int calls = 0;
+    glBindVertexArray(no_attributes_.get());
+    glEnable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    bind(depths_unit, depths);
+    for (std::size_t torch = 0; torch < lit.torches.size(); ++torch) {
+        const scene::TorchLight& light = plan.torches[torch];
+        const Shader* const shader = lit.shaders.find(
+            scene::torch_of({scene::ShaderKey::Pass::TorchOnSamples}, scene::parts_of(light.torch)));
+        if (shader == nullptr || takes(Contents::Layers, light)) {
+            continue;
+        }
+        shader->use();
+        set_torch(*shader, light, lit.torches[torch], lit.store);
+        begin_blending(light);
+        for (std::size_t face = 0; face < plan.faces.size(); ++face) {
+            PixelRectangle bounds;
+            const scene::Draw* on_face = nullptr;
+            for (const scene::TorchDraw& each : plan.torch_draws) {
+                const scene::Draw& draw = plan.draws[each.draw];
+                if (each.torch == torch && draw.face == static_cast<int>(face)) {
+                    bounds = united(bounds, each.bounds);
+                    on_face = &draw;
+                }
+            }
+            if (on_face != nullptr) {
+                set_lit_face(*shader, plan, *on_face, lit.raster);
+                set_nearness(*shader, plan, light, on_face->face,
+                             {averaged.fragments, averaged.corner - lit.raster.corner});
+                set_scissor(bounds, lit.raster);
+                calls += draw_outline(plan.faces[face].corners_clip, *shader);
+            }
+        }
+    }
+    end_blending();
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
     return calls;
 }
 

@@ -28,6 +28,10 @@ public:
     /// One for each of the plan's torches, since `see`.
     [[nodiscard]] std::span<const TorchPicture> pictures() const { return pictures_; }
 
+    /// The plan's torches, but for layers, on samples that were averaged into the bound framebuffer, by the depth of each.
+    /// `averaged`: how they lie in the larger picture, whose depth is the texture `depths`. Returns the number of draw calls.
+    int light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const;
+
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -37,11 +41,15 @@ private:
         gl::GlTexture depth, colour;
     };
     [[nodiscard]] Result<void> make_targets();
+    /// Draws all that the torch sees, with its colours or without. Returns the number of draw calls.
+    int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
+                  const ShaderCache& shaders, bool colours);
 
     std::vector<Target> targets_; ///< empty: there are no torches
     std::vector<TorchPicture> pictures_;
     FacePass faces_;
     RasterPass rasters_;
+    gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 
 } // namespace frustumscreen::render

@@ -20,8 +20,8 @@ inline constexpr std::string_view torch_light = R"(
 #define MAX_STAGES 3
 uniform vec4 beam;               // x / z and y / z times xy: -1..1; reach; 1: round
 uniform vec4 fall;               // kind of attenuation; way up to which it is full; 1 / (dark - full); brightness
-uniform highp vec3 depth_of_inverse_z; // factor, offset; nearer by this share of z: does not shade itself. 0: no shadows
-uniform ivec2 content_kind;      // number of stages; 1: over
+uniform highp vec3 inverse_z;    // of a texel of `shadow`: factor, offset; share of z by which nothing shades itself, 0: no shadows
+uniform int content_kind;        // number of stages
 uniform ivec2 stage_kind[MAX_STAGES];  // source, mix
 uniform vec4 stage_colour[MAX_STAGES]; // opacity in a
 uniform vec3 stage_size[MAX_STAGES];   // size, width, magnification
@@ -50,61 +50,88 @@ float intensity_at(float way) {
 }
 
 bool is_shaded(vec2 place, float z) {
-    if (depth_of_inverse_z.z <= 0.0) {
+    if (inverse_z.z <= 0.0) {
         return false;
     }
     ivec2 size = textureSize(shadow, 0);
     ivec2 low = clamp(ivec2(floor(place * vec2(size) - 0.5)), ivec2(0), size - 2);
-    float farthest = max(max(texelFetch(shadow, low, 0).r, texelFetch(shadow, low + ivec2(1, 0), 0).r),
-                         max(texelFetch(shadow, low + ivec2(0, 1), 0).r, texelFetch(shadow, low + ivec2(1, 1), 0).r));
-    return depth_of_inverse_z.x / (z * (1.0 - depth_of_inverse_z.z)) + depth_of_inverse_z.y > farthest;
+    vec4 seen = vec4(texelFetch(shadow, low, 0).r, texelFetch(shadow, low + ivec2(1, 0), 0).r,
+                     texelFetch(shadow, low + ivec2(0, 1), 0).r, texelFetch(shadow, low + ivec2(1, 1), 0).r);
+    seen = seen * inverse_z.x + inverse_z.y;
+    return z * min(min(seen.x, seen.y), min(seen.z, seen.w)) * (1.0 - inverse_z.z) > 1.0;
 }
 
+bool is_lit(vec3 p) {
+    vec2 at = p.xy / p.z * beam.xy;
+    bool in_shape = beam.w > 0.5 ? dot(at, at) <= 1.0 : max(abs(at.x), abs(at.y)) <= 1.0;
+    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && in_shape && !is_shaded(0.5 * at + 0.5, p.z);
+}
+
+#if CONTENT_PARTS & 4
 // The share of a pixel that a line covers: `away` from its middle, `across` its width, `pixel` the pixel's.
 float covered(float away, float across, float pixel) {
     return clamp((0.5 * across - away) / pixel + 0.5, 0.0, 1.0) * min(1.0, max(across / pixel, 0.25));
 }
 float from_line(float at, float every) { return abs(fract(at / every + 0.5) - 0.5) * every; }
 
-vec4 ruler(vec2 at_mm, float pixel_mm) {
+float ruler(vec2 at_mm, float pixel_mm) {
     float mark = abs(at_mm.x) + 0.5;
     float count = floor(mark);
-    float half_mm = mod(count, 10.0) < 0.5 ? 5.0 : mod(count, 5.0) < 0.5 ? 3.5 : 2.0;
-    float across = max(0.2, pixel_mm);
-    float marks = at_mm.y <= 0.0 && at_mm.y >= -2.0 * half_mm ? covered(abs(fract(mark) - 0.5), 0.2, pixel_mm) : 0.0;
-    return vec4(1.0, 1.0, 1.0, max(marks, covered(abs(at_mm.y), across, pixel_mm)));
+    float length_mm = mod(count, 10.0) < 0.5 ? 10.0 : mod(count, 5.0) < 0.5 ? 7.0 : 4.0;
+    float marks = at_mm.y <= 0.0 && at_mm.y >= -length_mm ? covered(abs(fract(mark) - 0.5), 0.2, pixel_mm) : 0.0;
+    return max(marks, covered(abs(at_mm.y), max(0.2, pixel_mm), pixel_mm));
 }
+
+float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
+    if (source == 4) {
+        return covered(abs(length(from_middle) - 0.5 * size.x), size.y, pixel);
+    }
+    if (source == 5) {
+        return max(covered(from_line(from_middle.x, size.x), size.y, pixel),
+                   covered(from_line(from_middle.y, size.x), size.y, pixel));
+    }
+    return source == 6 ? ruler(1000.0 * p.xy, 2000.0 * p.z * pixel / beam.x) : 1.0;
+}
+#endif
 
 // `dx`, `dy`: of `place`.
 vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
+    vec4 colour = vec4(1.0);
+#if CONTENT_PARTS & 15
+    int source = stage_kind[k].x;
     vec2 at = stage_from_content[k] * vec3(place, 1.0);
     vec2 from_middle = (at - 0.5) * vec2(1.0, height_per_width);
-    vec3 size = stage_size[k];
     float pixel = max(length(dx), length(dy));
-    vec4 colour = vec4(1.0);
-    int source = stage_kind[k].x;
+#endif
+#if CONTENT_PARTS & 1
     if (source == 1 || source == 2) {
         colour = textureGrad(content, at - floor(at), dx, dy);
         colour.rgb /= max(colour.a, 1e-3); // stored over black
-    } else if (source == 3) {
-        colour.rgb = layer;
-    } else if (source == 4) {
-        colour.a = covered(abs(length(from_middle) - 0.5 * size.x), size.y, pixel);
-    } else if (source == 5) {
-        vec2 away = vec2(from_line(from_middle.x, size.x), from_line(from_middle.y, size.x));
-        colour.a = max(covered(away.x, size.y, pixel), covered(away.y, size.y, pixel));
-    } else if (source == 6) {
-        colour = ruler(1000.0 * p.xy, 1000.0 * p.z * 2.0 * pixel / beam.x);
-    } else if (source == 7) {
-        colour.a = clamp((0.5 * size.x - length(from_middle)) / pixel + 0.5, 0.0, 1.0);
-        colour.rgb = decoded(textureLod(seen_by_torch, 0.5 + (place - 0.5) / size.z, 0.0).rgb);
     }
+#endif
+#if CONTENT_PARTS & 2
+    if (source == 3) {
+        colour.rgb = layer;
+    }
+#endif
+#if CONTENT_PARTS & 4
+    if (source >= 4 && source <= 6) {
+        colour.a = effect(source, from_middle, stage_size[k], pixel, p);
+    }
+#endif
+#if CONTENT_PARTS & 8
+    if (source == 7) {
+        colour.a = clamp((0.5 * stage_size[k].x - length(from_middle)) / pixel + 0.5, 0.0, 1.0);
+        colour.rgb = decoded(textureLod(seen_by_torch, 0.5 + (place - 0.5) / stage_size[k].z, 0.0).rgb);
+    }
+#endif
     return colour * stage_colour[k];
 }
 
 vec4 content_at(vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
     vec4 sum = stage(0, place, dx, dy, p, layer);
-    for (int k = 1; k < content_kind.x; ++k) {
+#if CONTENT_PARTS & 16
+    for (int k = 1; k < content_kind; ++k) {
         vec4 next = stage(k, place, dx, dy, p, layer);
         int how = stage_kind[k].y;
         if (how == 0) {
@@ -117,9 +144,11 @@ vec4 content_at(vec2 place, vec2 dx, vec2 dy, vec3 p, vec3 layer) {
             sum = vec4((sum.rgb * sum.a + next.rgb * next.a) / max(a, 1e-4), a);
         }
     }
+#endif
     return sum;
 }
 
+#if CONTENT_PARTS & 32
 // The factor of the surface's own colours on this face.
 vec3 surface_gain() {
     vec3 ray = vec3(unbent(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
@@ -131,20 +160,23 @@ vec3 surface_gain() {
 #endif
     return brightness * min(face_gain.y, gain);
 }
+#endif
 
-void light(vec3 p, vec3 layer) {
-    vec2 at = p.xy / p.z * beam.xy;
-    vec2 place = 0.5 * at + 0.5;
+// `share`: of the pixel that is lit.
+void light(vec3 p, vec3 layer, float share) {
+    vec2 place = 0.5 * (p.xy / p.z * beam.xy) + 0.5;
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float way = length(p);
-    bool in_shape = beam.w > 0.5 ? dot(at, at) <= 1.0 : max(abs(at.x), abs(at.y)) <= 1.0;
-    if (p.z <= 0.0 || way > beam.z || !in_shape || is_shaded(place, p.z)) {
+    if (share <= 0.0) {
         discard;
     }
     vec4 colour = content_at(place, dx, dy, p, layer);
-    float share = colour.a * fall.w * intensity_at(way);
-    result = content_kind.y == 1 ? vec4(colour.rgb * surface_gain(), share) : vec4(colour.rgb * share, 1.0);
+    share *= colour.a * fall.w * intensity_at(length(p));
+#if CONTENT_PARTS & 32
+    result = vec4(colour.rgb * surface_gain(), share);
+#else
+    result = vec4(colour.rgb * share, 1.0);
+#endif
 }
 )";
 
@@ -153,7 +185,12 @@ inline constexpr std::string_view torch_surface = R"(
 in vec3 point; // torch's frame
 in vec2 texel;
 uniform sampler2D image;
+#if CONTENT_PARTS & 2
 uniform sampler2D layer;
+vec3 layer_at_texel() { return decoded(texture(layer, texel).rgb); }
+#else
+vec3 layer_at_texel() { return vec3(0.0); }
+#endif
 void main() {
     if (is_other_draws() || is_beside_cover()) {
         discard;
@@ -163,44 +200,75 @@ void main() {
         discard;
     }
 #endif
-    light(point, decoded(texture(layer, texel).rgb));
+    light(point, layer_at_texel(), is_lit(point) ? 1.0 : 0.0);
 }
 )";
 
-/// That of a relief that was rasterized on the processor, by the nearness of each pixel (relief/nearness_row.h).
-inline constexpr std::string_view torch_raster = R"(
-uniform sampler2D image; // alpha: the share of the samples with a hit
-uniform sampler2D layer; // other colours of the same hits
-uniform highp sampler2D nearness;
-uniform ivec4 raster;             // fragments along a pixel's sides, the texel of the framebuffer's corner
+/// The fragment stages that find a place by its nearness (relief/nearness_row.h).
+inline constexpr std::string_view torch_nearness = R"(
 uniform mat4 torch_from_projector;
 uniform vec3 eye;                 // torch's frame
-uniform int edge_count;
-uniform vec3 edges[15];           // of the face: a ray is inside
-#ifdef IN_DEPTH
 uniform vec4 depth_from_nearness; // of the face: times ray and nearness, and added
+uniform ivec4 raster;             // fragments along a pixel's sides, the pixel at the corner
+vec3 ray_at(vec2 fragment) { return vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0); }
+vec3 place_of(vec3 on_face, float near) { return eye + (on_face - eye) / near; }
+vec3 on_face_at(vec3 ray) { return (torch_from_projector * vec4(ray / dot(inverse_depth, ray), 1.0)).xyz; }
+)";
+
+/// Of a relief that was rasterized on the processor.
+inline constexpr std::string_view torch_raster = R"(
+uniform sampler2D image; // alpha: the share of the samples with a hit
+uniform highp sampler2D nearness;
+uniform int edge_count;
+uniform vec3 edges[15];  // of the face: a ray is inside
+#if CONTENT_PARTS & 2
+uniform sampler2D layer; // other colours of the same hits
+vec3 layer_at(ivec2 at) { return decoded(texelFetch(layer, at, 0).rgb); }
+#else
+vec3 layer_at(ivec2 at) { return vec3(0.0); }
 #endif
 void main() {
     ivec2 fragment = ivec2(gl_FragCoord.xy);
     ivec2 at = fragment / raster.xy + raster.zw;
     float near = texelFetch(nearness, at, 0).r;
-    vec3 ray = vec3(unbent(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+    vec3 ray = ray_at(gl_FragCoord.xy);
     bool inside = near > 0.0;
     for (int k = 0; k < edge_count; ++k) {
         inside = inside && dot(edges[k], ray) >= 0.0;
     }
-    if (!inside) {
-        discard;
-    }
+    vec3 p = place_of(on_face_at(ray), near > 0.0 ? near : 1.0);
 #ifdef IN_DEPTH
     ivec2 in_pixel = fragment % raster.xy;
-    if (float(in_pixel.y * raster.x + in_pixel.x) + 0.5 > texelFetch(image, at, 0).a * float(raster.x * raster.y)) {
-        discard;
-    }
+    inside = inside && float(in_pixel.y * raster.x + in_pixel.x) + 0.5 <=
+                           texelFetch(image, at, 0).a * float(raster.x * raster.y);
     gl_FragDepth = 0.5 * (dot(depth_from_nearness.xyz, ray) * near + depth_from_nearness.w) + 0.5 - 1e-6;
 #endif
-    vec3 on_face = (torch_from_projector * vec4(ray / dot(inverse_depth, ray), 1.0)).xyz;
-    light(eye + (on_face - eye) / near, decoded(texelFetch(layer, at, 0).rgb));
+    light(p, layer_at(at), inside && is_lit(p) ? 1.0 : 0.0);
+}
+)";
+
+/// Of samples that were averaged: each sample's place, by its depth, is lit or not.
+inline constexpr std::string_view torch_on_samples = R"(
+uniform highp sampler2D depths; // of the larger picture
+void main() {
+    vec3 ray = ray_at(gl_FragCoord.xy);
+    vec3 on_face = on_face_at(ray);
+    float from_depth = 2.0 / dot(depth_from_nearness.xyz, ray);
+    float offset = -(0.5 * depth_from_nearness.w + 0.5) * from_depth;
+    ivec2 first = (ivec2(gl_FragCoord.xy) - raster.zw) * raster.xy;
+    vec3 sum = vec3(0.0);
+    float lit = 0.0;
+    for (int y = 0; y < raster.y; ++y) {
+        for (int x = 0; x < raster.x; ++x) {
+            float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
+            vec3 p = place_of(on_face, depth * from_depth + offset);
+            if (depth < 1.0 && is_lit(p)) {
+                sum += p;
+                lit += 1.0;
+            }
+        }
+    }
+    light(lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0), vec3(0.0), lit / float(raster.x * raster.y));
 }
 )";
 

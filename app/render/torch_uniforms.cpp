@@ -11,13 +11,7 @@ namespace frustumscreen::render {
 
 namespace {
 
-void bind(unsigned unit, unsigned texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glActiveTexture(GL_TEXTURE0);
-}
-
-void set_beam(const Shader& shader, const scene::TorchLight& light) {
+void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::vec2& inverse_z) {
     const torch::Beam& beam = light.torch.beam;
     glUniform4f(shader.location(Uniform::Beam), light.per_half_extent.x, light.per_half_extent.y,
                 light.reach_m, beam.shape == torch::Shape::Round ? 1.0F : 0.0F);
@@ -27,8 +21,8 @@ void set_beam(const Shader& shader, const scene::TorchLight& light) {
     // Half a pixel of the torch's picture: the depth of a surface that bends within a pixel.
     const glm::dvec2 extent = torch::half_extent(beam);
     const double nearer = std::min({extent.x, extent.y, 1.0}) / scene::torch_picture_px;
-    glUniform3f(shader.location(Uniform::DepthOfInverseZ), light.depth_of_inverse_z.x,
-                light.depth_of_inverse_z.y, light.torch.casts_shadows ? static_cast<float>(nearer) : 0.0F);
+    glUniform3f(shader.location(Uniform::InverseZ), inverse_z.x, inverse_z.y,
+                light.torch.casts_shadows ? static_cast<float>(nearer) : 0.0F);
 }
 
 void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
@@ -44,8 +38,7 @@ void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
         size[k] = {stage.size, stage.width, stage.magnification};
         frame[k] = torch.stages_at[k].stage_from_content;
     }
-    glUniform2i(shader.location(Uniform::ContentKind), static_cast<GLint>(torch.stage_count),
-                torch.blend == torch::Blend::Over ? 1 : 0);
+    glUniform1i(shader.location(Uniform::ContentKind), static_cast<GLint>(torch.stage_count));
     glUniform2iv(shader.location(Uniform::StageKind), count, glm::value_ptr(kind[0]));
     glUniform4fv(shader.location(Uniform::StageColour), count, glm::value_ptr(colour[0]));
     glUniform3fv(shader.location(Uniform::StageSize), count, glm::value_ptr(size[0]));
@@ -55,12 +48,22 @@ void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
 
 } // namespace
 
+bool takes(Contents contents, const scene::TorchLight& light) {
+    return contents == Contents::All || (scene::parts_of(light.torch) & torch::LayerPart) != 0;
+}
+
+void bind(unsigned unit, unsigned texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glActiveTexture(GL_TEXTURE0);
+}
+
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
                const GpuStore& store) {
-    set_beam(shader, light);
+    set_beam(shader, light, picture.inverse_z);
     set_stages(shader, light.torch);
     const GpuStore::Texture* const content = store.find(light.torch.picture);
-    bind(shadow_unit, picture.depth);
+    bind(shadow_unit, picture.shadow);
     bind(content_unit, content != nullptr ? content->texels.get() : 0);
     bind(seen_unit, shows_own_view(light) ? picture.colour : 0);
 }
@@ -76,6 +79,16 @@ void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scen
     glUniform4f(shader.location(Uniform::FaceGain), even ? light.per_cubic_metre : 1e30F,
                 even ? light.most : 1.0F, 0.0F, 0.0F);
     glUniform3fv(shader.location(Uniform::Brightness), 1, glm::value_ptr(brightness));
+}
+
+void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scene::TorchLight& light,
+                  int face, const glm::ivec4& raster) {
+    const glm::vec4& depth = plan.faces[static_cast<std::size_t>(face)].depth_from_nearness;
+    glUniformMatrix4fv(shader.location(Uniform::TorchFromProjector), 1, GL_FALSE,
+                       glm::value_ptr(light.torch_from_projector));
+    glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(light.eye));
+    glUniform4fv(shader.location(Uniform::DepthFromNearness), 1, glm::value_ptr(depth));
+    glUniform4i(shader.location(Uniform::Raster), raster.x, raster.y, raster.z, raster.w);
 }
 
 scene::TextureId layer_of(const scene::TorchLight& light, const scene::Drawable& drawable) {

@@ -8,18 +8,37 @@
 #include "app/render/shader_cache.h"
 #include "app/scene/frame_plan.h"
 
+#include <span>
+
 namespace frustumscreen::render {
 
 /// What a torch sees, as textures; 0: none.
 struct TorchPicture {
-    unsigned depth = 0, colour = 0;
+    unsigned shadow = 0, colour = 0;
+    glm::vec2 inverse_z{0.0F}; ///< of a texel of `shadow`: factor, offset
 };
 
+/// What is lit: a plan that has been drawn, and what its torches see.
+struct Lit {
+    const scene::FramePlan& plan;
+    const GpuStore& store;
+    const ShaderCache& shaders;
+    const Raster& raster;
+    std::span<const TorchPicture> torches; ///< one for each of the plan's
+};
+enum class Contents { All, Layers };
+/// True if the torch's content is among `contents`.
+[[nodiscard]] bool takes(Contents contents, const scene::TorchLight& light);
+void bind(unsigned unit, unsigned texture);
+
 /// Texture units of torch_shader.h.
-inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7;
+inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8;
 
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
                const GpuStore& store);
+/// Of a face and how its places are found by nearness.
+void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scene::TorchLight& light,
+                  int face, const glm::ivec4& raster);
 /// Of a draw on its face.
 void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
                   const Raster& raster);

@@ -182,8 +182,8 @@ struct TorchLight {
     glm::mat4 torch_from_projector{1.0F};
     glm::vec3 eye{0.0F}; ///< torch's frame: the first eye, for reliefs that are rasterized on the processor
     glm::vec2 per_half_extent{1.0F}; ///< x / z times this is -1..1 in the content
-    glm::vec2 depth_of_inverse_z{
-        0.0F}; ///< factor of 1 / z, and offset: depth 0..1 in the torch's own picture
+    /// In the torch's own picture 1 / z is x times the depth, 0..1, and y; or of a relief's nearness (relief/nearness_row.h).
+    glm::vec2 inverse_z_of_depth{0.0F}, inverse_z_of_nearness{0.0F};
     float reach_m = 0.0F;
     PlacedTorch torch;
 };
@@ -191,7 +191,7 @@ struct TorchLight {
 struct TorchDraw {
     std::size_t draw = 0, torch = 0; ///< indices into FramePlan::draws, FramePlan::torches
     PixelRectangle bounds;           ///< contains every pixel that it lights
-    IndexRange range;                ///< of a mesh: the triangles that meet the beam
+    IndexRange range;                ///< of a mesh that shows a layer: the triangles that meet the beam
 };
 /// Pixels along each side of the torch's own picture, in which its shadows are found.
 inline constexpr int torch_picture_px = 512;

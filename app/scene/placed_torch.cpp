@@ -1,8 +1,13 @@
 #include "app/scene/placed_torch.h"
 
 #include <algorithm>
+#include <span>
 
 namespace frustumscreen::scene {
+
+std::uint8_t parts_of(const PlacedTorch& torch) {
+    return torch::parts_of(std::span(torch.stages).first(torch.stage_count), torch.blend);
+}
 
 PlacedTorch placed(const torch::Content& content, const torch::Beam& beam,
                    const geometry::RigidTransform& table_from_torch, double seconds) {

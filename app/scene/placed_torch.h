@@ -29,6 +29,9 @@ struct PlacedTorch {
     bool casts_shadows = true;           ///< false only to measure their cost
 };
 
+/// What drawing its content takes (torch::ContentPart).
+[[nodiscard]] std::uint8_t parts_of(const PlacedTorch& torch);
+
 /// The content at a time, placed.
 [[nodiscard]] PlacedTorch placed(const torch::Content& content, const torch::Beam& beam,
                                  const geometry::RigidTransform& table_from_torch, double seconds);

@@ -1,6 +1,6 @@
 #include "app/scene/shader_key.h"
 
-#include "app/scene/torch_plan.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
@@ -29,7 +29,7 @@ std::string name_of(const ShaderKey& key) {
     if (key.torch) {
         ShaderKey lit = key;
         lit.torch = false;
-        return "torch on: " + name_of(lit);
+        return fmt::format("torch ({}) on the {}", static_cast<int>(key.content), name_of(lit));
     }
     switch (key.pass) {
     case ShaderKey::Pass::Outline:
@@ -50,15 +50,17 @@ std::string name_of(const ShaderKey& key) {
         return "averaging of many samples";
     case ShaderKey::Pass::RasterInDepth:
         return "cast relief among polygons";
+    case ShaderKey::Pass::TorchOnSamples:
+        return "averaged samples";
     }
     return {};
 }
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 7U | bit(key.torch, 6) | bit(key.coloured, 5) |
-           bit(key.blocks, 4) | bit(key.places, 3) | bit(key.cut_out, 2) | bit(key.dithered, 1) |
-           bit(key.even_light, 0);
+    return static_cast<std::uint32_t>(key.pass) << 13U | static_cast<std::uint32_t>(key.content) << 7U |
+           bit(key.torch, 6) | bit(key.coloured, 5) | bit(key.blocks, 4) | bit(key.places, 3) |
+           bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
 }
 
 ShaderKey places_of(ShaderKey key) {
@@ -86,7 +88,8 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
         both.outline = united(*a.outline, *b.outline);
     }
     both.interlocks = a.interlocks || b.interlocks;
-    both.torches = a.torches || b.torches;
+    both.torches = a.torches;
+    both.torches.insert(b.torches.begin(), b.torches.end());
     both.bent_by = b.bent_by ? b.bent_by : a.bent_by;
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
@@ -104,29 +107,51 @@ RenderNeeds with_cells(RenderNeeds needs) {
     return needs;
 }
 
-RenderNeeds with_torches(RenderNeeds needs) {
-    needs.torches = true;
+RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content) {
+    needs.torches.insert(content);
     return needs;
 }
+
+ShaderKey torch_of(ShaderKey key, std::uint8_t content) {
+    key.torch = true;
+    key.coloured = false;
+    key.even_light = false;
+    key.content = content & 63U;
+    return key;
+}
+
+namespace {
+
+/// What torches draw: their own pictures, and their light on each kind of draw.
+void add_torches(const RenderNeeds& needs, std::set<ShaderKey>& shaders) {
+    std::set<ShaderKey> lit{{ShaderKey::Pass::TorchOnSamples}};
+    for (const ShaderKey& key : shaders) {
+        if (key.pass == ShaderKey::Pass::Surface || key.pass == ShaderKey::Pass::Raster ||
+            key.pass == ShaderKey::Pass::RasterInDepth) {
+            lit.insert(key);
+        }
+    }
+    for (ShaderKey key : lit) {
+        for (const std::uint8_t content : needs.torches) {
+            shaders.insert(torch_of(key, content));
+        }
+        if (key.pass == ShaderKey::Pass::Surface) {
+            key.even_light = key.dithered = key.coloured = false;
+            shaders.insert(key); // of their own pictures
+        }
+    }
+}
+
+} // namespace
 
 std::set<ShaderKey> shaders_of(const RenderNeeds& needs) {
     std::set<ShaderKey> shaders = needs.draws;
     shaders.insert({ShaderKey::Pass::Outline});
-    // A torch's own picture holds reliefs by their depth.
-    if (needs.interlocks || (needs.torches && needs.rasterizes)) {
+    if (needs.interlocks || (!needs.torches.empty() && needs.rasterizes)) {
         shaders.insert({ShaderKey::Pass::RasterInDepth});
     }
-    if (needs.torches) {
-        for (const ShaderKey& key : std::set<ShaderKey>(shaders)) {
-            if (key.pass == ShaderKey::Pass::Surface) {
-                ShaderKey depth = key; // of the torch's own picture
-                depth.even_light = depth.dithered = depth.coloured = false;
-                shaders.insert({depth, torch_of(key)});
-            }
-            if (key.pass == ShaderKey::Pass::Raster || key.pass == ShaderKey::Pass::RasterInDepth) {
-                shaders.insert(torch_of(key));
-            }
-        }
+    if (!needs.torches.empty()) {
+        add_torches(needs, shaders);
     }
     if (needs.samples > 1) {
         shaders.insert({ShaderKey::Pass::TileClear});

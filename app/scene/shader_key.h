@@ -26,6 +26,7 @@ struct ShaderKey {
         TileAverage,     ///< averages these samples, up to 2 x 2 a pixel
         TileAverageMany, ///< averages more samples than that
         RasterInDepth,   ///< shows such a relief behind and before what the GPU draws
+        TorchOnSamples,  ///< a torch on the averaged samples, by their depth
     };
     Pass pass = Pass::Surface;
     // For Surface only:
@@ -35,8 +36,9 @@ struct ShaderKey {
     bool even_light : 1 = false; ///< evens out the projector's light
     bool blocks : 1 = false;     ///< draws a relief's blocks, which leave out no texels
     bool coloured : 1 = false;   ///< multiplies its colours by the draw's light
-    // For Surface, Raster and RasterInDepth:
-    bool torch : 1 = false; ///< outputs a torch's light on what was drawn, to be blended
+    // For Surface, Raster, RasterInDepth and TorchOnSamples:
+    bool torch : 1 = false;        ///< outputs a torch's light on what was drawn, to be blended
+    std::uint8_t content : 6 = 0U; ///< torch::ContentPart, bits
 
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };
@@ -56,7 +58,8 @@ struct RenderNeeds {
     std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
     bool rasterizes = false;   ///< a plan may rasterize reliefs into memory, all into one picture
     bool interlocks = false;   ///< such a relief may hide, or be hidden by, what the GPU draws
-    bool torches = false;      ///< a plan may have torches
+    std::set<std::uint8_t>
+        torches{}; ///< the contents of a plan's torches, by torch::ContentPart; empty: it has none
     /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<geometry::Pinhole> bent_by =
@@ -67,8 +70,10 @@ struct RenderNeeds {
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// What a world of cells needs of a renderer beyond its artifact: a light for each, and depth between relief and polygons.
 [[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
-/// What torches need beyond what they light.
-[[nodiscard]] RenderNeeds with_torches(RenderNeeds needs);
+/// What a torch with such a content needs beyond what it lights (torch::parts_of).
+[[nodiscard]] RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content);
+/// Shows again, in a torch's light, what `key` has shown.
+[[nodiscard]] ShaderKey torch_of(ShaderKey key, std::uint8_t content);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
 

@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <tuple>
+#include <utility>
 
 namespace frustumscreen::scene {
 
@@ -129,9 +130,10 @@ bool casts(const Part& part) {
     return !part.dither || (part.dither->complement ? 1.0F - part.dither->share : part.dither->share) >= 0.5F;
 }
 
-/// Plans what the torch sees; returns the depth of 1 / z in its picture.
-glm::vec2 plan_torch_view(std::span<const Part> parts, const PlanView& view, const PlacedTorch& torch,
-                          const geometry::Box& box, FramePlan& plan) {
+/// Plans what the torch sees; returns its nearness of z: 1 / z = x depth + y, for depth 0..1 and for a relief's nearness.
+std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, const PlanView& view,
+                                                const PlacedTorch& torch, const geometry::Box& box,
+                                                FramePlan& plan) {
     const geometry::RigidTransform prop_from_torch = view.table_from_prop.inverse() * torch.table_from_torch;
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     const double distance =
@@ -156,11 +158,14 @@ glm::vec2 plan_torch_view(std::span<const Part> parts, const PlanView& view, con
     for (ReliefDraw& relief_draw : plan.relief_draws) {
         relief_draw.samples = 1;
     }
+    const double from_nearness = 1.0 / distance;
     if (plan.faces.empty()) {
-        return {0.0F, 0.0F};
+        return {glm::vec2(0.0F), glm::vec2(from_nearness, 0.0)};
     }
-    const glm::vec4& depth = plan.faces[0].depth_from_nearness;
-    return {static_cast<float>(0.5 * static_cast<double>(depth.z) * distance), 0.5F * depth.w + 0.5F};
+    // depth = (x nearness + w + 1) / 2 along the torch's axis.
+    const glm::dvec4 depth(plan.faces[0].depth_from_nearness);
+    const double per_depth = 2.0 * from_nearness / depth.z;
+    return {glm::vec2(per_depth, -0.5 * (depth.w + 1.0) * per_depth), glm::vec2(from_nearness, 0.0)};
 }
 
 /// The torch's frame as the shader takes it.
@@ -177,12 +182,6 @@ TorchLight light_of(const PlacedTorch& torch, const PlanView& view) {
 }
 
 } // namespace
-
-ShaderKey torch_of(ShaderKey key) {
-    key.torch = true;
-    key.coloured = false;
-    return key;
-}
 
 void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts) {
     plan.torches.reserve(torch::max_torches);
@@ -227,22 +226,22 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
                 continue;
             }
             const PlacedLevel& level = parts[draw.part].level;
-            TorchDraw lit{.draw = k, .torch = number, .bounds = draw.bounds, .range = {}};
-            if (level.relief) {
-                lit.bounds = intersected(draw.bounds,
-                                         lit_pixels(level, draw.clip_from_placed, planes, plan.projector));
-            } else {
+            TorchDraw lit{.draw = k, .torch = number, .bounds = {}, .range = {}};
+            lit.bounds =
+                intersected(draw.bounds, lit_pixels(level, draw.clip_from_placed, planes, plan.projector));
+            if (level.triangles && !lit.bounds.empty() && (parts_of(torch) & torch::LayerPart) != 0) {
                 lit.range = lit_triangles(
                     *level.triangles, draw.range,
                     planes_of(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);
             }
-            if (level.relief ? !lit.bounds.empty() : lit.range.count > 0) {
+            if (!lit.bounds.empty()) {
                 plan.torch_draws.push_back(lit);
             }
         }
         TorchLight light = light_of(torch, view);
         if (torch.casts_shadows) {
-            light.depth_of_inverse_z = plan_torch_view(parts, view, torch, box, plan.torch_views[number]);
+            std::tie(light.inverse_z_of_depth, light.inverse_z_of_nearness) =
+                plan_torch_view(parts, view, torch, box, plan.torch_views[number]);
         }
         plan.torches.push_back(light);
     }

@@ -21,7 +21,4 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
 void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
                   FramePlan& plan);
 
-/// The vertices and reliefs that a draw shows again in a torch's light.
-[[nodiscard]] ShaderKey torch_of(ShaderKey key);
-
 } // namespace frustumscreen::scene

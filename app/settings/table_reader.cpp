@@ -283,6 +283,16 @@ void TableReader::vector(std::string_view key, glm::dvec3& value, const Range& r
     }
 }
 
+void TableReader::pair(std::string_view key, glm::dvec2& value, const Range& range) {
+    const toml::array* array = list_of(key, 2, 2, "2 numbers, [x, y]");
+    glm::dvec2 read(0.0);
+    const std::string name = full_name(key);
+    if (array != nullptr && number_of(*array->get(0), fmt::format("{}[0]", name), read.x, range) &&
+        number_of(*array->get(1), fmt::format("{}[1]", name), read.y, range)) {
+        value = read;
+    }
+}
+
 void TableReader::points(std::string_view key, std::span<glm::dvec3> values, const Range& range,
                          std::string_view /*sentence*/) {
     const std::string allowed = fmt::format("{} points, each of 3 numbers, [x, y, z]", values.size());

@@ -54,6 +54,8 @@ public:
     [[nodiscard]] bool has(std::string_view key) const;
     void number(std::string_view key, double& value, const Range& range, std::string_view sentence = {});
     void vector(std::string_view key, glm::dvec3& value, const Range& range, std::string_view sentence = {});
+    /// Two numbers.
+    void pair(std::string_view key, glm::dvec2& value, const Range& range);
     /// As many points as `values` has.
     void points(std::string_view key, std::span<glm::dvec3> values, const Range& range,
                 std::string_view sentence = {});

@@ -45,7 +45,8 @@ std::vector<Source> sources_of(const OfflineScene& scene) {
     return sources;
 }
 
-scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves, bool torches) {
+scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves,
+                            const std::optional<torch::Content>& content) {
     scene::RenderNeeds needs;
     for (const Source& source : sources) {
         const scene::RenderNeeds own =
@@ -53,7 +54,8 @@ scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves, bool
         needs = scene::united(needs, own);
     }
     needs = moves ? scene::with_cells(std::move(needs)) : std::move(needs);
-    return torches ? scene::with_torches(std::move(needs)) : needs;
+    return content ? scene::with_torch(std::move(needs), torch::parts_of(content->stages, content->blend))
+                   : needs;
 }
 
 Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
@@ -118,9 +120,8 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 
 Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     const std::vector<Source> sources = sources_of(scene);
-    TRY(renderer_,
-        render::Renderer::create(layout_.display.width, layout_.display.height,
-                                 needs_of(sources, scene.world.has_value(), scene.content.has_value())));
+    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
+                                            needs_of(sources, scene.world.has_value(), scene.content)));
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {

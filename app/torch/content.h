@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +70,17 @@ struct Content {
 
     [[nodiscard]] bool operator==(const Content&) const = default;
 };
+
+/// What drawing a content takes, bits: a shader leaves the rest out.
+enum ContentPart : std::uint8_t {
+    PicturePart = 1,
+    LayerPart = 2,
+    EffectPart = 4,
+    LensPart = 8,
+    SeveralPart = 16, ///< more stages than one
+    OverPart = 32,    ///< Blend::Over
+};
+[[nodiscard]] std::uint8_t parts_of(std::span<const Stage> stages, Blend blend);
 
 /// `--torch white`: plain light, which every artifact has.
 [[nodiscard]] Content white();

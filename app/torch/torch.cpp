@@ -52,7 +52,7 @@ std::optional<glm::dvec2> place_in_content(const Beam& beam, const glm::dvec3& p
     }
     const glm::dvec2 place = glm::dvec2(point_torch) / (point_torch.z * half_extent(beam)); // -1..1
     const bool lit = beam.shape == Shape::Round ? glm::dot(place, place) <= 1.0
-                                                : std::max(std::abs(place.x), std::abs(place.y)) <= 1.0;
+                                                : std::abs(place.x) <= 1.0 && std::abs(place.y) <= 1.0;
     return lit ? std::optional(0.5 * place + 0.5) : std::nullopt;
 }
 

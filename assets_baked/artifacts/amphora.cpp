@@ -158,4 +158,8 @@ bake::SourceMesh make_amphora(std::int64_t triangles) {
     return make_mesh(patches, triangles, std::move(skin.texture));
 }
 
+image::Image8 new_amphora_colours() {
+    return paint_new_amphora(body_profile());
+}
+
 } // namespace frustumscreen::artifacts

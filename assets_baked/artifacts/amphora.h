@@ -8,5 +8,7 @@
 namespace frustumscreen::artifacts {
 
 [[nodiscard]] bake::SourceMesh make_amphora(std::int64_t triangles);
+/// In place of the mesh's texture: the colours as the painter left them.
+[[nodiscard]] image::Image8 new_amphora_colours();
 
 } // namespace frustumscreen::artifacts

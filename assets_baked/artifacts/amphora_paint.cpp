@@ -217,6 +217,41 @@ void paint_body(const Profile& body, AmphoraSkin& skin) {
     });
 }
 
+/// Fired clay and pigments before any wear.
+Wear unworn() {
+    Wear wear;
+    wear.tint = vec3(1.14F, 1.04F, 0.94F);
+    return wear;
+}
+
+void paint_new_body(const Profile& body, image::Image8& texture) {
+    const BodyPainter painter(body);
+    const auto length_mm = static_cast<float>(body.length_mm());
+    const auto& strip = amphora_atlas::body;
+    const float edge = 1.15F * length_mm / static_cast<float>(strip.rows);
+    paint_strip(strip, texture, [&](float u, float v) {
+        return colour_of(painter.at(u, length_mm * (1.0F - v), edge), unworn());
+    });
+}
+
+void paint_new_plain(const AtlasStrip& strip, image::Image8& texture, float (*slip_at)(float fraction)) {
+    paint_strip(strip, texture, [&](float /*u*/, float v) {
+        Ink ink;
+        ink.paint(Pigment::Slip, slip_at(v));
+        return colour_of(ink, unworn());
+    });
+}
+
+float slip_in_mouth(float fraction) {
+    return 1.0F - glm::smoothstep(0.30F, 0.36F, fraction);
+}
+float slip_below(float fraction) {
+    return glm::smoothstep(0.86F, 0.9F, fraction);
+}
+float slip_on_handle(float /*fraction*/) {
+    return 1.0F;
+}
+
 /// The parts without figures: slip inside the mouth thinning into bare clay, clay below, slip on the handles.
 /// `height_mm` is the strip's height, at a scale where its circumference equals the body's.
 void paint_plain(const AtlasStrip& strip, float height_mm, image::Image8& texture,
@@ -261,12 +296,20 @@ AmphoraSkin paint_amphora(const Profile& body) {
     AmphoraSkin skin{image::Image8(atlas::size, atlas::size, texel_of(clay_colour)),
                      ReliefMap(atlas::size, atlas::body.rows)};
     paint_body(body, skin);
-    paint_plain(atlas::mouth, 800.0F, skin.texture,
-                [](float f) { return 1.0F - glm::smoothstep(0.30F, 0.36F, f); });
-    paint_plain(atlas::underside, 100.0F, skin.texture,
-                [](float f) { return glm::smoothstep(0.86F, 0.9F, f); });
-    paint_plain(atlas::handle, 250.0F, skin.texture, [](float) { return 1.0F; });
+    paint_plain(atlas::mouth, 800.0F, skin.texture, slip_in_mouth);
+    paint_plain(atlas::underside, 100.0F, skin.texture, slip_below);
+    paint_plain(atlas::handle, 250.0F, skin.texture, slip_on_handle);
     return skin;
+}
+
+image::Image8 paint_new_amphora(const Profile& body) {
+    namespace atlas = amphora_atlas;
+    image::Image8 texture(atlas::size, atlas::size, texel_of(clay_colour));
+    paint_new_body(body, texture);
+    paint_new_plain(atlas::mouth, texture, slip_in_mouth);
+    paint_new_plain(atlas::underside, texture, slip_below);
+    paint_new_plain(atlas::handle, texture, slip_on_handle);
+    return texture;
 }
 
 } // namespace frustumscreen::artifacts

@@ -47,5 +47,7 @@ struct AmphoraSkin {
 
 /// `body` must run from the foot's resting ring to the top of the lip.
 [[nodiscard]] AmphoraSkin paint_amphora(const Profile& body);
+/// The texture as the painter left it: nothing is worn, and the pigments are whole.
+[[nodiscard]] image::Image8 paint_new_amphora(const Profile& body);
 
 } // namespace frustumscreen::artifacts

@@ -41,4 +41,12 @@ Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triang
     return bad_input("artifact.no_such", "no built-in artifact is named '{}'; allowed are {}", name, names);
 }
 
+std::vector<BuiltinLayer> builtin_layers(std::string_view name) {
+    std::vector<BuiltinLayer> layers;
+    if (name == "amphora") {
+        layers.push_back({"new-colours.png", new_amphora_colours()});
+    }
+    return layers;
+}
+
 } // namespace frustumscreen::artifacts

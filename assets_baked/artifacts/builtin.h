@@ -20,8 +20,16 @@ namespace frustumscreen::artifacts {
 /// triangles.
 [[nodiscard]] Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 
+/// A picture that the folder of a built-in artifact has beside the mesh: a layer for the torch.
+struct BuiltinLayer {
+    std::string_view file;
+    image::Image8 picture;
+};
+/// Those that builtin_folder_text names.
+[[nodiscard]] std::vector<BuiltinLayer> builtin_layers(std::string_view name);
+
 /// The artifact.toml of a folder with a built-in artifact's mesh (docs/curators.md): texts in five languages,
-/// hotspots. Empty for an unknown name and for the hall's.
+/// hotspots, what a torch shows. Empty for an unknown name and for the hall's.
 [[nodiscard]] std::string_view builtin_folder_text(std::string_view name);
 
 } // namespace frustumscreen::artifacts

@@ -5,6 +5,7 @@
 #include "app/pack/pack_hull.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/file_normals.h"
+#include "assets_baked/bake/layer_parts.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/reduction_error.h"
@@ -20,6 +21,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace frustumscreen::bake {
 
@@ -57,6 +59,7 @@ struct Surface {
 struct TexturedLevels {
     std::vector<pack::PackLevel> levels;
     image::Image8 texture;
+    std::vector<image::Image8> layers; ///< of the mesh, in place of the texture
 };
 
 /// The input of the levels, for making and measuring them.
@@ -118,9 +121,17 @@ public:
         const ChartedMesh all = joined(charted);
         const image::Image<AtlasTexel> texels = rasterise(all);
         const float reach = reach_of(surfaces.front().tolerance_box);
-        TexturedLevels made{{},
-                            lit(all, texels, bake_colour(all, texels, source_, reach), reach,
-                                bake_coverage(all, texels, source_, reach))};
+        image::ImageFloat colour = bake_colour(all, texels, source_, reach);
+        const image::Image<float> coverage = bake_coverage(all, texels, source_, reach);
+        std::vector<LayerColour> layers;
+        for (const SourceLayer& layer : source_.mesh().layers) {
+            layers.push_back(bake_layer(all, texels, source_, layer, reach));
+        }
+        light(all, texels, reach, colour, layers);
+        TexturedLevels made{{}, finish(colour, texels, coverage), {}};
+        for (const LayerColour& layer : layers) {
+            made.layers.push_back(finish_layer(layer, texels));
+        }
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
             pack::PackLevel level = make_level(charted[k], frame_.box_size);
             level.error = surfaces[k].error;
@@ -132,24 +143,27 @@ public:
         return made;
     }
 
-    /// The pack's reliefs, in addition to the levels.
-    [[nodiscard]] std::vector<pack::MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
+    /// For the reliefs; `meshes` must outlive it.
+    [[nodiscard]] ReliefSource relief_source(const TexturedLevels& meshes) const {
         const auto progress = [this](double done) {
             options_.progress(stages::relief.name,
                               std::lerp(stages::relief.begin, stages::choice.begin, done));
         };
-        std::vector<pack::MeasuredRelief> made =
-            bake_reliefs({.finest = meshes.levels.front(),
-                          .texture = meshes.texture,
-                          .box_size = frame_.box_size,
-                          .directions = directions_of(options_.prop.zone),
-                          .truth = source_,
-                          .samples = samples_,
-                          .zone = options_.prop.zone,
-                          .compare_colour = options_.unlit,
-                          .far = options_.far,
-                          .progress = progress},
-                         options_.size);
+        return {.finest = meshes.levels.front(),
+                .texture = meshes.texture,
+                .box_size = frame_.box_size,
+                .directions = directions_of(options_.prop.zone),
+                .truth = source_,
+                .samples = samples_,
+                .zone = options_.prop.zone,
+                .compare_colour = options_.unlit,
+                .far = options_.far,
+                .progress = progress};
+    }
+
+    /// The pack's reliefs, in addition to the levels.
+    [[nodiscard]] std::vector<pack::MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
+        std::vector<pack::MeasuredRelief> made = bake_reliefs(relief_source(meshes), options_.size);
         for (pack::MeasuredRelief& relief : made) {
             add_reduction(reduction_, relief.error);
         }
@@ -180,14 +194,20 @@ private:
     /// Largest distance of a surface from the source for looking up its colours.
     static float reach_of(float tolerance_box) { return 4.0F * tolerance_box + 1e-3F; }
 
-    /// The texture in the museum's light.
-    image::Image8 lit(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
-                      image::ImageFloat colour, float reach, const image::Image<float>& coverage) {
-        if (!options_.unlit) {
-            begin_stage(options_, stages::light);
-            multiply(colour, bake_light(mesh, texels, source_, normals_, reach, options_.part));
+    /// Puts the colours into the museum's light.
+    void light(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels, float reach,
+               image::ImageFloat& colour, std::vector<LayerColour>& layers) const {
+        if (options_.unlit) {
+            return;
         }
-        return finish(colour, texels, coverage);
+        begin_stage(options_, stages::light);
+        const image::ImageFloat light = bake_light(mesh, texels, source_, normals_, reach, options_.part);
+        multiply(colour, light);
+        for (std::size_t k = 0; k < layers.size(); ++k) {
+            if (source_.mesh().layers[k].lit) {
+                multiply(layers[k].colour, light);
+            }
+        }
     }
 
     static void multiply(image::ImageFloat& colour, const image::ImageFloat& light) {
@@ -305,32 +325,6 @@ std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& l
     return front;
 }
 
-BakedProp baked_frustum() {
-    return {"frustum", geometry::make_frustum(geometry::shipped_frustum), {}};
-}
-
-BakedProp baked_cube() {
-    return {"cube", geometry::make_cube(geometry::FrustumSize{}.base_m), ViewingZone::all_around()};
-}
-
-BakedProp baked_solid(geometry::PropShape shape) {
-    return {"cube", std::move(shape), ViewingZone::all_around()};
-}
-
-std::uintmax_t space_for_pack(int size) {
-    constexpr std::uintmax_t triangles_bytes = 20'000'000;
-    constexpr std::uintmax_t bytes_each_square = 200; // for all levels and the relief
-    constexpr std::uintmax_t max_bytes = std::uintmax_t{2} << 30;
-    const auto edge = static_cast<std::uintmax_t>(size);
-    return std::min(max_bytes, triangles_bytes + bytes_each_square * edge * edge);
-}
-
-std::int64_t useful_picture_texels(int size) {
-    constexpr std::int64_t least = std::int64_t{1} << 24; // 4096 x 4096
-    constexpr std::int64_t most = std::int64_t{1} << 28;  // 1 GiB
-    return std::clamp(std::int64_t{256} * size * size, least, most);
-}
-
 Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
@@ -348,6 +342,7 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::vector<pack::MeasuredRelief> cast =
         options.relief ? bakery.reliefs(meshes) : std::vector<pack::MeasuredRelief>{};
     pack::put_reliefs(pack, cast);
+    TRY_VOID(put_torches(pack, meshes.layers, bakery.relief_source(meshes), cast, options));
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;

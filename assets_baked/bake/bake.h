@@ -11,6 +11,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_outline.h"
+#include "app/pack/pack_torches.h"
 #include "assets_baked/bake/hotspots.h"
 #include "assets_baked/bake/part_light.h"
 #include "assets_baked/bake/source_mesh.h"
@@ -71,6 +72,10 @@ struct BakeOptions {
     /// Share of the points and rays for measurements, 0..1: with fewer, a pack's errors are less exact.
     double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;
+    /// What a torch shows of the artifact, without the layers' parts: those of the mesh's layers are added, one for each
+    /// and in their order, so also to an artifact without contents.
+    pack::PackTorches torches;
+    pack::TorchParts torch_parts;
     std::optional<PlaceInWhole> part; ///< the mesh is a part, which the whole shadows; none: it is the whole
     /// Called with the current step and the share of the whole work that is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};

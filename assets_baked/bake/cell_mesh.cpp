@@ -37,6 +37,7 @@ SourceMesh CellMeshes::mesh_of(std::size_t cell) {
     SourceMesh made;
     made.materials = whole_.materials;
     made.textures = whole_.textures;
+    made.layers = whole_.layers;
     made.default_up = 'z';
     made.is_unlit = whole_.is_unlit;
     const auto vertex = [&](std::uint32_t from) {

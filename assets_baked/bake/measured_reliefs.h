@@ -15,6 +15,7 @@
 #include "assets_baked/bake/level.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace frustumscreen::bake {
@@ -36,5 +37,11 @@ struct ReliefSource {
     std::function<void(double done)> progress = [](double) {}; ///< the share of the work, 0..1
 };
 [[nodiscard]] std::vector<pack::MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);
+
+/// The colours that a layer gives the corners of these reliefs, in their order. `layer`: of the size of the source's
+/// texture, in its place; alpha as in source_layer.h. `made`: by bake_reliefs of the same source.
+[[nodiscard]] std::vector<std::vector<glm::u8vec4>> layer_colours(const ReliefSource& source,
+                                                                  const image::Image8& layer, int size,
+                                                                  std::span<const pack::MeasuredRelief> made);
 
 } // namespace frustumscreen::bake

@@ -7,6 +7,7 @@
 #include "app/image/image.h"
 #include "app/world/behaviour.h"
 #include "app/world/cell.h"
+#include "assets_baked/bake/source_layer.h"
 
 #include <glm/glm.hpp>
 
@@ -19,14 +20,6 @@
 #include <vector>
 
 namespace frustumscreen::bake {
-
-enum class Wrap : std::uint8_t { Repeat, Mirror, Clamp };
-
-struct SourceTexture {
-    std::shared_ptr<const image::Image8> image; ///< sRGB; may be shared between materials
-    Wrap wrap_u = Wrap::Repeat;
-    Wrap wrap_v = Wrap::Repeat;
-};
 
 struct SourceMaterial {
     glm::vec4 base_colour{1.0F}; ///< linear factor
@@ -87,6 +80,7 @@ struct SourceMesh {
     std::vector<std::uint32_t> triangle_materials;       ///< one per triangle
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
+    std::vector<SourceLayer> layers; ///< at most pack::max_layers
     /// Empty: the file has no nodes, or only one with triangles and no animation. The triangles are at rest.
     std::vector<SourceNode> nodes;
     std::vector<std::uint32_t> triangle_nodes; ///< one per triangle, index into `nodes`; empty without nodes

@@ -64,6 +64,12 @@ glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
     return glm::mix(top, bottom, fy);
 }
 
+/// The mesh has texture coordinates.
+glm::vec2 uv_at(const SourceMesh& mesh, std::uint32_t triangle, float u, float v) {
+    const auto& corners = mesh.triangles[triangle];
+    return mesh.uvs[corners[0]] * (1.0F - u - v) + mesh.uvs[corners[1]] * u + mesh.uvs[corners[2]] * v;
+}
+
 /// Lets a ray pass through a face that faces away from it.
 void cut_back_faces(const RTCFilterFunctionNArguments* arguments) {
     const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, 1, 0), RTCHitN_Ng_y(arguments->hit, 1, 0),
@@ -297,11 +303,22 @@ glm::vec4 SourceScene::colour(std::uint32_t triangle, float u, float v) const {
             source.colours[corners[0]] * w + source.colours[corners[1]] * u + source.colours[corners[2]] * v;
     }
     if (material.texture >= 0 && !source.uvs.empty()) {
-        const glm::vec2 uv =
-            source.uvs[corners[0]] * w + source.uvs[corners[1]] * u + source.uvs[corners[2]] * v;
-        result *= sample(source.textures[static_cast<std::size_t>(material.texture)], uv);
+        result *= sample(source.textures[static_cast<std::size_t>(material.texture)],
+                         uv_at(source, triangle, u, v));
     }
     return result;
+}
+
+glm::vec4 SourceScene::colour(const SourceLayer& layer, const SurfaceHit& hit) const {
+    const SourceMesh& source = *embree_->mesh;
+    const SourceLayer::Look& look = layer.looks[source.triangle_materials[hit.triangle]];
+    glm::vec4 colour = look.base_colour;
+    if (look.texture >= 0 && !source.uvs.empty()) {
+        colour *= sample(layer.textures[static_cast<std::size_t>(look.texture)],
+                         uv_at(source, hit.triangle, hit.u, hit.v));
+    }
+    colour.w = layer.has_alpha ? colour.w : 1.0F;
+    return colour;
 }
 
 const SourceMesh& SourceScene::mesh() const {

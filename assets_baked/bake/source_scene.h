@@ -58,6 +58,9 @@ public:
     [[nodiscard]] glm::vec4 colour(std::uint32_t triangle, float u, float v) const;
     [[nodiscard]] glm::vec4 colour(const SurfaceHit& hit) const { return colour(hit.triangle, hit.u, hit.v); }
 
+    /// The colour that a layer of the mesh has there.
+    [[nodiscard]] glm::vec4 colour(const SourceLayer& layer, const SurfaceHit& hit) const;
+
     [[nodiscard]] const SourceMesh& mesh() const;
     [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, int k) const;
     /// True if any material has a texture or the mesh has vertex colours, so that colour varies over the

@@ -221,6 +221,46 @@ image::ImageFloat bake_colour(const ChartedMesh& mesh, const image::Image<AtlasT
     return colour;
 }
 
+LayerColour bake_layer(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                       const SourceScene& source, const SourceLayer& layer, float reach_box) {
+    LayerColour made{image::ImageFloat(texels.width, texels.height, glm::vec3(0.0F)),
+                     image::Image<float>(texels.width, texels.height, 0.0F)};
+    for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
+        glm::vec3 sum(0.0F);
+        float alpha = 0.0F;
+        for (const SurfacePoint& at : parts_of(mesh, texel)) {
+            const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
+            if (hit.hit) {
+                const glm::vec4 colour = source.colour(layer, hit);
+                const float share = glm::clamp(colour.w, 0.0F, 1.0F);
+                sum += share * clamped_rgb(colour);
+                alpha += share;
+            }
+        }
+        made.colour.at(x, y) = alpha > 0.0F ? sum / alpha : glm::vec3(0.0F);
+        made.alpha.at(x, y) = alpha / 4.0F;
+    });
+    return made;
+}
+
+image::Image8 finish_layer(const LayerColour& layer, const image::Image<AtlasTexel>& texels) {
+    image::Image<float> has_colour = layer.alpha;
+    image::Image<float> alpha = layer.alpha;
+    image::Image<std::uint8_t> known(texels.width, texels.height, 0);
+    for (std::size_t k = 0; k < texels.texels.size(); ++k) {
+        has_colour.texels[k] = layer.alpha.texels[k] > 0.0F ? 1.0F : 0.0F;
+        known.texels[k] = texels.texels[k].triangle != nothing ? 1 : 0;
+    }
+    spread(alpha, known, chart_gutter_texels);
+    image::Image8 result = finish(layer.colour, texels, has_colour);
+    for (std::size_t k = 0; k < result.texels.size(); ++k) {
+        const bool is_chart = known.texels[k] != 0;
+        result.texels[k].w =
+            is_chart ? static_cast<std::uint8_t>(std::lround(255.0F * alpha.texels[k])) : std::uint8_t{255};
+    }
+    return result;
+}
+
 image::Image<float> bake_coverage(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
                                   const SourceScene& source, float reach_box) {
     const std::vector<SourceMaterial>& materials = source.mesh().materials;

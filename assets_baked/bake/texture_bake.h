@@ -30,6 +30,17 @@ struct AtlasTexel {
 [[nodiscard]] image::ImageFloat bake_colour(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
                                             const SourceScene& source, float reach_box);
 
+/// A layer's colour, linear, for each texel, and its alpha, which weighs the colours that a texel is the mean of.
+/// `texels`: those of `mesh`.
+struct LayerColour {
+    image::ImageFloat colour;
+    image::Image<float> alpha; ///< 0..1
+};
+[[nodiscard]] LayerColour bake_layer(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
+                                     const SourceScene& source, const SourceLayer& layer, float reach_box);
+/// As `finish`, with the layer's alpha.
+[[nodiscard]] image::Image8 finish_layer(const LayerColour& layer, const image::Image<AtlasTexel>& texels);
+
 /// Share of each texel that alpha MASK keeps, 0..1; below one half it is cut. Empty for a source without such
 /// a material.
 [[nodiscard]] image::Image<float> bake_coverage(const ChartedMesh& mesh,

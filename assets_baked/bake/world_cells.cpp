@@ -134,6 +134,8 @@ private:
         options.scale = std::clamp(options_.scale * longest, pack::min_scale, pack::max_scale);
         options.measuring = options_.measuring * std::clamp(longest, min_measuring, 1.0);
         options.hotspots.clear();
+        options.torches = {}; // a cell has the layers alone
+        options.torch_parts = {};
         options.table_picture = false;
         if (whole_) {
             const glm::dvec3 middle = glm::mix(bounds.low, bounds.high, 0.5);

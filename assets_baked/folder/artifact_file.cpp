@@ -2,8 +2,10 @@
 
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_text.h"
+#include "app/pack/pack_torches.h"
 #include "app/settings/toml_file.h"
 #include "assets_baked/folder/artifact_labels.h"
+#include "assets_baked/folder/artifact_path.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
@@ -27,24 +29,15 @@ struct InnerKey {
     std::string_view key;
     std::string_view table;
 };
-constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
-                                                     {"title", "[[texts]]"},
-                                                     {"period", "[[texts]]"},
-                                                     {"place", "[[texts]]"},
-                                                     {"maker", "[[texts]]"},
-                                                     {"credit", "[[texts]]"},
-                                                     {"text", "[[texts]]"},
-                                                     {"description", "[[texts]]"},
-                                                     {"recording", "[[texts]]"},
-                                                     {"point", "[[hotspots]]"},
-                                                     {"labels", "[[hotspots]]"},
-                                                     {"animation", "[[behaviours]]"},
-                                                     {"trigger", "[[behaviours]]"},
-                                                     {"titles", "[[behaviours]]"},
-                                                     {"up", "[placement]"},
-                                                     {"turn_deg", "[placement]"},
-                                                     {"scale", "[placement]"},
-                                                     {"lift", "[placement]"}});
+constexpr auto inner_keys = std::to_array<InnerKey>(
+    {{"language", "[[texts]]"},     {"title", "[[texts]]"},       {"period", "[[texts]]"},
+     {"place", "[[texts]]"},        {"maker", "[[texts]]"},       {"credit", "[[texts]]"},
+     {"text", "[[texts]]"},         {"description", "[[texts]]"}, {"recording", "[[texts]]"},
+     {"point", "[[hotspots]]"},     {"labels", "[[hotspots]]"},   {"animation", "[[behaviours]]"},
+     {"trigger", "[[behaviours]]"}, {"titles", "[[behaviours]]"}, {"picture", "[[torch]]"},
+     {"film", "[[torch]]"},         {"layer", "[[torch]]"},       {"effect", "[[torch]]"},
+     {"up", "[placement]"},         {"turn_deg", "[placement]"},  {"scale", "[placement]"},
+     {"lift", "[placement]"}});
 constexpr settings::Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Reads a text without surrounding blanks; one of only blanks counts as left out.
@@ -55,25 +48,6 @@ void read_text(settings::TableReader& table, std::string_view key, std::string& 
         table.refuse("folder.text", key, *fault);
     }
     value = std::string(trimmed(value));
-}
-
-/// Reads a path inside the folder; a file outside it would not move with the folder.
-void read_path(settings::TableReader& table, std::string_view key, std::filesystem::path& value) {
-    std::filesystem::path written;
-    std::string text;
-    table.any_text(key, text);
-    written = std::filesystem::path(text).lexically_normal();
-    if (text.empty()) {
-        return;
-    }
-    if (written.is_absolute() || *written.begin() == ".." || text.size() > 4096 ||
-        text.find('\0') != std::string::npos) {
-        table.refuse(
-            "folder.file_name", key,
-            fmt::format("is \"{}\"; allowed is the name of a file in this folder", printable(text, 60)));
-        return;
-    }
-    table.path(key, value, {});
 }
 
 void read_word(settings::TableReader& table, std::string_view key, std::string& value,
@@ -162,6 +136,10 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
                      read_behaviour(item, behaviour, file.hotspots.size(), file.behaviours);
                  },
                  {});
+    table.tables(
+        "torch", file.torches, pack::max_contents,
+        [&](settings::TableReader& item, ArtifactTorch& content) { read_torch(item, content, file.torches); },
+        {});
     for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
@@ -169,8 +147,10 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
 
 /// Refuses [texts] in place of [[texts]].
 void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
-    for (const auto& [key, each] :
-         {std::pair("texts", "language"), {"hotspots", "place"}, {"behaviours", "movement"}}) {
+    for (const auto& [key, each] : {std::pair("texts", "language"),
+                                    {"hotspots", "place"},
+                                    {"behaviours", "movement"},
+                                    {"torch", "content"}}) {
         const toml::node* node = root.get(key);
         if (node != nullptr && node->is_table()) {
             state.refuse(
@@ -185,7 +165,7 @@ void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
 void refuse_misspelt_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
-        for (const std::string_view known : {"texts", "hotspots", "behaviours"}) {
+        for (const std::string_view known : {"texts", "hotspots", "behaviours", "torch"}) {
             const std::size_t apart = letters_apart(name, known);
             if (node.is_array_of_tables() && apart > 0 && 3 * apart <= known.size()) {
                 state.refuse("folder.unknown_table", static_cast<std::uint32_t>(key.source().begin.line),

@@ -8,6 +8,7 @@
 
 #include "app/pack/pack.h"
 #include "assets_baked/folder/artifact_behaviours.h"
+#include "assets_baked/folder/artifact_torches.h"
 #include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
@@ -51,6 +52,7 @@ struct ArtifactFile {
     std::map<std::string, std::filesystem::path> recordings; ///< by language; paths including the folder
     std::vector<ArtifactHotspot> hotspots;
     std::vector<ArtifactBehaviour> behaviours;
+    std::vector<ArtifactTorch> torches;
 };
 
 /// `file` is the name in messages; paths in the text are relative to its folder.

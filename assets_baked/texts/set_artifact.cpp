@@ -34,7 +34,7 @@ void add_labels(LabelLists lists, const std::string& language, std::string (*key
 }
 
 std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::ScanRights& rights,
-                                LabelLists labels, LabelLists titles) {
+                                LabelLists labels, LabelLists titles, LabelLists torches) {
     std::vector<KeyedText> texts{{"title", caption.title, true},
                                  {"text", caption.text},
                                  {std::string(pack::attribution_key), pack::attribution_of(caption, rights)}};
@@ -44,6 +44,7 @@ std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::Sc
     }
     add_labels(labels, caption.language, pack::label_key, texts);
     add_labels(titles, caption.language, pack::behaviour_key, texts);
+    add_labels(torches, caption.language, pack::torch_key, texts);
     std::erase_if(texts, [](const KeyedText& each) { return each.text.empty(); });
     return texts;
 }
@@ -149,11 +150,11 @@ private:
 } // namespace
 
 SetArtifact set_artifact(std::span<const pack::PackCaption> captions, const pack::ScanRights& rights,
-                         LabelLists labels, LabelLists titles, const CaptionLimits& limits,
-                         const Shaper& shaper) {
+                         LabelLists labels, LabelLists titles, LabelLists torches,
+                         const CaptionLimits& limits, const Shaper& shaper) {
     SetArtifact set;
     for (const pack::PackCaption& caption : captions) {
-        const std::vector<KeyedText> texts = texts_of(caption, rights, labels, titles);
+        const std::vector<KeyedText> texts = texts_of(caption, rights, labels, titles, torches);
         if (texts.empty()) {
             continue;
         }

@@ -1,5 +1,5 @@
-/// Sets the texts of an artifact in all their languages: captions, attribution, the labels of hotspots and the titles of
-/// behaviours, by the keys of app/pack/pack_texts.h.
+/// Sets the texts of an artifact in all their languages: captions, attribution, the labels of hotspots, the titles of
+/// behaviours and of a torch's contents, by the keys of app/pack/pack_texts.h.
 ///
 /// Losses are reported, a sentence each: a language whose typeface is missing, a text that is too long to be
 /// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are not
@@ -35,11 +35,12 @@ struct SetArtifact {
     std::vector<std::string> notes; ///< losses, a sentence each
 };
 
-/// `labels`: one list for each hotspot. `titles`: one for each behaviour.
+/// `labels`: one list for each hotspot. `titles`: one for each behaviour. `torches`: one for each content.
 [[nodiscard]] SetArtifact set_artifact(std::span<const pack::PackCaption> captions,
                                        const pack::ScanRights& rights,
                                        std::span<const std::vector<pack::PackLabel>> labels,
                                        std::span<const std::vector<pack::PackLabel>> titles,
+                                       std::span<const std::vector<pack::PackLabel>> torches,
                                        const CaptionLimits& limits, const Shaper& shaper);
 
 } // namespace frustumscreen::texts

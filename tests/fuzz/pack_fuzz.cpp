@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_torches.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/seen_errors.h"
@@ -91,6 +92,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                   "sounds that are checked can be listed");
     if (const Result<void> reliefs = pack::check_reliefs(**pack); !reliefs) {
         fuzz::require_one_line(reliefs.error().message);
+    }
+    if (const Result<void> torches = pack::check_torches(**pack); !torches) {
+        fuzz::require_one_line(torches.error().message);
     }
     if (const Result<void> world = pack::check_world(**pack); !world) {
         fuzz::require_one_line(world.error().message);

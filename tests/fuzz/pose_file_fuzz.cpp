@@ -1,5 +1,6 @@
 // Pose files: accepted values are finite and in range, written again they read equal, and they can be
-// replayed.
+// replayed and drawn, with a torch where there is one.
+#include "app/tracking/pose_frames.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/replay_tracker.h"
 #include "tests/fuzz/fuzz.h"
@@ -40,6 +41,18 @@ void check_replay(const std::vector<tracker::PoseSample>& poses, double speed) {
     }
 }
 
+/// What `frustumscreen render` draws.
+void check_frames(const std::vector<tracker::PoseSample>& poses) {
+    for (const tracking::TrackedState& frame : tracking::pose_frames(poses, {0.0, -0.5, 0.5})) {
+        for (const tracking::TrackedTorch& torch : frame.torches) {
+            fuzz::require(torch.share == 0.0 || torch.share == 1.0, "a torch is there or not");
+            fuzz::require(fuzz::is_unit(torch.table_from_torch.rotation) &&
+                              fuzz::is_finite(torch.table_from_torch.translation),
+                          "a torch has a pose");
+        }
+    }
+}
+
 } // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -65,5 +78,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     }
     check_replay(*poses, 0.01);
     check_replay(*poses, 100.0);
+    check_frames(*poses);
     return 0;
 }

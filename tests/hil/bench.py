@@ -238,13 +238,14 @@ class Bench:
             self._rendered[pose, artifact, eye_m] = picture
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
-    def render(self, poses, artifact, eye_m, config=CONFIG, head=UPRIGHT, options=()):
-        """The same with other settings, another turn of the head, and options of `render`, drawn each time."""
+    def render(self, poses, artifact, eye_m, config=CONFIG, head=UPRIGHT, options=(), torches=None):
+        """The same with other settings, another turn of the head, and options of `render`, drawn each time. `torches`: of each pose
+        that of the torch."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
             for number, pose in enumerate(poses):
-                for station, placed in ((1, pose), (2, (*eye_m, *head))):
+                for station, placed in ((1, pose), (2, (*eye_m, *head)), *([(3, torches[number])] if torches else [])):
                     lines.append(",".join(str(value) for value in (1000 * number, station, *placed, 1)))
             (folder / "poses.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
             subprocess.run(

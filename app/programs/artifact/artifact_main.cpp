@@ -59,7 +59,7 @@ int list_hall() {
     return 0;
 }
 
-/// Writes the mesh and, if `folder` is given, its artifact.toml beside it.
+/// Writes the mesh and, if `folder` is given, its layers and its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
     TRY(const bake::SourceMesh mesh, artifacts::make_builtin(name, triangles));
@@ -76,6 +76,9 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
     if (failed) {
         return bad_input("artifact.no_folder", "{}: this folder cannot be made: {}", folder.string(),
                          failed.message());
+    }
+    for (const artifacts::BuiltinLayer& layer : artifacts::builtin_layers(name)) {
+        TRY_VOID(write_file(folder / layer.file, image::encode_png(layer.picture)));
     }
     return write_file(folder / (name + ".glb"), bytes).and_then([&] {
         return write_file(folder / folder::artifact_file_name,

@@ -48,8 +48,12 @@ void set_texts(const BakeRequest& request, std::span<const pack::PackBehaviour> 
     for (const pack::PackBehaviour& behaviour : behaviours) {
         titles.push_back(behaviour.titles);
     }
-    texts::SetArtifact set =
-        texts::set_artifact(request.captions, request.rights, labels, titles, caption_limits(), *shaper);
+    std::vector<std::vector<pack::PackLabel>> torches;
+    for (const folder::ArtifactTorch& content : request.torches) {
+        torches.push_back(content.titles);
+    }
+    texts::SetArtifact set = texts::set_artifact(request.captions, request.rights, labels, titles, torches,
+                                                 caption_limits(), *shaper);
     words.set = std::move(set.languages);
     words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }

@@ -163,6 +163,9 @@ std::string cells_text(const BakeResult& result) {
     std::string text = result.cells.found ? fmt::format("  {:<8}auto: {}\n", "cells", result.cells.why)
                                           : fmt::format("  {:<8}{}, since {}\n", "cells", taken_cells(result),
                                                         result.cells.why);
+    for (const std::string& each : result.torches) {
+        text += fmt::format("  {:<8}{}\n", "torch", each);
+    }
     for (const pack::PackBehaviour& each : result.world.behaviours) {
         text += fmt::format("  {:<8}'{}', {:.2g} s, by {}\n", "moves", each.behaviour.name,
                             each.behaviour.seconds, trigger_name(each.behaviour));
@@ -273,6 +276,7 @@ Json report_json(const BakeResult& result) {
                    {"guessed", texts_of(result, bake::SourceNote::Kind::Guessed)},
                    {"taken", texts_of(result, bake::SourceNote::Kind::Taken)},
                    {"missing", result.missing},
+                   {"torches", result.torches},
                    {"cells", cells_json(result)},
                    {"scan", json_of(result.scan)},
                    {"id", result.pack.id},

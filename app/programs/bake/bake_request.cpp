@@ -4,6 +4,7 @@
 #include "app/programs/bake/captions_of.h"
 #include "app/solid/prop_file.h"
 #include "app/solid/shape_of.h"
+#include "assets_baked/bake/loaders/film_file.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "assets_baked/names/find_entry.h"
 #include "firmware_host/base/file.h"
@@ -33,6 +34,11 @@ std::vector<Labelled> labelled_in(const folder::ArtifactFile& file) {
     for (std::size_t k = 0; k < file.behaviours.size(); ++k) {
         if (!file.behaviours[k].titles.empty()) { // without any, visitors are told nothing
             all.push_back({fmt::format("behaviours[{}]", k), "titles", file.behaviours[k].titles});
+        }
+    }
+    for (std::size_t k = 0; k < file.torches.size(); ++k) {
+        if (!file.torches[k].titles.empty()) {
+            all.push_back({fmt::format("torch[{}]", k), "titles", file.torches[k].titles});
         }
     }
     return all;
@@ -210,6 +216,13 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     for (const auto& [language, recording] : file.recordings) {
         request.inputs.push_back(recording);
     }
+    for (const folder::ArtifactTorch& content : file.torches) {
+        for (const folder::ArtifactTorchStage& stage : content.stages) {
+            const std::vector<std::filesystem::path> files =
+                stage.file.empty() ? std::vector<std::filesystem::path>() : bake::files_of_film(stage.file);
+            request.inputs.insert(request.inputs.end(), files.begin(), files.end());
+        }
+    }
     request.force = arguments.force;
     request.clean = arguments.clean;
     request.strict = arguments.strict;
@@ -217,6 +230,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
     request.cells = arguments.cells;
     request.behaviours = file.behaviours;
+    request.torches = file.torches;
     TRY(request.options, options_of(arguments, file));
     request.id = file.id;
     request.usual_title = file.scan.stem().string();

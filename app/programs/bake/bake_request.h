@@ -62,6 +62,7 @@ struct BakeRequest {
     std::optional<double> turn_deg; ///< nothing: the best
     std::string cells;              ///< as BakeArguments
     std::vector<folder::ArtifactBehaviour> behaviours;
+    std::vector<folder::ArtifactTorch> torches;
     bake::BakeOptions options;
     std::string id;                          ///< empty: from the pack's name (scan_about.h)
     std::string usual_title;                 ///< title of a caption that has none of its own

@@ -10,6 +10,7 @@
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/put_cells.h"
 #include "app/programs/bake/scan_about.h"
+#include "app/programs/bake/torch_contents.h"
 #include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/content_hash.h"
 #include "app/programs/common/progress_line.h"
@@ -157,6 +158,11 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         request.turn_deg ? *request.turn_deg
                          : bake::best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
     TRY_VOID(check_hotspots(mesh, options));
+    TRY(TorchContents torches, contents_of(request, mesh, Contents::Read));
+    result.notes.insert(result.notes.end(), torches.notes.begin(), torches.notes.end());
+    result.torches = torches.told;
+    options.torches = std::move(torches.torches);
+    options.torch_parts = std::move(torches.parts);
     TRY(ArtifactWords words, set_and_speak(request, behaviours, options, result.notes));
     result.silent = std::move(words.silent);
     TRY(const bake::ScanMeasures measures, at(request.scan.string(), bake::measure_scan(mesh, options)));

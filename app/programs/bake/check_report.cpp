@@ -96,6 +96,9 @@ std::string check_lines(const CheckedScan& scan) {
                            fmt::format("{}: {}", names->size(),
                                        printable(fmt::format("{}", fmt::join(*names, ", ")), longest_name)));
     }
+    for (const std::string& each : scan.torches) {
+        text += line("torch", each);
+    }
     const std::vector<std::string> lost = texts_of(scan, bake::SourceNote::Kind::Lost);
     text += lost.empty() ? line("lost", "nothing") : std::string();
     for (const std::string& each : lost) {
@@ -142,6 +145,7 @@ nlohmann::ordered_json check_json(std::span<const CheckedScan> scans) {
             one.update(json_of(scan.summary));
             one["parts"] = scan.parts;
             one["animations"] = scan.animations;
+            one["torches"] = scan.torches;
             one["lost"] = texts_of(scan, bake::SourceNote::Kind::Lost);
             one["guessed"] = texts_of(scan, bake::SourceNote::Kind::Guessed);
         }

@@ -4,6 +4,7 @@
 #include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
+#include "app/programs/bake/torch_contents.h"
 
 #include <algorithm>
 #include <new>
@@ -25,6 +26,9 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
     TRY(const std::vector<pack::PackBehaviour> behaviours,
         movements_of(request, mesh, choose_cells(request.cells, mesh, request.behaviours.size()),
                      checked.notes));
+    TRY(TorchContents torches, contents_of(request, mesh, Contents::Look));
+    checked.torches = std::move(torches.told);
+    checked.notes.insert(checked.notes.end(), torches.notes.begin(), torches.notes.end());
     TRY(const bake::ScanMeasures measures,
         at(request.scan.string(), bake::measure_scan(mesh, request.options)));
     checked.summary = summary_of(mesh, measures);

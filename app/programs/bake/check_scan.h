@@ -19,6 +19,7 @@ struct CheckedScan {
     ScanSummary summary;                 ///< without a format if the scan could not be read
     std::vector<std::string> parts;      ///< names of those that can be cells; empty: one that does not move
     std::vector<std::string> animations; ///< names of those that move parts
+    std::vector<std::string> torches;    ///< what each content of a torch shows, a line each
     std::vector<bake::SourceNote> notes;
 };
 

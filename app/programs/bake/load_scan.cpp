@@ -1,5 +1,6 @@
 #include "app/programs/bake/load_scan.h"
 
+#include "app/programs/bake/torch_layers.h"
 #include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/bake/reduce_scan.h"
@@ -65,6 +66,7 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
     TRY(bake::SourceMesh mesh,
         bake::load_mesh(request.scan,
                         {request.texture, bake::useful_picture_texels(request.options.size), reading}));
+    TRY_VOID(add_layers(request, mesh));
     progress("fewer triangles", read_share);
     if (request.options.unlit && !has_colours(mesh)) {
         mesh.notes.push_back(

@@ -4,6 +4,7 @@
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
+#include "app/programs/pack/torch_report.h"
 #include "app/programs/pack/world_report.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
@@ -242,8 +243,9 @@ std::string title_line(const OpenedPack& opened) {
 }
 
 bool is_passed_over(const pack::PackSection& section) {
-    constexpr std::array<std::string_view, 8> known{"attribution", "texts",        "sounds", "relief_blocks",
-                                                    "seen_errors", "seen_reliefs", "cells",  "behaviours"};
+    constexpr std::array<std::string_view, 9> known{"attribution",   "texts",       "sounds",
+                                                    "relief_blocks", "seen_errors", "seen_reliefs",
+                                                    "cells",         "behaviours",  "torches"};
     return std::find(known.begin(), known.end(), section.name) == known.end();
 }
 
@@ -289,7 +291,8 @@ std::string on_one_line(std::string text) {
     return text;
 }
 
-std::string description_text(const pack::Pack& pack, double mm) {
+std::string description_text(const OpenedPack& opened, double mm) {
+    const pack::Pack& pack = *opened.pack;
     std::string text;
     for (const pack::PackCaption& caption : pack.captions) {
         text += fmt::format("  caption {}: {}{}{}\n", caption.language, caption.title,
@@ -299,7 +302,7 @@ std::string description_text(const pack::Pack& pack, double mm) {
         }
         text += speech_text(pack, caption);
     }
-    text += hotspots_text(pack, mm) + world_text(pack, mm);
+    text += hotspots_text(pack, mm) + world_text(pack, mm) + torches_text(pack, opened.parts);
     if (!pack.table_picture.texels.empty()) {
         text += fmt::format("  picture for the table: {} x {} texels\n", pack.table_picture.width,
                             pack.table_picture.height);
@@ -360,6 +363,7 @@ Json explain_json(const OpenedPack& opened, const settings::PropSettings& prop) 
     add_placement(json, *opened.pack, prop);
     json["cells"] = cells_json(*opened.pack, json["metres_per_box"]);
     json["behaviours"] = behaviours_json(*opened.pack);
+    json["torches"] = torches_json(*opened.pack, opened.parts);
     return json;
 }
 
@@ -378,7 +382,7 @@ std::string explain_text(const OpenedPack& opened, const settings::PropSettings&
     const pack::Pack& pack = *opened.pack;
     const pack::Placement placement = pack::place(pack, settings::make_prop(prop));
     const glm::dvec3 size = pack.box_size * placement.metres_per_box * mm_per_m;
-    return list_text(opened, prop) + description_text(pack, placement.metres_per_box * mm_per_m) +
+    return list_text(opened, prop) + description_text(opened, placement.metres_per_box * mm_per_m) +
            fmt::format("  in a {} of base {} m, height {} m the artifact is {:.1f} x {:.1f} x {:.1f} mm\n"
                        "  prop_from_artifact, from the file's coordinates to the prop's, metres:\n",
                        frustumscreen::settings::name_of(prop.kind), prop.base_m, prop.height_m, size.x,

@@ -33,7 +33,8 @@ struct OpenedPack {
 [[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const settings::PropSettings& prop);
 /// list_json and {format_version, captions with their details and the keys of their spoken texts, hotspots,
 /// table_picture, sections, provenance, prop_kind, unlit, relief_size, box_size, textures, relief, prop,
-/// metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major, cells, behaviours (world_report.h)}.
+/// metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major, cells, behaviours (world_report.h), torches
+/// (torch_report.h)}.
 [[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened,
                                                   const settings::PropSettings& prop);
 

@@ -14,6 +14,7 @@
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
+#include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/sign_pack.h"
 #include "app/pack/signature/secret_key.h"
@@ -93,6 +94,7 @@ Result<Signable> read_sound(OpenFile file) {
     TRY(const pack::VerifiedPack pack, pack::read_pack(reader));
     TRY_VOID(pack::check_set_and_spoken(*pack));
     TRY_VOID(pack::check_reliefs(*pack));
+    TRY_VOID(pack::check_torches(*pack));
     TRY_VOID(pack::check_world(*pack));
     TRY(const pack::ScanRights rights, pack::scan_rights(*pack));
     return Signable{std::move(manifest), std::move(before), pack::missing_in(*pack, rights)};

@@ -5,6 +5,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
+#include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/signature/key_folder.h"
 #include "app/pack/signed_pack.h"
@@ -66,6 +67,7 @@ Result<SoundPack> check(const std::string& file, std::span<const pack::TrustedKe
     const Result<void> good = pack.and_then([](const pack::VerifiedPack& read) {
         return pack::check_set_and_spoken(*read)
             .and_then([&] { return pack::check_reliefs(*read); })
+            .and_then([&] { return pack::check_torches(*read); })
             .and_then([&] { return pack::check_world(*read); })
             .and_then([&] { return without_value(pack::scan_rights(*read)); });
     });

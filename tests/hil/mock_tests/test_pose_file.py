@@ -61,6 +61,14 @@ class Playing(unittest.TestCase):
         self.assertEqual(player.poses(0.6)[1].position, (9, 9, 9))
         self.assertEqual(player.poses(0.6)[2].position, (0, 0, 1))
 
+    def test_a_station_that_is_taken_away_is_gone(self):
+        player = Player()
+        player.place(3, Pose((1, 2, 3)))
+        self.assertEqual(list(player.poses(0.0)), [1, 3])
+        player.take_away(3)
+        player.take_away(2)
+        self.assertEqual(list(player.poses(0.0)), [1])
+
 
 if __name__ == "__main__":
     unittest.main()

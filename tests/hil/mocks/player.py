@@ -23,6 +23,10 @@ class Player:
         """Fixes the station at this pose, whatever the file has."""
         self._placed[station] = pose
 
+    def take_away(self, station):
+        """The station's sensor is no longer at the device, unless the file has it."""
+        self._placed.pop(station, None)
+
     def poses(self, now):
         """{station: table_from_sensor, or None: the device has no pose of it}."""
         found = {}

@@ -7,12 +7,15 @@ from .fault_console import FaultConsole
 from .faults import KINDS
 from .pose import Pose, normalized
 
+MAX_STATION = 16
+
 
 class TrackerConsole(FaultConsole):
     kinds = KINDS
     ended_by_time = ("unplug", "hang", "hang-until-reset")
     commands = """\
 pose X Y Z QW QX QY QZ [STATION]  the sensor is put there (table, metres); station 1 unless said
+away STATION                      its sensor is pulled off the device
 play FILE                         a pose file from its beginning
 good                              ends every fault
 status                            counters, settings, the last pose sent and when
@@ -21,9 +24,17 @@ help                              this"""
     def answer(self, name, words):
         if name == "pose":
             return self._pose(words)
+        if name == "away" and len(words) == 1:
+            return self._away(words[0])
         if name == "play" and len(words) == 1:
             return self._play(words[0])
         return None
+
+    def _away(self, word):
+        if not word.isdecimal() or not 1 <= int(word) <= MAX_STATION:
+            raise ValueError(f"away: found station {word}; allowed are 1 to {MAX_STATION}")
+        self._device.player.take_away(int(word))
+        return {"t_ns": time.monotonic_ns()}
 
     def _pose(self, words):
         try:
@@ -33,8 +44,8 @@ help                              this"""
                 raise ValueError
         except ValueError:
             raise ValueError("pose: 7 numbers X Y Z QW QX QY QZ, then perhaps the station") from None
-        if not 1 <= station <= 16:
-            raise ValueError(f"pose: found station {station}; allowed are 1 to 16")
+        if not 1 <= station <= MAX_STATION:
+            raise ValueError(f"pose: found station {station}; allowed are 1 to {MAX_STATION}")
         self._device.player.place(station, Pose(tuple(numbers[:3]), normalized(numbers[3:])))
         return {"t_ns": time.monotonic_ns()}
 
