@@ -29,7 +29,7 @@ uniform mat3x2 stage_from_content[MAX_STAGES];
 uniform float height_per_width;
 uniform vec4 ray_from_fragment; // scale, offset; z = 1
 uniform vec3 inverse_depth;     // of the face's plane, along a ray
-uniform vec2 face_gain;         // times d^3, most
+uniform vec4 face_gain;         // times d^3, most, 0, 0
 uniform vec3 brightness;        // of the surface's own colours
 uniform highp sampler2D shadow;
 uniform sampler2D content;

@@ -67,6 +67,8 @@ ShaderKey places_of(ShaderKey key) {
     key.places = true;
     key.even_light = false;
     key.coloured = false;
+    key.torch = false;
+    key.content = 0;
     return key;
 }
 
