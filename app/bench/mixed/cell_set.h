@@ -16,8 +16,10 @@
 #include "app/scene/frame_plan.h"
 #include "firmware_host/display/surfaceless_display.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,11 +40,10 @@ struct CellWays {
 
 class CellSet {
 public:
-    enum class Torches { None, Some };
-    /// `samples`: a pixel; 0: the pack's own number. `torches`: whether the renderer is ready for torches.
-    [[nodiscard]] static Result<std::unique_ptr<CellSet>> open(const settings::Settings& settings,
-                                                               const std::filesystem::path& pack, int samples,
-                                                               Torches torches = Torches::None);
+    /// `samples`: a pixel; 0: the pack's own number. `torch`: the parts of a torch's content (torch::ContentPart).
+    [[nodiscard]] static Result<std::unique_ptr<CellSet>>
+    open(const settings::Settings& settings, const std::filesystem::path& pack, int samples,
+         std::optional<std::uint8_t> torch = std::nullopt);
     CellSet(const CellSet&) = delete;
     CellSet& operator=(const CellSet&) = delete;
 
@@ -68,7 +69,7 @@ public:
 private:
     CellSet(settings::Settings settings, scene::ScenePlan plan)
         : settings_(std::move(settings)), plan_(std::move(plan)) {}
-    [[nodiscard]] Result<void> upload(Torches torches);
+    [[nodiscard]] Result<void> upload(std::optional<std::uint8_t> torch);
     void list_ways();
 
     settings::Settings settings_;

@@ -85,6 +85,9 @@ public:
             std::array<std::optional<TorchTruth>, 2> truths; // of the scene, and of its polygons
             for (Timed& timed : timed_) {
                 TorchTechnique& technique = *timed.technique;
+                if (technique.way().samples > 1) {
+                    continue;
+                }
                 technique.draw(sweep_[frame], frame, true);
                 set_.cells().read_colour_into(drawn);
                 std::optional<TorchTruth>& own =
@@ -148,9 +151,15 @@ Result<std::vector<TorchRow>> measure_scene(TorchSet& set, const TorchScene& sce
         return [&progress, name = scene.name + ", " + what](double done) { progress(name, done); };
     };
     SceneRun run(set, scene, sweep, options.passes);
-    TRY_VOID(run.add({.name = "none", .kind = TorchWay::Kind::None}));
-    TRY_VOID(run.add({.name = "ours", .kind = TorchWay::Kind::Ours}));
-    TRY_VOID(run.add({.name = "ours_no_shadow", .kind = TorchWay::Kind::OursNoShadow}));
+    for (const int samples : {1, set.samples()}) {
+        TRY_VOID(run.add({.name = "none", .kind = TorchWay::Kind::None, .samples = samples}));
+        TRY_VOID(run.add({.name = "ours", .kind = TorchWay::Kind::Ours, .samples = samples}));
+        TRY_VOID(
+            run.add({.name = "ours_no_shadow", .kind = TorchWay::Kind::OursNoShadow, .samples = samples}));
+        if (set.samples() == 1) {
+            break;
+        }
+    }
     for (const double length_m : edge_lengths_m) {
         TRY_VOID(run.add(paper_way("paper", sweep.size(), length_m)));
     }
@@ -191,7 +200,9 @@ Result<TorchResult> measure_torch(TorchSet& set, const Truth& truth, const Torch
     TorchResult result;
     for (const TorchScene& scene : set.scenes()) {
         TRY(const std::vector<TorchRow> rows, measure_scene(set, scene, truth, sweep, options, progress));
-        result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+        for (const TorchRow& row : rows) {
+            (row.way.samples > 1 ? result.samples : result.rows).push_back(row);
+        }
     }
     return result;
 }

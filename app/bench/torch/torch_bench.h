@@ -40,7 +40,8 @@ struct TorchRow {
     [[nodiscard]] double tolerance_mm() const;
 };
 struct TorchResult {
-    std::vector<TorchRow> rows; ///< scene by scene
+    std::vector<TorchRow> rows;    ///< scene by scene, one sample a pixel
+    std::vector<TorchRow> samples; ///< none, ours, ours_no_shadow at the pack's samples; times alone
 };
 
 using TorchProgress = std::function<void(const std::string& step, double done)>;
@@ -50,6 +51,8 @@ using TorchProgress = std::function<void(const std::string& step, double done)>;
                                                 const TorchOptions& options, const TorchProgress& progress);
 
 [[nodiscard]] std::string torch_csv(const TorchResult& result);
+/// What the light costs at one sample a pixel, and at the pack's own number.
+[[nodiscard]] std::string torch_samples_csv(const TorchResult& result);
 /// Each frame's time, tolerance and triangles, for the plots.
 [[nodiscard]] std::string torch_frames_csv(const TorchResult& result);
 /// Triangles, and the light where there is shadow.

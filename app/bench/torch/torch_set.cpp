@@ -33,11 +33,18 @@ const CellWay& way_of(const std::vector<CellWay>& finest_first) {
 
 } // namespace
 
+torch::Content white_over() {
+    torch::Content content = torch::white();
+    content.blend = torch::Blend::Over;
+    return content;
+}
+
 Result<std::unique_ptr<TorchSet>> TorchSet::open(settings::Settings settings,
                                                  const std::filesystem::path& pack) {
     settings.projector.pinhole = settings.projector.pinhole.ideal();
     std::unique_ptr<TorchSet> made(new TorchSet());
-    TRY(made->cells_, CellSet::open(settings, pack, 1, CellSet::Torches::Some));
+    const torch::Content content = white_over();
+    TRY(made->cells_, CellSet::open(settings, pack, 1, torch::parts_of(content.stages, content.blend)));
     const image::Image8 black(1, 1, glm::u8vec4(0, 0, 0, 255));
     TRY(made->black_, made->cells_->renderer().store().upload_picture(std::span(&black, 1)));
     TRY_VOID(made->add_whole(pack));
@@ -88,6 +95,7 @@ Result<void> TorchSet::add_whole(const std::filesystem::path& file) {
     }
     const pack::Placement placement = pack::place(*pack, prop());
     const double metres_per_box = placement.metres_per_box;
+    samples_ = pack->samples;
     prop_from_artifact_ = placement.prop_from_artifact;
     render::GpuStore& store = cells_->renderer().store();
     TRY(const scene::Drawable drawable, store.upload(*pack, pack->default_level));

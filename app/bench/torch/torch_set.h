@@ -3,7 +3,8 @@
 ///
 /// Colours  each surface twice: in its own colours, to be timed, and in black, so that white light laid over it is its
 ///          intensity in linear light.
-/// Samples  one a pixel, so that a pixel's intensity is that of the point through its centre.
+/// Samples  one a pixel, so that a pixel's intensity is that of the point through its centre; costs are taken at the
+///          pack's own number too.
 /// Lens     straight: the paper's pass does not bend.
 /// Threads  the one that opened the set: the display's context is current there.
 /// Errors   no display; a pack without cells or without reliefs; any error of reading and planning them.
@@ -21,14 +22,16 @@
 
 namespace frustumscreen::bench {
 
+/// Plain white that covers the surface by the intensity.
+[[nodiscard]] torch::Content white_over();
+
 struct TorchSurface {
     std::vector<scene::Part> parts, black;
 };
 struct TorchScene {
     std::string name; ///< "mesh", "relief", "cells"
     TorchSurface drawn;
-    TorchSurface
-        polygons; ///< for the paper, which knows no relief: as fine as those of `drawn`
+    TorchSurface polygons; ///< for the paper, which knows no relief: as fine as those of `drawn`
     std::size_t max_indices = 0;
     std::size_t triangles = 0; ///< of `polygons`
 };
@@ -42,6 +45,7 @@ public:
     [[nodiscard]] CellSet& cells() { return *cells_; }
     [[nodiscard]] const geometry::PropShape& prop() const { return cells_->prop(); }
     [[nodiscard]] const settings::Settings& settings() const { return cells_->settings(); }
+    [[nodiscard]] int samples() const { return samples_; } ///< a pixel, of the pack
     [[nodiscard]] const glm::dmat4& prop_from_artifact() const { return prop_from_artifact_; }
     /// The artifact's box in the prop.
     [[nodiscard]] const geometry::Box& box() const { return box_; }
@@ -59,6 +63,7 @@ private:
     [[nodiscard]] scene::PlacedLevel in_black(const scene::PlacedLevel& placed);
 
     std::unique_ptr<CellSet> cells_;
+    int samples_ = 1;
     scene::TextureId black_ = scene::TextureId::None;
     std::vector<TorchScene> scenes_;
     glm::dmat4 prop_from_artifact_{1.0};

@@ -13,13 +13,6 @@ bool is_paper(const TorchWay& way) {
     return way.kind == TorchWay::Kind::Paper;
 }
 
-/// Plain white that covers the surface by the intensity.
-torch::Content white_over() {
-    torch::Content content = torch::white();
-    content.blend = torch::Blend::Over;
-    return content;
-}
-
 } // namespace
 
 Result<std::unique_ptr<TorchTechnique>> TorchTechnique::create(TorchSet& set, const TorchScene& scene,
@@ -34,6 +27,11 @@ TorchTechnique::TorchTechnique(TorchSet& set, const TorchScene& scene, const tor
     : set_(set), surface_(is_paper(way) ? scene.polygons : scene.drawn), beam_(beam), way_(std::move(way)),
       content_(white_over()), paper_(std::move(paper)),
       plan_(scene::make_plan(set.prop(), scene.max_indices, surface_.parts.size())) {
+    for (auto* const parts : {&surface_.parts, &surface_.black}) {
+        for (scene::Part& part : *parts) {
+            part.level.samples = way_.samples;
+        }
+    }
     scene::make_torch_space(plan_, set.prop().faces.size(), scene.max_indices, surface_.parts.size());
 }
 

@@ -26,6 +26,7 @@ struct TorchWay {
     Kind kind = Kind::None;
     torch::Splitting::By by = torch::Splitting::By::Length;
     std::vector<double> tolerances = {}; ///< of the paper, one for each frame: metres, or intensity
+    int samples = 1;                     ///< a pixel; the paper's pass draws one alone
 };
 
 class TorchTechnique {
@@ -47,7 +48,7 @@ private:
                    PaperTorch paper);
 
     TorchSet& set_;
-    const TorchSurface& surface_;
+    TorchSurface surface_;
     torch::Beam beam_;
     TorchWay way_;
     torch::Content content_;

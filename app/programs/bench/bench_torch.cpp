@@ -74,6 +74,7 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
     fmt::print("{}\n{}", bench::torch_table(result), bench::torch_verdicts(result));
     TRY_VOID(write_all(arguments.out, {{"torch.csv", bench::torch_csv(result)},
                                        {"torch_frames.csv", bench::torch_frames_csv(result)},
+                                       {"torch_samples.csv", bench::torch_samples_csv(result)},
                                        {"torch_details.csv", bench::torch_details_csv(result)},
                                        {"torch_wall.csv", bench::torch_wall_csv(bench::measure_wall())},
                                        {"torch_triangles.csv", bench::torch_triangles_csv()}}));
