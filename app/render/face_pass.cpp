@@ -33,7 +33,6 @@ void set_face(const Shader& shader, const scene::FaceLight& light) {
 }
 
 void set_draw(const Shader& shader, const scene::Draw& draw) {
-    glUniform2f(shader.location(Uniform::Brightness), draw.brightness, std::pow(draw.brightness, code_power));
     glUniform2f(shader.location(Uniform::Dither), draw.dither.share, draw.dither.complement ? 0.0F : 1.0F);
     const std::array<glm::vec3, 2> light{draw.light, glm::pow(draw.light, glm::vec3(code_power))};
     glUniform3fv(shader.location(Uniform::Light), 2, glm::value_ptr(light[0]));
@@ -113,6 +112,8 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
             continue;
         }
         begin_surface(plan, draw, *texture, *shader, raster);
+        glUniform2f(shader->location(Uniform::Brightness), draw.brightness,
+                    std::pow(draw.brightness, code_power));
         if (mesh != nullptr) {
             draw_mesh(draw, draw.range, *mesh);
         } else {

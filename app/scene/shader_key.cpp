@@ -70,6 +70,7 @@ ShaderKey places_of(ShaderKey key) {
     key.even_light = false;
     key.coloured = false;
     key.torch = false;
+    key.content = 0;
     return key;
 }
 

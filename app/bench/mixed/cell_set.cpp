@@ -40,7 +40,8 @@ scene::SceneRequest request_for(int samples) {
 } // namespace
 
 Result<std::unique_ptr<CellSet>> CellSet::open(const settings::Settings& settings,
-                                               const std::filesystem::path& pack, int samples) {
+                                               const std::filesystem::path& pack, int samples,
+                                               std::optional<std::uint8_t> torch) {
     TRY(pack::PackWorld world, pack::load_world(pack));
     if (std::none_of(world.cells.begin(), world.cells.end(),
                      [](const pack::PackCell& cell) { return cell.cell.has_geometry; })) {
@@ -62,16 +63,17 @@ Result<std::unique_ptr<CellSet>> CellSet::open(const settings::Settings& setting
     TRY(made->known_,
         residency::open_cells(settings, pack, std::move(world), made->plan_, request_for(of_pack)));
     TRY(made->prepared_, residency::prepare_cells(pack, *made->known_, [] { return false; }));
-    TRY_VOID(made->upload());
+    TRY_VOID(made->upload(torch));
     made->list_ways();
     return made;
 }
 
-Result<void> CellSet::upload() {
+Result<void> CellSet::upload(std::optional<std::uint8_t> torch) {
     const geometry::Pinhole& pinhole = settings_.projector.pinhole;
     TRY(display_, display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
-    TRY(renderer_,
-        render::Renderer::create(pinhole.width, pinhole.height, residency::needs_of(*known_, plan_.needs)));
+    scene::RenderNeeds needs = residency::needs_of(*known_, plan_.needs);
+    needs = torch ? scene::with_torch(std::move(needs), *torch) : needs;
+    TRY(renderer_, render::Renderer::create(pinhole.width, pinhole.height, needs));
     for (const residency::PreparedLevel& level : prepared_.levels) {
         render::LevelUpload upload(level.data);
         TRY_VOID(upload.go_on());

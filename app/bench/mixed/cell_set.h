@@ -16,8 +16,10 @@
 #include "app/scene/frame_plan.h"
 #include "firmware_host/display/surfaceless_display.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,9 +40,10 @@ struct CellWays {
 
 class CellSet {
 public:
-    /// `samples`: a pixel; 0: the pack's own number.
+    /// `samples`: a pixel; 0: the pack's own number. `torch`: the parts of a torch's content (torch::ContentPart).
     [[nodiscard]] static Result<std::unique_ptr<CellSet>>
-    open(const settings::Settings& settings, const std::filesystem::path& pack, int samples);
+    open(const settings::Settings& settings, const std::filesystem::path& pack, int samples,
+         std::optional<std::uint8_t> torch = std::nullopt);
     CellSet(const CellSet&) = delete;
     CellSet& operator=(const CellSet&) = delete;
 
@@ -66,7 +69,7 @@ public:
 private:
     CellSet(settings::Settings settings, scene::ScenePlan plan)
         : settings_(std::move(settings)), plan_(std::move(plan)) {}
-    [[nodiscard]] Result<void> upload();
+    [[nodiscard]] Result<void> upload(std::optional<std::uint8_t> torch);
     void list_ways();
 
     settings::Settings settings_;

@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import room_plots
+import torch_plots
 from panels import Failure, Panel, Series, save_column, save_sheet
 
 COST = "median frame time / that of the floor"
@@ -334,7 +335,9 @@ TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_":
           "latency": draw_latency, "step_error": draw_step_error, "setup": draw_setup,
           "guidance": draw_guidance, "ladder": draw_ladder, "mixed": draw_mixed, "mixed_frames": draw_mixed_frames,
           "room": of_rows(room_plots.draw_room), "room_frames": of_rows(room_plots.draw_room_frames),
-          "room_paper": of_rows(room_plots.draw_room_paper)}
+          "room_paper": of_rows(room_plots.draw_room_paper), "torch": of_rows(torch_plots.draw_torch),
+          "torch_frames": of_rows(torch_plots.draw_torch_frames), "torch_wall": of_rows(torch_plots.draw_torch_wall),
+          "torch_triangles": of_rows(torch_plots.draw_torch_triangles)}
 
 
 @contextmanager

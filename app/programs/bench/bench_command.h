@@ -140,6 +140,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand mixed_command(CommandLine& app);
 /// The room behind the screen, of many objects, against other ways to draw it.
 [[nodiscard]] BenchCommand room_command(CommandLine& app);
+/// A torch's light: ours against the paper's.
+[[nodiscard]] BenchCommand torch_command(CommandLine& app);
 /// A pack's cells at rest against the whole.
 [[nodiscard]] BenchCommand cells_command(CommandLine& app);
 /// The benefit of advice for visitors.

@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
         stability_command(app),  plot_command(app),     counts_command(app),     latency_command(app),
         setup_command(app),      guidance_command(app), ladder_command(app),     estimate_command(app),
         tags_command(app),       visitor_command(app),  stereo_command(app),     mixed_command(app),
-        room_command(app),       cells_command(app),    report_command(app)};
+        room_command(app),       cells_command(app),    report_command(app),     torch_command(app)};
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True
 PLOTS = Path(__file__).resolve().parents[3] / "app/bench/plots"
 sys.path.insert(0, str(PLOTS))
 
+import torch_plots  # noqa: E402
 from draw_plots import main, median_attainment, pareto_front  # noqa: E402
 from panels import Failure, Panel, Series, save_column, save_sheet  # noqa: E402
 from svg import Svg  # noqa: E402
@@ -347,6 +348,64 @@ class Room(Plots):
         svg = Svg(table.with_suffix(".svg"))
         self.assert_at(svg, 0, "paper", [(5000, 2.0), (50000, 1.5)])
         self.assert_at(svg, 1, "paper", [(5000, 30), (50000, 20)])
+
+
+class Torch(Plots):
+    def test_each_technique_stands_at_its_cost_and_its_error(self):
+        table = self.folder / "torch.csv"
+        write_table(table, ({"scene": scene, "technique": technique, "tolerance_mm": 0, "ms_p50": ms, "ms_p99": 2 * ms,
+                             "intensity_rmse": error, "intensity_max": 2 * error}
+                            for scene in ("mesh", "cells")
+                            for technique, ms, error in (("none", 10, 0), ("ours", 12, 0.1), ("paper", 30, 0.2),
+                                                         ("paper", 20, 0.9), ("paper_curvature_2pct", 25, 0.3))))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        for panel in (0, 1):
+            self.assert_at(svg, panel, "ours", [(1.2, 0.1)], log=False)
+            self.assert_at(svg, panel, "paper", [(2.0, 0.9), (3.0, 0.2)], log=False)
+            self.assert_at(svg, panel, "paper_curvature", [(2.5, 0.3)], log=False)
+
+    def test_frame_rates_are_those_of_ten_frames(self):
+        table = self.folder / "torch_frames.csv"
+        write_table(table, ({"scene": "mesh", "technique": technique, "frame": frame, "ms": ms if frame < 10 else 2 * ms}
+                            for technique, ms in (("paper_steered", 20), ("paper_fixed", 25), ("ours_no_shadow", 10),
+                                                  ("ours", 12.5)) for frame in range(25)))  # the last five are no group
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        self.assert_at(svg, 0, "paper_steered", [(5, 50), (15, 25)], log=False)
+        self.assert_at(svg, 0, "paper_fixed", [(5, 40), (15, 20)], log=False)
+
+    def test_a_wall_has_its_triangles_over_its_errors(self):
+        table = self.folder / "torch_wall.csv"
+        write_table(table, ({"attenuation": attenuation, "heuristic": heuristic, "triangles": triangles,
+                             "intensity_rmse": error, "intensity_max": 3 * error}
+                            for attenuation in ("linear", "smooth_step")
+                            for heuristic, triangles, error in (("length", 200, 1.0), ("length", 20, 5.0),
+                                                                ("curvature", 100, 1.0))))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        self.assert_at(svg, 0, "by edge length (paper)", [(20, 5.0), (200, 1.0)])
+        self.assert_at(svg, 3, "by the bound (ours)", [(100, 3.0)])
+
+    def test_walls_are_lit_between_their_corners_and_only_in_the_beam(self):
+        corner = (0.1, 0.0, 1.0, 0.0, 0.0, 1.0)
+        triangle = [corner, (0.5, 0.0, 0.0, 2.0, 0.0, 1.0), (0.1, 0.4, 0.0, 0.0, 2.0, 1.0)]
+        codes, in_beam = torch_plots.wall_picture([triangle])
+        at = [round((place - torch_plots.MIDDLE + torch_plots.EXTENT) / (2 * torch_plots.EXTENT) * torch_plots.SIZE)
+              for place in (0.2, 0.4)]
+        row = torch_plots.SIZE // 2 - 1
+        self.assertAlmostEqual(codes[row, at[0]] ** 2.2, 0.75, delta=0.02)
+        self.assertTrue(in_beam[row, at[0]])
+        self.assertFalse(in_beam[row, at[1]])
+        self.assertEqual(codes[row, at[1]], 0)
+        table = self.folder / "torch_triangles.csv"
+        write_table(table, (dict(zip(("heuristic", "tolerance", "triangle", "x_m", "y_m", "intensity", "s", "t", "q"),
+                                     (heuristic, tolerance, 0, *each)))
+                            for heuristic, tolerance in (("length", 60), ("curvature", 4)) for each in triangle))
+        main([str(table)])
+        words = Svg(table.with_suffix(".svg")).texts()
+        self.assertIn("edges up to 60 mm: 1 triangles", words)
+        self.assertIn("bound of the error 4 %: 1 triangles", words)
 
 
 class WhatIsBroken(Plots):

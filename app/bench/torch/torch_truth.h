@@ -1,0 +1,54 @@
+/// The torch's true intensity at each pixel of a picture, in 64-bit: torch::intensity_at at the point that the pixel shows,
+/// and rays from the torch for its shadows.
+///
+/// Point    the one that the drawn surface shows through the pixel's centre, so that a surface's own error, which other
+///          commands measure, is no error of the light.
+/// Shadows  by rays against the source mesh, so the surface that is drawn and the one that is cast differ by the level's error: 1 mm
+///          is allowed. A pixel counts as lit, or as in shadow, if five rays say so: through its point, and one
+///          pixel of the torch's own picture beside it on four sides. Other pixels are left out, and so are those within
+///          one such pixel of the beam's edge, and within 1 % of its reach.
+/// Frames   prop.
+/// Threads  `cast` uses every core inside; one call at a time.
+/// Errors   none.
+#pragma once
+
+#include "app/bench/truth/truth.h"
+#include "app/torch/torch.h"
+
+namespace frustumscreen::bench {
+
+enum class TorchPlace : std::uint8_t {
+    Outside, ///< of the beam, or no hit
+    Lit,
+    Shadow,  ///< in the beam
+    Unclear, ///< left out
+};
+
+/// Shape  every image is the projector's picture.
+struct TorchTruth {
+    image::Image<TorchPlace> place;
+    image::Image<float> intensity; ///< where lit
+};
+
+/// `points_m`: each pixel's point in the prop; NaN: none.
+[[nodiscard]] TorchTruth cast_torch(const Truth& truth, const image::ImageFloat& points_m,
+                                    const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam);
+
+/// Of the intensity, over the lit pixels of some pictures; per cent of the full one.
+class IntensityError {
+public:
+    /// `drawn`: white over black, sRGB codes.
+    void add(const TorchTruth& truth, const image::Image8& drawn);
+
+    [[nodiscard]] double rmse() const;
+    [[nodiscard]] double max() const { return 100.0 * max_; }
+    [[nodiscard]] std::size_t pixels() const { return pixels_; }
+    /// Per cent of the pixels in shadow that show light.
+    [[nodiscard]] double leak() const;
+
+private:
+    double squares_ = 0.0, max_ = 0.0;
+    std::size_t pixels_ = 0, shadow_ = 0, leaks_ = 0;
+};
+
+} // namespace frustumscreen::bench
