@@ -219,7 +219,8 @@ struct FramePlan {
     std::vector<TorchDraw> torch_draws; ///< torch by torch
     /// What each of `torches` sees, for its shadows; of the frame are as many as there are torches.
     std::vector<FramePlan> torch_views;
-    std::vector<Part> casters; ///< the parts of a torch's own picture
+    std::vector<Part> casters;   ///< the parts of a torch's own picture
+    geometry::PropShape surface; ///< of a torch's own picture: the square that its light meets first
 };
 
 /// A plan with room for every face of `parts` parts that have `indices` indices together. A plan for torches takes some

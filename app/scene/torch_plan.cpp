@@ -96,22 +96,32 @@ PixelRectangle lit_pixels(const PlacedLevel& level, const glm::dmat4& clip_from_
     return lit;
 }
 
-/// A square close before the torch that its whole picture meets, prop frame.
-geometry::PropShape surface_before(const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam,
-                                   double distance) {
-    geometry::PropShape surface;
-    geometry::PropFace& face = surface.faces.emplace_back();
-    const glm::dvec3 normal = prop_from_torch.direction({0.0, 0.0, -1.0});
-    face.plane = {normal, glm::dot(normal, prop_from_torch.point({0.0, 0.0, distance}))};
-    const glm::dvec2 half = 1.01 * distance * torch::half_extent(beam);
-    for (const glm::dvec2& side :
-         {glm::dvec2(-1, 1), glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)}) {
-        face.corners.push_back(prop_from_torch.point({side * half, distance}));
+constexpr std::array<glm::dvec2, 4> square{glm::dvec2(-1, 1), glm::dvec2(1, 1), glm::dvec2(1, -1),
+                                           glm::dvec2(-1, -1)};
+
+geometry::PropShape square_shape() {
+    geometry::PropShape shape;
+    geometry::PropFace& face = shape.faces.emplace_back();
+    for (const glm::dvec2& corner : square) {
+        face.corners.push_back({corner, 0.0});
     }
-    surface.bounds = {face.plane};
-    surface.corners.assign(face.corners.begin(), face.corners.end());
+    shape.bounds.resize(1);
+    shape.corners.resize(square.size());
+    return shape;
+}
+
+/// Puts a square close before the torch, so that all of its light meets it, prop frame. `surface`: of square_shape.
+void place_before(const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam, double distance,
+                  geometry::PropShape& surface) {
+    geometry::PropFace& face = surface.faces.front();
+    const glm::dvec3 normal = prop_from_torch.direction({0.0, 0.0, -1.0});
     surface.middle = prop_from_torch.point({0.0, 0.0, distance});
-    return surface;
+    face.plane = {normal, glm::dot(normal, surface.middle)};
+    surface.bounds.front() = face.plane;
+    const glm::dvec2 half = 1.01 * distance * torch::half_extent(beam);
+    for (std::size_t k = 0; k < square.size(); ++k) {
+        face.corners[k] = surface.corners[k] = prop_from_torch.point({square[k] * half, distance});
+    }
 }
 
 geometry::Pinhole pinhole_of(const torch::Beam& beam) {
@@ -153,7 +163,8 @@ std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, con
             plan.casters.push_back({part.level, std::nullopt});
         }
     }
-    plan_frame(surface_before(prop_from_torch, torch.beam, distance), plan.casters, seen, plan);
+    place_before(prop_from_torch, torch.beam, distance, plan.surface);
+    plan_frame(plan.surface, plan.casters, seen, plan);
     plan.samples = 1;
     for (ReliefDraw& relief_draw : plan.relief_draws) {
         relief_draw.samples = 1;
@@ -188,13 +199,10 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
     plan.torch_draws.reserve(torch::max_torches * parts * faces);
     plan.indices.reserve((1 + torch::max_torches) * faces * indices);
     plan.torch_views.clear();
-    geometry::PropShape one_face;
-    one_face.faces.resize(1);
-    for (int corner = 0; corner < 4; ++corner) {
-        one_face.faces.front().corners.push_back(glm::dvec3(0.0));
-    }
+    const geometry::PropShape surface = square_shape();
     for (std::size_t k = 0; k < torch::max_torches; ++k) {
-        FramePlan& view = plan.torch_views.emplace_back(make_plan(one_face, indices, parts));
+        FramePlan& view = plan.torch_views.emplace_back(make_plan(surface, indices, parts));
+        view.surface = surface;
         view.casters.reserve(parts);
     }
 }
