@@ -1,6 +1,7 @@
 // Torches that light a world of meshes and reliefs, against rays: pixels that no torch touches are the same bytes, lit ones have the
 // intensity of their way, and shadows end within a pixel of the torch's own picture.
 
+#include "tests/render/counted_new.h"
 #include "tests/render/torch_compare.h"
 
 #include <cstdlib>
@@ -248,6 +249,36 @@ TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
         }
         EXPECT_GT(unchanged, 300'000U);
     }
+}
+
+TEST(Torch, AFrameAllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    Still still(Way::Mesh);
+    still.world.choose(std::array{Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief});
+    std::mt19937 random(5);
+    std::vector<std::pair<TestTable, std::vector<scene::PlacedTorch>>> frames;
+    for (int k = 0; k < 10; ++k) {
+        still.table.shuffle(random);
+        frames.emplace_back(still.table, std::vector<scene::PlacedTorch>());
+        for (int torch = 0; torch < 4; ++torch) {
+            frames.back().second.push_back(seeded_torch(still.table, random, k + torch));
+        }
+    }
+    long counted = 0;
+    for (int k = 0; k < 40; ++k) { // the first rounds reserve memory for the fullest view
+        const auto& [table, torches] = frames[static_cast<std::size_t>(k) % frames.size()];
+        scene::PlanView view = table.view();
+        view.torches = torches;
+        const long before = allocations_so_far();
+        scene::plan_frame(still.world.prop, still.world.parts, view, still.world.plan);
+        static_cast<void>(still.world.renderer->draw(
+            still.world.plan, {still.world.display->framebuffer(), still.world.display->buffer_age()},
+            render::Redraw::Everything));
+        counted += k < 30 ? 0 : allocations_so_far() - before;
+    }
+    EXPECT_EQ(counted, 0);
 }
 
 } // namespace

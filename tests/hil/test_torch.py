@@ -1,0 +1,121 @@
+"""A torch in the hand: the third sensor of the tracker's mock. Its light sweeps over the artifact; the pixels that `frustumscreen render
+--torch` lights change, and no others do. Its beam rises, so that it never meets the table, where a lamp's own light is shown."""
+
+import math
+import pathlib
+import tempfile
+
+import screen
+from bench import EYE_M, UPRIGHT, USUAL, about, both_turns, eventually
+from hil_test import HilTest
+
+ARTIFACT = "amphora"
+PLACES_M = ((0.0, 0.0, 0.0), (0.08, 0.04, 0.0))
+TORCH_STATION = 3
+OPENING_DEG = 10.0
+TORCH = USUAL + f'\n[torch]\nsource = "tracker"\nopening_deg = {OPENING_DEG}\nattenuation = "none"\n'
+FROM_M = (-0.15, -0.36, 0.025)  # of the prop's foot
+AIMS_M = ((-0.02, 0.0, 0.075), (0.0, 0.0, 0.075), (0.02, 0.0, 0.085))  # where the middle of the light passes the prop
+TREMBLE_M = 0.004  # a torch that lies still is off
+SETTLED_S = 1.0
+SWEEP_S = 60.0
+GONE_S = 30.0
+CHANGED = 6  # codes; the filtered pose shades a surface by some less
+NEAR = 4  # pixels, of an edge of the light: its pose comes to rest near to what was sent
+MAX_OUTSIDE = 0.01  # share of the changed pixels, and of those that should
+
+
+def pointing(from_m, at_m):
+    """The pose of a torch whose +Z points to a place and whose +Y points down."""
+    along = [b - a for a, b in zip(from_m, at_m)]
+    azimuth = math.degrees(math.atan2(along[1], along[0]))
+    elevation = math.degrees(math.atan2(along[2], math.hypot(*along[:2])))
+    level = both_turns(about(0, 0, 1, azimuth - 90), about(1, 0, 0, -90))  # +Z to +Y of the table is turned about the vertical
+    return (*from_m, *both_turns(level, about(1, 0, 0, elevation)))
+
+
+def changed_in(before, after):
+    """Rows whose bits are the pixels that differ."""
+    rows = []
+    for y in range(before.height):
+        bits = 0
+        first = 3 * before.width * y
+        for x in range(before.width):
+            at = first + 3 * x
+            differs = any(abs(before.rgb[at + k] - after.rgb[at + k]) > CHANGED for k in range(3))
+            bits = bits << 1 | int(differs)
+        rows.append(bits)
+    return [0] + rows[1:]  # the first has the watchdog's code
+
+
+def shrunk(rows, pixels, width):
+    full = (1 << width) - 1
+    return [~row & full for row in screen.grown([~row & full for row in rows], pixels, width)]
+
+
+class Torch(HilTest):
+    settings = TORCH
+
+    def setUp(self):
+        super().setUp()
+        self.addCleanup(self.bench.tracker.tell, "away", TORCH_STATION)
+        self.bench.tracker.tell("away", TORCH_STATION)
+        self.show(ARTIFACT)
+
+    def place_torch(self, pose):
+        self.bench.tracker.tell("pose", *pose, TORCH_STATION)
+
+    def render(self, prop, torch):
+        with tempfile.TemporaryDirectory() as folder:
+            config = pathlib.Path(folder) / "kiosk.toml"
+            config.write_text(TORCH, encoding="utf-8")
+            return [self.bench.render([prop], ARTIFACT, EYE_M, config, options=options, torches=[torch])[0]
+                    for options in ((), ("--torch", "white"))]
+
+    def changes_as_rendered(self, prop, torch, dark):
+        """Waits until what differs from the picture without a torch is what differs between the rendered pictures."""
+        meant = changed_in(*self.render(prop, torch))
+        self.assertGreater(screen.count(meant), 200, "the torch lights nothing: this pose proves nothing")
+        may = screen.grown(meant, NEAR, dark.width)
+        must = shrunk(meant, NEAR, dark.width)
+        said = ["nothing"]
+
+        def is_so():
+            self.place_torch((torch[0], torch[1], torch[2] + TREMBLE_M, *torch[3:]))
+            self.bench.machine.let_run(SETTLED_S / 2)
+            self.place_torch(torch)
+            self.bench.machine.let_run(SETTLED_S)
+            seen = changed_in(dark, self.bench.picture_of(prop))
+            outside = screen.share_outside(seen, may)
+            missing = screen.share_outside(must, seen)
+            said[0] = f"{screen.count(seen)} pixels changed, {outside:.1%} of them outside; {missing:.1%} of the light is missing"
+            return outside <= MAX_OUTSIDE and missing <= MAX_OUTSIDE
+
+        eventually(is_so, SWEEP_S, lambda: said[0])
+
+    def is_as_without(self, prop, dark):
+        eventually(lambda: screen.count(changed_in(dark, self.bench.picture_of(prop))) == 0, GONE_S,
+                   "the light stays, though the torch is gone")
+
+    def test_the_light_sweeps_over_the_artifact(self):
+        for place in PLACES_M:
+            prop = (*place, *UPRIGHT)
+            self.bench.place(place)
+            dark = self.bench.picture_of(prop)
+            for aim in AIMS_M:
+                with self.subTest(prop=place, aim=aim):
+                    begin, end = ([a + b for a, b in zip(place, point)] for point in (FROM_M, aim))
+                    self.changes_as_rendered(prop, pointing(begin, end), dark)
+            self.bench.tracker.tell("away", TORCH_STATION)
+            self.is_as_without(prop, dark)
+
+    def test_it_stays_in_the_hand_while_the_prop_moves(self):
+        """The third station moves nothing else, and the first does not move the light."""
+        torch = pointing(FROM_M, AIMS_M[1])
+        for place in ((0.0, 0.0, 0.0), (0.02, 0.0, 0.0)):
+            prop = (*place, *UPRIGHT)
+            self.bench.tracker.tell("away", TORCH_STATION)
+            self.bench.place(place)
+            self.bench.machine.let_run(SETTLED_S)
+            dark = self.bench.picture_of(prop)
+            self.changes_as_rendered(prop, torch, dark)
