@@ -41,6 +41,14 @@ PixelRectangle in_display(PixelRectangle part, const scene::FramePlan& plan) {
     return part;
 }
 
+PixelRectangle lit_by_torches(const scene::FramePlan& plan) {
+    PixelRectangle lit;
+    for (const scene::TorchDraw& draw : plan.torch_draws) {
+        lit = united(lit, draw.bounds);
+    }
+    return lit;
+}
+
 } // namespace
 
 Result<Renderer> Renderer::create(int width, int height, const scene::RenderNeeds& needs) {
@@ -205,6 +213,9 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
+        if (!torches.empty()) { // they ask each pixel of their bounds for its depth
+            sample_grid_->clear_depth(lit_by_torches(plan), raster);
+        }
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, raster);

@@ -139,6 +139,16 @@ void SampleGrid::begin(const scene::LitTiles& tiles, const Raster& raster, const
     glDisable(GL_DEPTH_TEST);
 }
 
+void SampleGrid::clear_depth(const PixelRectangle& part, const Raster& raster) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    glEnable(GL_SCISSOR_TEST);
+    set_scissor(part, raster);
+    glDepthMask(GL_TRUE);
+    glClearDepthf(1.0F);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void SampleGrid::average(const scene::LitTiles& tiles, const Raster& raster, const glm::ivec2& viewport,
                          const ShaderCache& shaders) const {
     const bool many = raster.fragments.x * raster.fragments.y > 4;

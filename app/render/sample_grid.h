@@ -35,6 +35,8 @@ public:
                                 const PixelRectangle& around, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
     void begin(const scene::LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
+    /// Clears the depth in a part of the picture, also beside the tiles. After `begin`, before anything is drawn.
+    void clear_depth(const PixelRectangle& part, const Raster& raster) const;
     /// Averages the tiles into the bound framebuffer, which encodes linear light, and its viewport, whose first
     /// pixel is `viewport`.
     void average(const scene::LitTiles& tiles, const Raster& raster, const glm::ivec2& viewport,

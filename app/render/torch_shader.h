@@ -68,18 +68,19 @@ bool is_lit(vec3 p) {
 }
 
 #if CONTENT_PARTS & 4
-// The share of a pixel that a line covers: `away` from its middle, `across` its width, `pixel` the pixel's.
+// The share of a pixel that a line covers, which is at least as wide as the pixel: `away` from its middle.
 float covered(float away, float across, float pixel) {
-    return clamp((0.5 * across - away) / pixel + 0.5, 0.0, 1.0) * min(1.0, max(across / pixel, 0.25));
+    return clamp((0.5 * max(across, pixel) - away) / pixel + 0.5, 0.0, 1.0);
 }
 float from_line(float at, float every) { return abs(fract(at / every + 0.5) - 0.5) * every; }
 
+// Marks of 1, 5 and 10 mm, of which those closer than four pixels are left out.
 float ruler(vec2 at_mm, float pixel_mm) {
-    float mark = abs(at_mm.x) + 0.5;
-    float count = floor(mark);
+    float every = pixel_mm < 0.25 ? 1.0 : pixel_mm < 1.25 ? 5.0 : 10.0;
+    float count = floor(abs(at_mm.x) / every + 0.5) * every;
     float length_mm = mod(count, 10.0) < 0.5 ? 10.0 : mod(count, 5.0) < 0.5 ? 7.0 : 4.0;
-    float marks = at_mm.y <= 0.0 && at_mm.y >= -length_mm ? covered(abs(fract(mark) - 0.5), 0.2, pixel_mm) : 0.0;
-    return max(marks, covered(abs(at_mm.y), max(0.2, pixel_mm), pixel_mm));
+    float marks = at_mm.y <= 0.0 && at_mm.y >= -length_mm ? covered(from_line(at_mm.x, every), 0.3, pixel_mm) : 0.0;
+    return max(marks, covered(abs(at_mm.y), 0.3, pixel_mm));
 }
 
 float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {

@@ -237,7 +237,8 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
             TorchDraw lit{.draw = k, .torch = number, .bounds = {}, .range = {}};
             lit.bounds =
                 intersected(draw.bounds, lit_pixels(level, draw.clip_from_placed, planes, plan.projector));
-            if (level.triangles && !lit.bounds.empty() && (parts_of(torch) & torch::LayerPart) != 0) {
+            if (level.triangles && !lit.bounds.empty() &&
+                ((parts_of(torch) & torch::LayerPart) != 0 || plan.samples == 1)) {
                 lit.range = lit_triangles(
                     *level.triangles, draw.range,
                     planes_of(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);

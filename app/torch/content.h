@@ -31,7 +31,7 @@ enum class Source : std::uint8_t {
     Layer,   ///< the artifact's own surface with another texture
     Ring,    ///< a circle: `size` is its diameter, `width` that of its line, shares of the content's width
     Grid,    ///< lines every `size`, `width` wide, shares of the content's width
-    Ruler, ///< a scale across the beam: a line every millimetre, longer ones every five and ten, at its true size on the surface
+    Ruler, ///< a scale across the beam: marks of 1, 5 and 10 mm where a pixel can show them, at its true size on the surface
     Lens,  ///< the surface as the torch sees it, `magnification` times as large, in a disc of diameter `size`
 };
 inline constexpr std::array<std::string_view, 8> source_names{"plain", "picture", "film",  "layer",
