@@ -95,18 +95,17 @@ float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
 }
 #endif
 
-// `dx`, `dy`: of `place`.
-vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec4 layer) {
+// `pixel`: its size in the content, shares of the width.
+vec4 stage(int k, vec2 place, float pixel, vec3 p, vec4 layer) {
     vec4 colour = vec4(1.0);
 #if CONTENT_PARTS & 15
     int source = stage_kind[k].x;
     vec2 at = stage_from_content[k] * vec3(place, 1.0);
     vec2 from_middle = (at - 0.5) * vec2(1.0, height_per_width);
-    float pixel = max(length(dx), length(dy));
 #endif
 #if CONTENT_PARTS & 1
     if (source == 1 || source == 2) {
-        colour = textureGrad(content, at - floor(at), dx, dy);
+        colour = textureGrad(content, at - floor(at), vec2(pixel, 0.0), vec2(0.0, pixel / height_per_width));
         colour.rgb /= max(colour.a, 1e-3); // stored over black
     }
 #endif
@@ -129,11 +128,11 @@ vec4 stage(int k, vec2 place, vec2 dx, vec2 dy, vec3 p, vec4 layer) {
     return colour * stage_colour[k];
 }
 
-vec4 content_at(vec2 place, vec2 dx, vec2 dy, vec3 p, vec4 layer) {
-    vec4 sum = stage(0, place, dx, dy, p, layer);
+vec4 content_at(vec2 place, float pixel, vec3 p, vec4 layer) {
+    vec4 sum = stage(0, place, pixel, p, layer);
 #if CONTENT_PARTS & 16
     for (int k = 1; k < content_kind; ++k) {
-        vec4 next = stage(k, place, dx, dy, p, layer);
+        vec4 next = stage(k, place, pixel, p, layer);
         int how = stage_kind[k].y;
         if (how == 0) {
             float a = next.a + sum.a * (1.0 - next.a);
@@ -163,15 +162,14 @@ vec3 surface_gain() {
 }
 #endif
 
-// `share`: of the pixel that is lit.
-void light(vec3 p, vec4 layer, float share) {
+// `share`: of the pixel that is lit. `pixel_m`: the pixel's size at the place.
+void light(vec3 p, vec4 layer, float share, float pixel_m) {
     vec2 place = 0.5 * (p.xy / p.z * beam.xy) + 0.5;
-    vec2 dx = dFdx(place);
-    vec2 dy = dFdy(place);
+    float pixel = 0.5 * pixel_m * beam.x / p.z;
     if (share <= 0.0) {
         discard;
     }
-    vec4 colour = content_at(place, dx, dy, p, layer);
+    vec4 colour = content_at(place, pixel, p, layer);
     share *= colour.a * fall.w * intensity_at(length(p));
 #if CONTENT_PARTS & 32
     result = vec4(colour.rgb * surface_gain(), share);
@@ -204,7 +202,7 @@ void main() {
         discard;
     }
 #endif
-    light(point, layer_at_texel(), is_lit(point) ? 1.0 : 0.0);
+    light(point, layer_at_texel(), is_lit(point) ? 1.0 : 0.0, 0.5 * (length(dFdx(point)) + length(dFdy(point))));
 }
 )";
 
@@ -217,6 +215,10 @@ uniform ivec4 raster;             // fragments along a pixel's sides, the pixel 
 vec3 ray_at(vec2 fragment) { return vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0); }
 vec3 place_of(vec3 on_face, float near) { return eye + (on_face - eye) / near; }
 vec3 on_face_at(vec3 ray) { return (torch_from_projector * vec4(ray / dot(inverse_depth, ray), 1.0)).xyz; }
+// The pixel's size, without its neighbours, which may show another surface.
+float pixel_m_at(vec3 on_face, vec3 p) {
+    return distance(on_face, torch_from_projector[3].xyz) * ray_from_fragment.x * distance(p, eye) / distance(on_face, eye);
+}
 )";
 
 /// Of a relief that was rasterized on the processor.
@@ -240,14 +242,15 @@ void main() {
     for (int k = 0; k < edge_count; ++k) {
         inside = inside && dot(edges[k], ray) >= 0.0;
     }
-    vec3 p = place_of(on_face_at(ray), near > 0.0 ? near : 1.0);
+    vec3 on_face = on_face_at(ray);
+    vec3 p = place_of(on_face, near > 0.0 ? near : 1.0);
 #ifdef IN_DEPTH
     ivec2 in_pixel = fragment % raster.xy;
     inside = inside && float(in_pixel.y * raster.x + in_pixel.x) + 0.5 <=
                            texelFetch(image, at, 0).a * float(raster.x * raster.y);
     gl_FragDepth = 0.5 * (dot(depth_from_nearness.xyz, ray) * near + depth_from_nearness.w) + 0.5 - 1e-6;
 #endif
-    light(p, layer_at(at), inside && is_lit(p) ? 1.0 : 0.0);
+    light(p, layer_at(at), inside && is_lit(p) ? 1.0 : 0.0, pixel_m_at(on_face, p));
 }
 )";
 
@@ -277,7 +280,8 @@ void main() {
             }
         }
     }
-    light(lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0), vec4(0.0), lit / float(raster.x * raster.y));
+    vec3 p = lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0);
+    light(p, vec4(0.0), lit / float(raster.x * raster.y), pixel_m_at(on_face_at(middle), p));
 }
 )";
 
