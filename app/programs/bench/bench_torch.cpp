@@ -46,7 +46,7 @@ Result<void> write_pictures(bench::TorchSet& set, const bench::TorchOptions& opt
 
 Result<void> run(Arguments arguments, BenchProgress& progress) {
     if (arguments.artifact.pack.empty() != arguments.artifact.mesh.empty()) {
-        return bad_input("bench.pack_without_mesh",
+        return bad_input("bench.torch_without_mesh",
                          "--pack and --mesh are given together, or neither of them");
     }
     if (arguments.is_long) {
