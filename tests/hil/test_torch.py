@@ -16,7 +16,7 @@ OPENING_DEG = 10.0
 TORCH = USUAL + f'\n[torch]\nsource = "tracker"\nopening_deg = {OPENING_DEG}\nattenuation = "none"\n'
 FROM_M = (-0.15, -0.36, 0.025)  # of the prop's foot
 AIMS_M = ((-0.02, 0.0, 0.075), (0.0, 0.0, 0.075), (0.02, 0.0, 0.085))  # where the middle of the light passes the prop
-TREMBLE_M = 0.004  # a torch that lies still is off
+TREMBLE_M = 0.02  # a torch that lies is off until it is moved by more than 15 mm
 SETTLED_S = 1.0
 SWEEP_S = 60.0
 GONE_S = 30.0
