@@ -13,7 +13,7 @@ namespace frustumscreen::drawing {
 
 namespace {
 
-/// Of the tube, metres: it lies well in a hand, a sensor of 25 mm fits in, and it does not pass the holder's ring.
+/// The tube's sizes, metres: it fits a hand, holds a sensor of 25 mm, and does not pass the holder's ring.
 constexpr double tube_m = 0.036, length_m = 0.15, wall_m = 0.003;
 constexpr double collar_m = 0.046, collar_from_m = 0.060, collar_thick_m = 0.004;
 /// The holder: a plate with a ring, below the table's top.

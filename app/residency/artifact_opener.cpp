@@ -3,7 +3,6 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
-#include "app/pack/pack_torches.h"
 #include "app/scene/other_prop.h"
 #include "app/scene/prop_outline.h"
 #include "app/scene/stereo.h"

@@ -1,4 +1,4 @@
-// What the plan hands to the GPU for torches in odd places: matrices of 32 bits against exact places, and the pixels that the beam
+// Plans of torches in extreme poses: their 32-bit matrices are compared with exact places, and their bounds with the pixels that the beam
 // meets.
 
 #include "app/bench/stability/exact.h"

@@ -25,7 +25,7 @@ public:
     /// `plan` was drawn last, into `framebuffer`. `torch_from_prop` and `beam`: of the torch.
     void draw(const TorchSet& set, const scene::FramePlan& plan, const glm::dmat4& torch_from_prop,
               const torch::Beam& beam, const torch::Splitting& splitting, unsigned framebuffer);
-    /// Of the latest picture, after splitting.
+    /// The latest picture's triangles, after splitting.
     [[nodiscard]] std::size_t triangles() const { return lit_.size() / 3; }
 
 private:
@@ -36,7 +36,7 @@ private:
                     const scene::Draw& draw, const glm::dmat4& torch_from_unit,
                     const torch::TriangleSplitter& splitter, const torch::Splitting& splitting);
 
-    /// What a mesh was built for.
+    /// The inputs that a mesh depends on: it is built again when one changes.
     struct Key {
         std::uint64_t plan = 0;
         glm::dmat4 torch_from_prop{0.0};

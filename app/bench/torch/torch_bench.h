@@ -51,7 +51,7 @@ using TorchProgress = std::function<void(const std::string& step, double done)>;
                                                 const TorchOptions& options, const TorchProgress& progress);
 
 [[nodiscard]] std::string torch_csv(const TorchResult& result);
-/// What the light costs at one sample a pixel, and at the pack's own number.
+/// The cost of the light at one sample a pixel, and at the pack's own number of samples.
 [[nodiscard]] std::string torch_samples_csv(const TorchResult& result);
 /// Each frame's time, tolerance and triangles, for the plots.
 [[nodiscard]] std::string torch_frames_csv(const TorchResult& result);

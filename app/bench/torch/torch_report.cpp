@@ -39,7 +39,7 @@ double median_of(const std::vector<std::size_t>& counts) {
     return quantile(std::vector<double>(counts.begin(), counts.end()), 0.5);
 }
 
-/// Of the times of groups of ten frames, as the paper's Fig. 4 has them: the largest over the least.
+/// The spread in the paper's Fig. 4: of the mean times of groups of ten frames, the largest divided by the smallest.
 double spread_of_tens(const std::vector<double>& frame_ms) {
     constexpr std::size_t ten = 10;
     double low = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-/// What `frustumscreen-bench torch` lights: one artifact as polygons, as cast relief, and as cells of both, on a display of
+/// The scenes of `frustumscreen-bench torch`: one artifact as polygons, as cast relief, and as cells of both, on a display of
 /// its own.
 ///
 /// Colours  each surface twice: in its own colours, to be timed, and in black, so that white light laid over it is its

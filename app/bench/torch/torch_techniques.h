@@ -40,7 +40,7 @@ public:
     void set_tolerance(std::size_t number, double tolerance) { way_.tolerances.at(number) = tolerance; }
     /// The plan of the latest picture.
     [[nodiscard]] const scene::FramePlan& plan() const { return plan_; }
-    /// Of the latest picture, after splitting; 0 if it is not the paper's.
+    /// The latest picture's triangles after splitting; 0 if the technique does not split.
     [[nodiscard]] std::size_t lit_triangles() const { return paper_.triangles(); }
 
 private:

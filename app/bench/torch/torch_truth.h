@@ -34,7 +34,7 @@ struct TorchTruth {
 [[nodiscard]] TorchTruth cast_torch(const Truth& truth, const image::ImageFloat& points_m,
                                     const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam);
 
-/// Of the intensity, over the lit pixels of some pictures; per cent of the full one.
+/// The error of the intensity over the lit pixels of some pictures, per cent of the full intensity.
 class IntensityError {
 public:
     /// `drawn`: white over black, sRGB codes.
