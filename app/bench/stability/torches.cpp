@@ -122,6 +122,23 @@ StabilityResult at_no_way(const StabilityOptions&) {
              {"at the lens, beside it, behind it: lit", 0.0, lit_wrongly}}};
 }
 
+std::array<torch::Beam, 4> beams_of(torch::Attenuation attenuation) {
+    std::array<torch::Beam, 4> beams;
+    constexpr std::array<std::array<double, 2>, 4> full_and_dark_m{
+        {{0.3, 1.5}, {0.3, 0.3001}, {1e-6, 1e3}, {1e-3, 0.01}}};
+    for (std::size_t k = 0; k < beams.size(); ++k) {
+        beams[k].attenuation = attenuation;
+        beams[k].full_m = full_and_dark_m[k][0];
+        beams[k].dark_m = full_and_dark_m[k][1];
+    }
+    return beams;
+}
+
+double condition_of(const torch::Beam& beam) {
+    return beam.attenuation == torch::Attenuation::InverseSquare ? 1.0
+                                                                 : beam.dark_m / (beam.dark_m - beam.full_m);
+}
+
 /// A step's share rounds as its numbers do: way / (dark - full) roundings.
 StabilityResult attenuations(const StabilityOptions&) {
     StabilityResult result;
@@ -129,14 +146,8 @@ StabilityResult attenuations(const StabilityOptions&) {
         double off = 0.0; // in units of the bound
         double outside = 0.0;
         double brightens = 0.0;
-        for (const auto& [full_m, dark_m] :
-             {std::array{0.3, 1.5}, {0.3, 0.3001}, {1e-6, 1e3}, {1e-3, 0.01}}) {
-            torch::Beam beam;
-            beam.attenuation = attenuation;
-            beam.full_m = full_m;
-            beam.dark_m = dark_m;
-            const double condition =
-                attenuation == torch::Attenuation::InverseSquare ? 1.0 : dark_m / (dark_m - full_m);
+        for (const torch::Beam& beam : beams_of(attenuation)) {
+            const double condition = condition_of(beam);
             double before = 1.0;
             for (const double way_m : sweep(1e-9, 1e6, 200)) {
                 const double now = torch::attenuation_at(beam, way_m);
@@ -161,14 +172,8 @@ StabilityResult at_its_reach(const StabilityOptions&) {
         double off = 0.0;
         double lit_beyond = 0.0;
         double dark_before = 0.0;
-        for (const auto& [full_m, dark_m] :
-             {std::array{0.3, 1.5}, {0.3, 0.3001}, {1e-6, 1e3}, {1e-3, 0.01}}) {
-            torch::Beam beam;
-            beam.attenuation = attenuation;
-            beam.full_m = full_m;
-            beam.dark_m = dark_m;
-            const double condition =
-                attenuation == torch::Attenuation::InverseSquare ? 1.0 : dark_m / (dark_m - full_m);
+        for (const torch::Beam& beam : beams_of(attenuation)) {
+            const double condition = condition_of(beam);
             const double reach = torch::reach_m(beam);
             off = std::fmax(off, std::fabs(double(exact_attenuation(beam, reach)) - torch::min_intensity) /
                                      condition);

@@ -49,4 +49,28 @@ Result<BenchArtifact> bake_board(const std::filesystem::path& folder, bake::Sour
     return made;
 }
 
+void add_board_options(CommandLine& command, BenchArtifact& artifact) {
+    command.add_option("--pack", artifact.pack, "pack with cells (default: a game board, baked into --out)");
+    command.add_option("--mesh", artifact.mesh, "file that the pack was baked from");
+}
+
+Result<void> check_board_options(const BenchArtifact& artifact) {
+    if (artifact.pack.empty() != artifact.mesh.empty()) {
+        return bad_input("bench.pack_without_mesh",
+                         "--pack and --mesh are given together, or neither of them");
+    }
+    return {};
+}
+
+Result<std::shared_ptr<const bake::SourceMesh>>
+given_or_board(const std::filesystem::path& folder, BenchArtifact& artifact, BenchProgress& progress) {
+    if (!artifact.pack.empty()) {
+        TRY(LoadedArtifact loaded, load_artifact(artifact));
+        return loaded.mesh;
+    }
+    bake::SourceMesh board;
+    TRY(artifact, bake_board(folder, board, progress));
+    return std::make_shared<const bake::SourceMesh>(std::move(board));
+}
+
 } // namespace frustumscreen::programs

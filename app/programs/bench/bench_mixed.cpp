@@ -22,10 +22,7 @@ Result<void> make_folder(const std::filesystem::path& folder) {
 }
 
 Result<void> run(Arguments arguments, BenchProgress& progress) {
-    if (arguments.artifact.pack.empty() != arguments.artifact.mesh.empty()) {
-        return bad_input("bench.pack_without_mesh",
-                         "--pack and --mesh are given together, or neither of them");
-    }
+    TRY_VOID(check_board_options(arguments.artifact));
     if (arguments.is_long) {
         arguments.options.frames = 600;
         arguments.options.steps = 15;
@@ -33,15 +30,8 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
     }
     TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
     TRY_VOID(make_folder(arguments.out));
-    std::shared_ptr<const bake::SourceMesh> mesh;
-    if (arguments.artifact.pack.empty()) {
-        bake::SourceMesh board;
-        TRY(arguments.artifact, bake_board(arguments.out, board, progress));
-        mesh = std::make_shared<const bake::SourceMesh>(std::move(board));
-    } else {
-        TRY(LoadedArtifact loaded, load_artifact(arguments.artifact));
-        mesh = std::move(loaded.mesh);
-    }
+    TRY(const std::shared_ptr<const bake::SourceMesh> mesh,
+        given_or_board(arguments.out, arguments.artifact, progress));
     TRY(const bench::MixedResult result,
         bench::measure_mixed(*settings, arguments.artifact.pack, mesh, arguments.options,
                              [&](const std::string& step, double done) { progress.show(step, done); }));
@@ -61,9 +51,7 @@ BenchCommand mixed_command(CommandLine& app) {
         "of time, against the paper's way to choose");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and plots").required();
-    command.add_option("--pack", arguments->artifact.pack,
-                       "pack with cells (default: a game board, baked into --out)");
-    command.add_option("--mesh", arguments->artifact.mesh, "file that the pack was baked from");
+    add_board_options(command, arguments->artifact);
     command.add_option("--config", arguments->config, "settings of the set-up").capture_default_str();
     command.add_option("--frames", arguments->options.frames, "length of the walk, at 60 frames a second")
         .within(2, 100000)

@@ -20,7 +20,7 @@ struct Arguments {
     bool is_long = false;
 };
 
-/// The first frame of each scene, in its own colours: ours, and the paper's.
+/// The middle frame of each scene, in its own colours: ours, and the paper's.
 Result<void> write_pictures(bench::TorchSet& set, const bench::TorchOptions& options,
                             const std::filesystem::path& folder) {
     TRY(const std::vector<bench::TorchFrame> sweep,
@@ -45,25 +45,15 @@ Result<void> write_pictures(bench::TorchSet& set, const bench::TorchOptions& opt
 }
 
 Result<void> run(Arguments arguments, BenchProgress& progress) {
-    if (arguments.artifact.pack.empty() != arguments.artifact.mesh.empty()) {
-        return bad_input("bench.torch_without_mesh",
-                         "--pack and --mesh are given together, or neither of them");
-    }
+    TRY_VOID(check_board_options(arguments.artifact));
     if (arguments.is_long) {
         arguments.options.frames = 300;
         arguments.options.errors = 30;
     }
     TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
     TRY_VOID(write_all(arguments.out, {}));
-    std::shared_ptr<const bake::SourceMesh> mesh;
-    if (arguments.artifact.pack.empty()) {
-        bake::SourceMesh board;
-        TRY(arguments.artifact, bake_board(arguments.out, board, progress));
-        mesh = std::make_shared<const bake::SourceMesh>(std::move(board));
-    } else {
-        TRY(LoadedArtifact loaded, load_artifact(arguments.artifact));
-        mesh = std::move(loaded.mesh);
-    }
+    TRY(const std::shared_ptr<const bake::SourceMesh> mesh,
+        given_or_board(arguments.out, arguments.artifact, progress));
     TRY(const std::unique_ptr<bench::TorchSet> set,
         bench::TorchSet::open(*settings, arguments.artifact.pack));
     TRY(const bench::Truth truth, bench::Truth::build(mesh, set->prop_from_artifact()));
@@ -91,9 +81,7 @@ BenchCommand torch_command(CommandLine& app) {
                  "paper's way to split triangles");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables, plots and pictures").required();
-    command.add_option("--pack", arguments->artifact.pack,
-                       "pack with cells (default: a game board, baked into --out)");
-    command.add_option("--mesh", arguments->artifact.mesh, "file that the pack was baked from");
+    add_board_options(command, arguments->artifact);
     command.add_option("--config", arguments->config, "settings of the set-up").capture_default_str();
     command.add_option("--frames", arguments->options.frames, "length of the sweep, at 15 frames a second")
         .within(2, 100000)
