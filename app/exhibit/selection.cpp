@@ -108,6 +108,7 @@ void Selection::undo(settings::Command command, MonotonicTime now) {
     case settings::Command::Choose:
     case settings::Command::Help:
     case settings::Command::Behaviour:
+    case settings::Command::Window:
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:
@@ -125,6 +126,7 @@ bool Selection::accepts(settings::Command command) const {
     case settings::Command::Choose:
     case settings::Command::Help:
     case settings::Command::Behaviour:
+    case settings::Command::Window:
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:

@@ -87,6 +87,16 @@ struct TablePicture {
     bool on_prop = false; ///< drawn on the prop too; otherwise the prop covers it
 };
 
+/// A flat surface that lies apart from the prop, through which another world is seen: a pinned window.
+struct PlacedWindow {
+    /// One face, in the window's frame: it lies in z = 0 and looks up.
+    const geometry::PropShape* surface = nullptr;
+    geometry::RigidTransform table_from_window;
+    /// The world behind it, placed in the window's frame as a prop's world is in the prop's.
+    std::span<const Part> parts;
+    double brightness = 1.0; ///< as PlanView::brightness
+};
+
 /// The part of the display's picture that holds one eye's picture.
 struct EyePicture {
     /// In the display's picture, of the size of the eye's pinhole; empty: the whole picture.
@@ -116,6 +126,8 @@ struct PlanView {
     std::span<const glm::dvec3> dimming_eyes_m = {};
     /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has room for them.
     std::span<const PlacedTorch> torches = {};
+    /// Only in a plan that has room for them. The prop's light compensation and eyes are theirs too; torches are not.
+    std::span<const PlacedWindow> windows = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
 /// signs and words, a notice and its ring.

@@ -16,15 +16,16 @@ enum class Command : std::uint8_t {
     Choose,    ///< the picture that the prop rests on, at once; otherwise the next fact about the artifact
     Help,      ///< advice, at once; if there is none, the artifact's description
     Behaviour, ///< the next of the artifact's behaviours that have a button
+    Window,    ///< what is seen through the prop is pinned onto the table
     StaffMode, ///< the first and the last button were held together
     HoldFirst, ///< the first button is held; for the staff alone
     HoldOther, ///< another button is held; for the staff alone
 };
 
-/// The commands of buttons 0 to 5; a panel may have fewer buttons.
+/// The commands of buttons 0 to 6; a panel may have fewer buttons.
 inline constexpr std::array button_commands{
-    Command::PreviousArtifact, Command::NextArtifact, Command::NextLanguage,
-    Command::Choose,           Command::Help,         Command::Behaviour};
+    Command::PreviousArtifact, Command::NextArtifact, Command::NextLanguage, Command::Choose, Command::Help,
+    Command::Behaviour,        Command::Window};
 
 /// True for a button's press, which takes effect at once.
 [[nodiscard]] constexpr bool is_press(Command command) {

@@ -245,6 +245,15 @@ struct TorchSettings {
     }
 };
 
+/// Windows that visitors pin onto the table: each shows what was seen through the prop.
+inline constexpr std::size_t max_windows = 6;
+struct WindowSettings {
+    std::size_t count = 0; ///< that lie there at once, up to max_windows; 0: none can be pinned
+    double width_m = 0.12, depth_m = 0.12; ///< of each
+
+    [[nodiscard]] bool exist() const { return count > 0; }
+};
+
 /// A flat screen behind the table, the second output, and the room that it shows.
 struct ScreenSettings {
     std::filesystem::path room; ///< empty: there is no screen
@@ -286,6 +295,7 @@ struct Settings {
     EyeSettings eye;
     ScreenSettings screen;
     TorchSettings torch;
+    WindowSettings windows;
     TrackerSettings tracker;
     CalibrationSettings calibration;
     PanelSettings panel;
