@@ -35,7 +35,7 @@ void least_around(std::vector<float>& values, std::size_t width, std::size_t hei
 
 } // namespace
 
-CameraView::CameraView(const DepthPicture& picture)
+CameraDepths::CameraDepths(const DepthPicture& picture)
     : camera_(picture.camera), map_(picture.camera),
       per_metre_(1.0 / glm::dot(glm::normalize(glm::cross(picture.camera.half_right, picture.camera.half_up)),
                                 picture.camera.eye - picture.camera.middle)),
@@ -63,7 +63,7 @@ CameraView::CameraView(const DepthPicture& picture)
     }
 }
 
-float CameraView::farthest(int x, int y, double around_px) const {
+float CameraDepths::farthest(int x, int y, double around_px) const {
     for (std::size_t k = 0; k < levels_.size(); ++k) {
         if (around_px <= static_cast<double>(2U << k) || k + 1 == levels_.size()) {
             const int square = 2 << k;
@@ -74,7 +74,7 @@ float CameraView::farthest(int x, int y, double around_px) const {
     return 0.0F;
 }
 
-CameraView::Sight CameraView::sight(const glm::dvec3& point, double tolerance_m) const {
+CameraDepths::Sight CameraDepths::sight(const glm::dvec3& point, double tolerance_m) const {
     const glm::dvec3 place = map_.homogeneous(point);
     if (!(place.z > 0.0) || !(place.x >= 0.0) || !(place.y >= 0.0) || !(place.x < camera_.width * place.z) ||
         !(place.y < camera_.height * place.z)) {
@@ -93,8 +93,8 @@ CameraView::Sight CameraView::sight(const glm::dvec3& point, double tolerance_m)
     return static_cast<double>(farthest(x, y, beside_px)) * farness <= 1.0 ? Sight::Seen : Sight::Hidden;
 }
 
-CameraView::Sight CameraView::sight_between(const glm::dvec3& from, const glm::dvec3& to,
-                                            double tolerance_m) const {
+CameraDepths::Sight CameraDepths::sight_between(const glm::dvec3& from, const glm::dvec3& to,
+                                                double tolerance_m) const {
     const glm::dvec3 a = map_.homogeneous(from);
     const glm::dvec3 b = map_.homogeneous(to);
     if (!(a.z > 0.0) || !(b.z > 0.0)) {
@@ -157,7 +157,7 @@ bool CameraViews::draw_part(std::span<const std::size_t> cameras, std::size_t tr
 std::uint64_t CameraViews::bytes() const {
     std::uint64_t bytes = picture_.nearness.size() * sizeof(float) +
                           picture_.colours.size() * sizeof(glm::u8vec4) + rasterizer_.bytes();
-    for (const std::optional<CameraView>& view : views_) {
+    for (const std::optional<CameraDepths>& view : views_) {
         bytes += view ? view->bytes() : 0;
     }
     return bytes;
@@ -167,11 +167,11 @@ bool may_be_seen(const CameraViews& views, std::span<const std::size_t> cameras,
                  double tolerance_m) {
     bool looks = false;
     for (const std::size_t camera : cameras) {
-        const CameraView::Sight sight = views.of(camera)->sight(point, tolerance_m);
-        if (sight == CameraView::Sight::Seen) {
+        const CameraDepths::Sight sight = views.of(camera)->sight(point, tolerance_m);
+        if (sight == CameraDepths::Sight::Seen) {
             return true;
         }
-        looks = looks || sight == CameraView::Sight::Hidden;
+        looks = looks || sight == CameraDepths::Sight::Hidden;
     }
     return !looks;
 }
@@ -180,11 +180,11 @@ bool may_be_seen_between(const CameraViews& views, std::span<const std::size_t> 
                          const glm::dvec3& from, const glm::dvec3& to, double tolerance_m) {
     bool looks = false;
     for (const std::size_t camera : cameras) {
-        const CameraView::Sight sight = views.of(camera)->sight_between(from, to, tolerance_m);
-        if (sight == CameraView::Sight::Seen) {
+        const CameraDepths::Sight sight = views.of(camera)->sight_between(from, to, tolerance_m);
+        if (sight == CameraDepths::Sight::Seen) {
             return true;
         }
-        looks = looks || sight == CameraView::Sight::Hidden;
+        looks = looks || sight == CameraDepths::Sight::Hidden;
     }
     return !looks;
 }

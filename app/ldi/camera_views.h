@@ -20,11 +20,11 @@
 namespace frustumscreen::ldi {
 
 /// One camera's depths.
-class CameraView {
+class CameraDepths {
 public:
     /// Keeps of each pixel the farthest surface in the 3 x 3 around it, and of squares of 2 to 64 pixels that of them and those
     /// around them.
-    explicit CameraView(const DepthPicture& picture);
+    explicit CameraDepths(const DepthPicture& picture);
 
     enum class Sight { Seen, Hidden, Beside };
     /// Beside: outside of the picture, or behind the camera. `tolerance_m`: farther than the surface, along the window's normal.
@@ -61,7 +61,7 @@ public:
     /// Draws a part of the picture of the first of `cameras` that lacks one: at most `triangles`. False if none lacks one.
     bool draw_part(std::span<const std::size_t> cameras, std::size_t triangles);
     /// Null before it is drawn.
-    [[nodiscard]] const CameraView* of(std::size_t camera) const {
+    [[nodiscard]] const CameraDepths* of(std::size_t camera) const {
         return views_[camera] ? &*views_[camera] : nullptr;
     }
     [[nodiscard]] std::uint64_t bytes() const;
@@ -71,7 +71,7 @@ private:
     const Hemisphere& hemisphere_;
     glm::dvec2 half_extent_m_;
     int width_, height_;
-    std::array<std::optional<CameraView>, camera_count> views_;
+    std::array<std::optional<CameraDepths>, camera_count> views_;
     std::size_t drawing_ = camera_count; ///< the camera whose picture is begun
     std::size_t next_triangle_ = 0;
     DepthPicture picture_;

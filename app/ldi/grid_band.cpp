@@ -84,7 +84,8 @@ bool GridBand::make(const BandScene& scene, int band, std::span<const FacingTria
     cross(scene, band);
     sort();
     drop_hidden();
-    find_cut_cells(scene);
+    set_colours(scene);
+    find_cut_cells();
     constexpr std::uint64_t bytes_of_cell =
         3 * lines_of_cell * (sizeof(FineFound) + sizeof(relief::LineCrossing)) / 2;
     if (bytes_of_cell * slot_ranges_.size() > scene.max_bytes) {
@@ -223,8 +224,7 @@ void GridBand::sort() {
 }
 
 void GridBand::drop_hidden() {
-    std::vector<bool>& kept = coloured_; // free until the crossings get colours
-    kept.assign(lines_.crossings.size(), false);
+    kept_.assign(lines_.crossings.size(), false);
     for (int row = 0; row <= band_rows; ++row) {
         for (int column = 0; column < lines_.columns; ++column) {
             const std::size_t line = lines_.line(column, row);
@@ -241,7 +241,7 @@ void GridBand::drop_hidden() {
                         lines_.first[lines_.line(std::min(lines_.columns - 1, column + 1), y) + 1];
                     for (std::uint32_t other = first; other < end; ++other) {
                         if (std::abs(lines_.crossings[other].w - own.w) < reach) {
-                            kept[other] = true;
+                            kept_[other] = true;
                         }
                     }
                 }
@@ -254,7 +254,7 @@ void GridBand::drop_hidden() {
         const std::uint32_t end = lines_.first[line + 1];
         const std::uint32_t first = count;
         for (std::uint32_t k = begin; k < end; ++k) {
-            if (kept[k]) {
+            if (kept_[k]) {
                 lines_.crossings[count] = lines_.crossings[k];
                 placed_of_[count] = placed_of_[k];
                 ++count;
@@ -279,21 +279,16 @@ std::uint32_t GridBand::take_slot(int column, int row, const glm::vec2& range) {
     return slot;
 }
 
-void GridBand::find_cut_cells(const BandScene& scene) {
+void GridBand::find_cut_cells() {
     slots_.assign(lines_.first.size(), no_slot);
     slot_ranges_.clear();
     compared_.clear();
-    coloured_.assign(lines_.crossings.size(), scene.world.cut_out);
     const CellRecorder recorder(*this);
     relief::CellLinker linker(lines_, recorder);
     constexpr int compared_share = 61; // one of so many cells
     for (int row = 0; row < band_rows; ++row) {
         for (int column = 0; column + 1 < lines_.columns; ++column) {
             for (const relief::LinkedCell& cell : linker.link(column, row)) {
-                for (int k = 0; k < 4; ++k) {
-                    set_colour(scene, cell.crossing[static_cast<std::size_t>(k)], column + (k & 1),
-                               row + (k >> 1));
-                }
                 if (cell.whole() && (7 * column + 13 * row) % compared_share == 0) {
                     const float w = 0.25F * (cell.w[0] + cell.w[1] + cell.w[2] + cell.w[3]);
                     constexpr auto reach = static_cast<float>(max_compared);
@@ -304,16 +299,23 @@ void GridBand::find_cut_cells(const BandScene& scene) {
     }
 }
 
-void GridBand::set_colour(const BandScene& scene, std::uint32_t crossing, int column, int row) {
-    if (crossing == relief::no_crossing || coloured_[crossing]) {
-        return;
+void GridBand::set_colours(const BandScene& scene) {
+    if (scene.world.cut_out) {
+        return; // they have them
     }
-    coloured_[crossing] = true;
-    const glm::dvec3 point =
-        applied(window_from_band_, {column, row, static_cast<double>(lines_.crossings[crossing].w)});
-    lines_.crossings[crossing].colour = surface_colour(scene.world, placed_[placed_of_[crossing]].triangle,
-                                                       point, glm::dvec3(window_from_band_[2]));
-    lines_.crossings[crossing].colour.a = 255;
+    for (int row = 0; row <= band_rows; ++row) {
+        for (int column = 0; column < lines_.columns; ++column) {
+            const std::size_t line = lines_.line(column, row);
+            for (std::uint32_t k = lines_.first[line]; k < lines_.first[line + 1]; ++k) {
+                relief::Crossing& crossing = lines_.crossings[k];
+                const glm::dvec3 point =
+                    applied(window_from_band_, {column, row, static_cast<double>(crossing.w)});
+                crossing.colour = surface_colour(scene.world, placed_[placed_of_[k]].triangle, point,
+                                                 glm::dvec3(window_from_band_[2]));
+                crossing.colour.a = 255;
+            }
+        }
+    }
 }
 
 void GridBand::cross_cut_cells(const BandScene& scene) {

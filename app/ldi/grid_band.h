@@ -79,8 +79,8 @@ private:
     void sort();
     /// Leaves only crossings that the direction draws, and those that may continue them.
     void drop_hidden();
-    void find_cut_cells(const BandScene& scene);
-    void set_colour(const BandScene& scene, std::uint32_t crossing, int column, int row);
+    void set_colours(const BandScene& scene);
+    void find_cut_cells();
     void cross_cut_cells(const BandScene& scene);
     void cross_cell(const BandScene& scene, const Placed& placed, int column, int row);
     void sort_cut_cells();
@@ -99,7 +99,7 @@ private:
     std::vector<std::uint32_t> order_;
     relief::GridCrossings lines_;
     std::vector<std::uint32_t> placed_of_; ///< of each crossing of `lines_`
-    std::vector<bool> coloured_;           ///< the same
+    std::vector<bool> kept_;               ///< the same
     std::vector<std::uint32_t> slots_;     ///< of each cell, or `no_slot`
     std::vector<glm::vec2> slot_ranges_; ///< lowest and highest of the heights that each slot's cell asks for
     std::vector<FineFound> fine_found_;
