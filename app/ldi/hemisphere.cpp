@@ -92,13 +92,13 @@ PatchDirections ring_directions(std::size_t patch, double inner_cos, double oute
                                0.5 * ring_width_rad,
                                direction_at(0.5 * (inner_cos + outer_cos), azimuth_of(patch)),
                                0.0};
-    double least_cos = 1.0;
+    double min_cos = 1.0;
     for (const double polar_cos : {inner_cos, outer_cos}) {
         const glm::dvec3 corner =
             direction_at(polar_cos, directions.middle_azimuth_rad + directions.half_width_rad);
-        least_cos = std::min(least_cos, glm::dot(corner, directions.axis));
+        min_cos = std::min(min_cos, glm::dot(corner, directions.axis));
     }
-    directions.cone_rad = std::acos(least_cos) + 1e-9;
+    directions.cone_rad = std::acos(min_cos) + 1e-9;
     return directions;
 }
 
