@@ -92,13 +92,13 @@ PatchDirections ring_directions(std::size_t patch, double inner_cos, double oute
                                0.5 * ring_width_rad,
                                direction_at(0.5 * (inner_cos + outer_cos), azimuth_of(patch)),
                                0.0};
-    double least_cos = 1.0;
+    double min_cos = 1.0;
     for (const double polar_cos : {inner_cos, outer_cos}) {
         const glm::dvec3 corner =
             direction_at(polar_cos, directions.middle_azimuth_rad + directions.half_width_rad);
-        least_cos = std::min(least_cos, glm::dot(corner, directions.axis));
+        min_cos = std::min(min_cos, glm::dot(corner, directions.axis));
     }
-    directions.cone_rad = std::acos(least_cos) + 1e-9;
+    directions.cone_rad = std::acos(min_cos) + 1e-9;
     return directions;
 }
 
@@ -133,10 +133,10 @@ Hemisphere::Hemisphere(double radius_m, double cap_rad, const CameraShares& shar
 }
 
 std::optional<std::size_t> Hemisphere::patch_of(const glm::dvec3& eye) const {
-    const double largest = std::max({std::fabs(eye.x), std::fabs(eye.y), std::fabs(eye.z)});
-    if (!std::isfinite(eye.x + eye.y + eye.z) || !(eye.z > 0.0)) {
+    if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z) || !(eye.z > 0.0)) {
         return std::nullopt;
     }
+    const double largest = std::max({std::fabs(eye.x), std::fabs(eye.y), eye.z});
     const glm::dvec3 scaled = eye / largest; // neither overflows nor vanishes when it is squared
     const double length = glm::length(scaled);
     if (scaled.z < cap_cos_ * length) {

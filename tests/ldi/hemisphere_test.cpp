@@ -1,13 +1,19 @@
 // The hemisphere's patches and cameras against Monte Carlo integration and plain trigonometry.
 #include "app/ldi/hemisphere.h"
+#include "tests/folders.h"
+#include "tests/ldi/hemisphere_drawing.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <set>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace frustumscreen::ldi {
@@ -204,6 +210,18 @@ TEST(Hemisphere, AnImagePlaneIsParallelToTheThreeCamerasOfItsPatch) {
             EXPECT_LT(std::acos(glm::dot(plane.normal, hemisphere.middle_of(patch))), 15.0 * degree);
         }
     }
+}
+
+TEST(Hemisphere, IsDrawnInDocsAsItIs) {
+    const std::string drawing = svg_of(Hemisphere(1.0));
+    if (const char* const file = std::getenv("HEMISPHERE_DRAWING"); file != nullptr) {
+        std::ofstream(file) << drawing;
+    }
+    std::ifstream page(source_dir() + "/docs/ldi.svg");
+    std::ostringstream kept;
+    kept << page.rdbuf();
+    EXPECT_TRUE(kept.str() == drawing)
+        << "HEMISPHERE_DRAWING=docs/ldi.svg build/release/tests/ldi_test writes it";
 }
 
 } // namespace
