@@ -86,6 +86,9 @@ private:
         const glm::dvec3 ab = corners[1] - corners[0];
         const glm::dvec3 ac = corners[2] - corners[0];
         area_ = ab.x * ac.y - ab.y * ac.x;
+        if (area_ == 0.0) {
+            return;
+        }
         slope_ = glm::dvec2(ab.z * ac.y - ac.z * ab.y, ac.z * ab.x - ab.z * ac.x) / area_;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec2 from(corners[k]);

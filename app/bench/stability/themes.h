@@ -11,6 +11,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> two_eyes_cases();
 [[nodiscard]] std::vector<StabilityCase> room_cases();
 [[nodiscard]] std::vector<StabilityCase> window_cases();
+[[nodiscard]] std::vector<StabilityCase> patch_relief_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_plan_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
