@@ -10,10 +10,11 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> eye_cases();
 [[nodiscard]] std::vector<StabilityCase> two_eyes_cases();
 [[nodiscard]] std::vector<StabilityCase> room_cases();
-[[nodiscard]] std::vector<StabilityCase> window_cases();
+[[nodiscard]] std::vector<StabilityCase> layered_depth_cases();
 [[nodiscard]] std::vector<StabilityCase> patch_relief_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_plan_cases();
+[[nodiscard]] std::vector<StabilityCase> window_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
 [[nodiscard]] std::vector<StabilityCase> projector_cases();
 [[nodiscard]] std::vector<StabilityCase> light_cases();
