@@ -37,9 +37,9 @@ public:
     int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours);
 
-    /// The plan's torches with some of the contents on the meshes and blocks that `draw` has just drawn there. Returns the number of
+    /// The plan's torches that show layers, on the meshes and blocks that `draw` has just drawn there. Returns the number of
     /// draw calls.
-    int light(const Lit& lit, Contents contents) const;
+    int light_layers(const Lit& lit) const;
 
 private:
     /// Returns the number of draw calls: 0 if something is missing.

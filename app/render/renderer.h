@@ -113,8 +113,8 @@ private:
     Renderer(int width, int height) : width_(width), height_(height) {}
     void paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                DrawResult& result);
-    /// The plan's torches with some of the contents on what has depth. Returns the number of draw calls.
-    int light_in_depth(const Lit& lit, Contents contents);
+    /// The plan's torches that show layers, on what has depth. Returns the number of draw calls.
+    int light_layers(const Lit& lit);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
                                     const RenderTarget& target, Redraw redraw) const;
     /// Clears two whole pictures at once: a driver on the processor clears a part of a framebuffer, or some of its
