@@ -170,7 +170,7 @@ void FacePass::mark(const scene::FramePlan& plan, const ShaderCache& shaders, co
     glBindVertexArray(0);
 }
 
-int FacePass::light(const Lit& lit, Contents contents) const {
+int FacePass::light_layers(const Lit& lit) const {
     const scene::FramePlan& plan = lit.plan;
     if (!draws(plan) || lit.torches.empty()) {
         return 0;
@@ -180,14 +180,15 @@ int FacePass::light(const Lit& lit, Contents contents) const {
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
-    glEnable(GL_POLYGON_OFFSET_FILL); // another program may round the same place to another depth
-    glPolygonOffset(-1.0F, -2.0F);
+    // The shaders' positions are invariant. An offset by the slope would let through what lies behind a steep outline.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0.0F, -2.0F);
     set_channels(channels_of(plan, lit.raster));
     glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT); // of one bit: a fragment is lit once by a torch
     glStencilMask(lit_bit);
     int calls = 0;
     for (std::size_t torch = 0; torch < lit.torches.size(); ++torch) {
-        if (!takes(contents, plan.torches[torch])) {
+        if (!shows_layer(plan.torches[torch])) {
             continue;
         }
         glDisable(GL_SCISSOR_TEST);

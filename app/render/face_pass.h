@@ -40,9 +40,9 @@ public:
     /// Marks the plan's faces in the stencil, all but what covers them, as `draw` does before it draws.
     void mark(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
 
-    /// The plan's torches with some of the contents on the meshes and blocks that `draw` has just drawn there. Returns the number of
+    /// The plan's torches that show layers, on the meshes and blocks that `draw` has just drawn there. Returns the number of
     /// draw calls.
-    int light(const Lit& lit, Contents contents) const;
+    int light_layers(const Lit& lit) const;
 
 private:
     /// Returns the number of draw calls: 0 if something is missing.

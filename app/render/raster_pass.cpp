@@ -1,5 +1,6 @@
 #include "app/render/raster_pass.h"
 
+#include "app/render/face_pass.h"
 #include "app/render/gl_memory.h"
 #include "firmware_host/base/usable_cores.h"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <optional>
 #include <span>
 #include <utility>
@@ -90,17 +90,6 @@ void set_edges(const Shader& shader, const scene::FramePlan& plan, const scene::
     glUniform1i(shader.location(Uniform::EdgeCount), static_cast<GLint>(count));
     glUniform3fv(shader.location(Uniform::Edges), static_cast<GLsizei>(edges.size()),
                  glm::value_ptr(edges[0]));
-}
-
-/// The colour texture of the framebuffer that is drawn into.
-GLuint texture_of_framebuffer() {
-    const auto ask = [](GLenum what) {
-        GLint answer = 0;
-        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, what, &answer);
-        return answer;
-    };
-    assert(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_TEXTURE);
-    return static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
 }
 
 } // namespace
@@ -360,7 +349,7 @@ int RasterPass::show_in_depth(const scene::FramePlan& plan, const ShaderCache& s
 int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) const {
     if (!copied_.empty()) {
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
+        glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer(GL_COLOR_ATTACHMENT0));
         upload(colours(), copied_, plan.picture.viewport);
     }
     const Shader* const shader = shaders.find(scene::raster_shader());
@@ -398,51 +387,85 @@ int RasterPass::light_rectangles(const scene::FramePlan& plan, const scene::Torc
     return 1;
 }
 
-int RasterPass::light_in_depth(const Lit& lit, Contents contents) {
-    if (in_depth_.empty()) {
+int RasterPass::light_layers_in_depth(const Lit& lit) {
+    if (overlaid_.empty() || in_depth_.empty()) {
         return 0;
     }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
-    const int calls = light_with(lit, {scene::ShaderKey::Pass::RasterInDepth}, contents, in_depth_);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_DEPTH_TEST);
-    return calls;
-}
-
-int RasterPass::light(const Lit& lit) {
-    return light_with(lit, scene::raster_shader(), Contents::All, copied_) +
-           light_with(lit, scene::raster_shader(), Contents::All, drawn_);
-}
-
-int RasterPass::light_with(const Lit& lit, const scene::ShaderKey& key, Contents contents,
-                           std::span<const PixelRectangle> rectangles) {
-    if (overlaid_.empty() || rectangles.empty()) {
-        return 0;
-    }
+    begin_lighting();
     int calls = 0;
-    glBindVertexArray(no_attributes_.get());
-    bind(3, nearness_texels_.get());
-    bind(layer_unit, layer_texels_.get());
-    bind(0, colour_texels_.get());
     for (const scene::TorchDraw& draw : lit.plan.torch_draws) {
         const scene::TorchLight& light = lit.plan.torches[draw.torch];
-        const Shader* const shader = find_torch(lit.shaders, key, light);
+        const Shader* const shader = find_torch(lit.shaders, {scene::ShaderKey::Pass::RasterInDepth}, light);
         if (lit.plan.draws[draw.draw].shader.pass != scene::ShaderKey::Pass::Raster || shader == nullptr ||
-            !takes(contents, light)) {
+            !shows_layer(light)) {
             continue;
         }
         if (const std::optional<scene::TorchDraw> all = of_all_reliefs(lit.plan, draw)) {
             shader->use();
             set_torch(*shader, light, lit.torches[draw.torch], lit.store);
             begin_blending(light);
-            calls += light_rectangles(lit.plan, *all, *shader, lit.raster, rectangles);
+            calls += light_rectangles(lit.plan, *all, *shader, lit.raster, in_depth_);
         }
     }
     end_blending();
     glBindVertexArray(0);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+    return calls;
+}
+
+void RasterPass::begin_lighting() const {
+    glBindVertexArray(no_attributes_.get());
+    bind(3, nearness_texels_.get());
+    bind(layer_unit, layer_texels_.get());
+    bind(0, colour_texels_.get());
+}
+
+int RasterPass::light(const Lit& lit) const {
+    if (overlaid_.empty() || (copied_.empty() && drawn_.empty())) {
+        return 0;
+    }
+    begin_lighting();
+    glEnable(GL_SCISSOR_TEST);
+    const glm::ivec2 viewport(lit.plan.picture.viewport.x, lit.plan.picture.viewport.y);
+    int calls = 0;
+    for (const scene::TorchFace& face : lit.plan.torch_faces) {
+        const scene::TorchLight& light = lit.plan.torches[face.torch];
+        const Shader* const shader = find_torch(lit.shaders, scene::raster_shader(), light);
+        if (shader == nullptr || face.lit.rectangles().empty()) {
+            continue;
+        }
+        shader->use();
+        set_torch(*shader, light, lit.torches[face.torch], lit.store);
+        set_lit_face(*shader, lit.plan, lit.plan.draws[face.draw], lit.raster);
+        set_nearness(*shader, lit.plan, light, face.face,
+                     {lit.raster.fragments, lit.raster.corner + viewport});
+        begin_blending(light);
+        for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
+            for (const PixelRectangle& part : *parts) {
+                calls += light_part(lit, face, part, *shader);
+            }
+        }
+    }
+    end_blending();
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
+    return calls;
+}
+
+int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const PixelRectangle& part,
+                           const Shader& shader) {
+    int calls = 0;
+    for (const PixelRectangle& tile : face.lit.rectangles()) {
+        if (const PixelRectangle both = intersected(part, tile); !both.empty()) {
+            set_scissor(both, lit.raster);
+            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, shader);
+        }
+    }
     return calls;
 }
 

@@ -46,9 +46,10 @@ public:
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
-    /// The plan's torches on what `show_in_depth` has drawn, and on what `show` has; each returns the number of draw calls.
-    int light_in_depth(const Lit& lit, Contents contents);
-    int light(const Lit& lit);
+    /// The plan's torches on what `show_in_depth` has drawn, as far as they show layers, and on what `show` has; each returns
+    /// the number of draw calls.
+    int light_layers_in_depth(const Lit& lit);
+    int light(const Lit& lit) const;
 
     /// In place of `paint`: the nearness alone, with one sample a pixel, of the whole picture. `nearness`: its texture.
     void paint_nearness(const scene::FramePlan& plan, const GpuStore& store);
@@ -73,8 +74,9 @@ private:
     void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);
-    int light_with(const Lit& lit, const scene::ShaderKey& key, Contents contents,
-                   std::span<const PixelRectangle> rectangles);
+    void begin_lighting() const;
+    static int light_part(const Lit& lit, const scene::TorchFace& face, const PixelRectangle& part,
+                          const Shader& shader);
     /// A torch on a draw, in those of `rectangles` that it may light.
     int light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit, const Shader& shader,
                          const Raster& raster, std::span<const PixelRectangle> rectangles);

@@ -182,8 +182,8 @@ DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderT
     return result;
 }
 
-int Renderer::light_in_depth(const Lit& lit, Contents contents) {
-    return faces_.light(lit, contents) + raster_pass_.light_in_depth(lit, contents);
+int Renderer::light_layers(const Lit& lit) {
+    return faces_.light_layers(lit) + raster_pass_.light_layers_in_depth(lit);
 }
 
 /// The larger picture comes first, so that a tiling GPU visits the display's framebuffer once. Codes are
@@ -218,7 +218,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, raster);
         if (!torches.empty()) {
-            result.draw_calls += light_in_depth({plan, store_, shaders_, raster, torches}, Contents::Layers);
+            result.draw_calls += light_layers({plan, store_, shaders_, raster, torches});
         }
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
@@ -247,7 +247,9 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         result.draw_calls += faces_.draw(plan, store_, shaders_, direct);
         result.draw_calls += raster_pass_.show_in_depth(plan, shaders_, direct);
         if (!torches.empty()) {
-            result.draw_calls += light_in_depth({plan, store_, shaders_, direct, torches}, Contents::All);
+            const Lit lit{plan, store_, shaders_, direct, torches};
+            result.draw_calls += light_layers(lit);
+            result.draw_calls += torches_->light_pixels(lit);
         }
     }
     if (repaint.prop) {

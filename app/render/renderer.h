@@ -123,8 +123,8 @@ private:
     /// What of a window the GPU draws, into the bound target, whose stencil then marks the window.
     int draw_surfaces(const scene::FramePlan& window, const scene::FramePlan& plan,
                       const RenderTarget& target, const Raster& direct);
-    /// The plan's torches with some of the contents on what has depth. Returns the number of draw calls.
-    int light_in_depth(const Lit& lit, Contents contents);
+    /// The plan's torches that show layers, on what has depth. Returns the number of draw calls.
+    int light_layers(const Lit& lit);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
                                     const RenderTarget& target, Redraw redraw) const;
     /// Widens a part until it holds the prop and each window of these pictures either whole or not at all.

@@ -19,6 +19,7 @@ uniform vec3 distortion;     // k1, k2, the r^2 up to which they hold
 
 /// Bending keeps depth and w.
 constexpr std::string_view bent_vertex = R"(
+invariant gl_Position; // a torch draws the same surface again
 #ifdef BENT
 vec4 bent(vec4 clip) {
     if (clip.w <= 0.0) {
@@ -342,7 +343,7 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
                                         surface_fragment)};
     case scene::ShaderKey::Pass::Raster:
         if (key.torch) {
-            return {fmt::format("{}{}", bends ? lens : "", tiles_defines), tiles, by_nearness(torch_raster)};
+            return {defines, quad(outline_vertex), by_nearness(torch_raster)};
         }
         return {tiles_defines, tiles, std::string(rasterize_fragment)};
     case scene::ShaderKey::Pass::RasterInDepth:
@@ -350,7 +351,8 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
                 key.torch ? by_nearness(torch_raster)
                           : fmt::format("{}{}", unbent_fragment, rasterize_in_depth_fragment)};
     case scene::ShaderKey::Pass::TorchOnSamples:
-        return {defines, quad(outline_vertex), by_nearness(torch_on_samples)};
+        return {defines, quad(outline_vertex),
+                fmt::format("{}{}{}", unbent_fragment, torch_light, torch_on_samples)};
     case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case scene::ShaderKey::Pass::TablePicture:

@@ -105,43 +105,42 @@ int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, con
 }
 
 int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const {
-    const scene::FramePlan& plan = lit.plan;
     int calls = 0;
     glBindVertexArray(no_attributes_.get());
     glEnable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     bind(depths_unit, depths);
-    for (std::size_t torch = 0; torch < lit.torches.size(); ++torch) {
-        const scene::TorchLight& light = plan.torches[torch];
+    for (const scene::TorchFace& face : lit.plan.torch_faces) {
+        const scene::TorchLight& light = lit.plan.torches[face.torch];
         const Shader* const shader = find_torch(lit.shaders, {scene::ShaderKey::Pass::TorchOnSamples}, light);
-        if (shader == nullptr || takes(Contents::Layers, light)) {
+        if (shader == nullptr || shows_layer(light) || face.lit.rectangles().empty()) {
             continue;
         }
         shader->use();
-        set_torch(*shader, light, lit.torches[torch], lit.store);
+        set_torch(*shader, light, lit.torches[face.torch], lit.store);
+        set_lit_face(*shader, lit.plan, lit.plan.draws[face.draw], lit.raster);
+        set_depths(*shader, face, {averaged.fragments, averaged.corner - lit.raster.corner});
         begin_blending(light);
-        for (std::size_t face = 0; face < plan.faces.size(); ++face) {
-            PixelRectangle bounds;
-            const scene::Draw* on_face = nullptr;
-            for (const scene::TorchDraw& each : plan.torch_draws) {
-                const scene::Draw& draw = plan.draws[each.draw];
-                if (each.torch == torch && draw.face == static_cast<int>(face)) {
-                    bounds = united(bounds, each.bounds);
-                    on_face = &draw;
-                }
-            }
-            if (on_face != nullptr) {
-                set_lit_face(*shader, plan, *on_face, lit.raster);
-                set_nearness(*shader, plan, light, on_face->face,
-                             {averaged.fragments, averaged.corner - lit.raster.corner});
-                set_scissor(bounds, lit.raster);
-                calls += draw_outline(plan.faces[face].corners_clip, *shader);
-            }
+        for (const PixelRectangle& part : face.lit.rectangles()) {
+            set_scissor(part, lit.raster);
+            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, *shader);
         }
     }
     end_blending();
     glDisable(GL_SCISSOR_TEST);
     glBindVertexArray(0);
+    return calls;
+}
+
+int TorchPass::light_pixels(const Lit& lit) const {
+    GLint framebuffer = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    const GLuint colour = texture_of_framebuffer(GL_COLOR_ATTACHMENT0);
+    const GLuint depths = texture_of_framebuffer(GL_DEPTH_ATTACHMENT);
+    glBindFramebuffer(GL_FRAMEBUFFER, colour_alone_.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+    const int calls = light_samples(lit, lit.raster, depths);
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
     return calls;
 }
 

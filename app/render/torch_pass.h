@@ -31,6 +31,8 @@ public:
     /// The plan's torches, but for layers, on samples that were averaged into the bound framebuffer, by the depth of each.
     /// `averaged`: how they lie in the larger picture, whose depth is the texture `depths`. Returns the number of draw calls.
     int light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const;
+    /// The same on the pixels of the bound framebuffer, whose colour and depth are textures.
+    int light_pixels(const Lit& lit) const;
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -49,6 +51,7 @@ private:
     std::vector<TorchPicture> pictures_;
     FacePass faces_;
     RasterPass rasters_;
+    gl::GlFramebuffer colour_alone_ = gl::GlFramebuffer::generate(); ///< so that the depth may be asked
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };
 

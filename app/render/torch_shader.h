@@ -225,8 +225,10 @@ float pixel_m_at(vec3 on_face, vec3 p) {
 inline constexpr std::string_view torch_raster = R"(
 uniform sampler2D image; // alpha: the share of the samples with a hit
 uniform highp sampler2D nearness;
+#ifdef IN_DEPTH
 uniform int edge_count;
 uniform vec3 edges[15];  // of the face: a ray is inside
+#endif
 #if CONTENT_PARTS & 2
 uniform sampler2D layer; // other colours of the same hits
 vec4 layer_at(ivec2 at) { return vec4(decoded(texelFetch(layer, at, 0).rgb), 1.0); }
@@ -239,9 +241,11 @@ void main() {
     float near = texelFetch(nearness, at, 0).r;
     vec3 ray = ray_at(gl_FragCoord.xy);
     bool inside = near > 0.0;
+#ifdef IN_DEPTH
     for (int k = 0; k < edge_count; ++k) {
         inside = inside && dot(edges[k], ray) >= 0.0;
     }
+#endif
     vec3 on_face = on_face_at(ray);
     vec3 p = place_of(on_face, near > 0.0 ? near : 1.0);
 #ifdef IN_DEPTH
@@ -254,26 +258,31 @@ void main() {
 }
 )";
 
-/// Of samples that were averaged: each sample's place, by its depth, is lit or not.
+/// Of samples that were averaged, or of pixels: each sample's place, by its depth, is lit or not.
 inline constexpr std::string_view torch_on_samples = R"(
-uniform highp sampler2D depths; // of the larger picture
+uniform highp sampler2D depths;
+uniform mat4 torch_from_projector; // its 3 x 3: from a ray to the place less the eye, times the depth left (scene::TorchFace)
+uniform vec3 eye;                  // torch's frame
+uniform vec4 depth_from_nearness;  // w: the depth infinitely far away
+uniform ivec4 raster;              // samples along a pixel's sides, the pixel at the corner
+vec3 from_eye(vec2 fragment) {
+    return mat3(torch_from_projector) * vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+}
 void main() {
-    vec3 middle = ray_at(gl_FragCoord.xy);
-    mat3 rays = mat3(middle, ray_at(gl_FragCoord.xy + vec2(0.5, 0.0)) - middle,
-                     ray_at(gl_FragCoord.xy + vec2(0.0, 0.5)) - middle);
-    mat3 turned = mat3(torch_from_projector) * rays;
-    vec3 on_plane = inverse_depth * rays;
-    vec3 by_nearness = depth_from_nearness.xyz * rays;
+    vec3 middle = from_eye(gl_FragCoord.xy);
+    // A sample's own ray: on a steep surface the pixel's would lie before the sample's place, in its shadow.
+    vec3 right = (from_eye(gl_FragCoord.xy + vec2(0.5, 0.0)) - middle) * 2.0 / float(raster.x);
+    vec3 down = (from_eye(gl_FragCoord.xy + vec2(0.0, 0.5)) - middle) * 2.0 / float(raster.y);
     ivec2 first = (ivec2(gl_FragCoord.xy) - raster.zw) * raster.xy;
+    vec2 to_first = 0.5 - 0.5 * vec2(raster.xy);
     vec3 sum = vec3(0.0);
     float lit = 0.0;
+    float depth_left = 1.0;
     for (int y = 0; y < raster.y; ++y) {
         for (int x = 0; x < raster.x; ++x) {
-            // The sample's own ray: on a steep surface the pixel's would lie before the sample's place, in its shadow.
-            vec3 at = vec3(1.0, (2.0 * vec2(x, y) + 1.0) / vec2(raster.xy) - 1.0);
             float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
-            vec3 on_face = turned * at / dot(on_plane, at) + torch_from_projector[3].xyz;
-            vec3 p = place_of(on_face, (2.0 * depth - 1.0 - depth_from_nearness.w) / dot(by_nearness, at));
+            depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
+            vec3 p = eye + (middle + right * (to_first.x + float(x)) + down * (to_first.y + float(y))) / depth_left;
             if (depth < 1.0 && is_lit(p)) {
                 sum += p;
                 lit += 1.0;
@@ -281,7 +290,7 @@ void main() {
         }
     }
     vec3 p = lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0);
-    light(p, vec4(0.0), lit / float(raster.x * raster.y), pixel_m_at(on_face_at(middle), p));
+    light(p, vec4(0.0), lit / float(raster.x * raster.y), length(right) * float(raster.x) / abs(depth_left));
 }
 )";
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace frustumscreen::render {
@@ -56,14 +57,24 @@ const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key
     return own != nullptr ? own : shaders.find(scene::torch_of(key, static_cast<std::uint8_t>(any)));
 }
 
-bool takes(Contents contents, const scene::TorchLight& light) {
-    return contents == Contents::All || (scene::parts_of(light.torch) & torch::LayerPart) != 0;
+bool shows_layer(const scene::TorchLight& light) {
+    return (scene::parts_of(light.torch) & torch::LayerPart) != 0;
 }
 
 void bind(unsigned unit, unsigned texture) {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, texture);
     glActiveTexture(GL_TEXTURE0);
+}
+
+unsigned texture_of_framebuffer(unsigned attachment) {
+    const auto ask = [attachment](GLenum what) {
+        GLint answer = 0;
+        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, what, &answer);
+        return answer;
+    };
+    assert(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_TEXTURE);
+    return static_cast<unsigned>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
 }
 
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
@@ -96,6 +107,14 @@ void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scen
                        glm::value_ptr(light.torch_from_projector));
     glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(light.eye));
     glUniform4fv(shader.location(Uniform::DepthFromNearness), 1, glm::value_ptr(depth));
+    glUniform4i(shader.location(Uniform::Raster), raster.x, raster.y, raster.z, raster.w);
+}
+
+void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::ivec4& raster) {
+    const glm::mat4 from_ray(face.from_ray);
+    glUniformMatrix4fv(shader.location(Uniform::TorchFromProjector), 1, GL_FALSE, glm::value_ptr(from_ray));
+    glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(face.eye));
+    glUniform4f(shader.location(Uniform::DepthFromNearness), 0.0F, 0.0F, 0.0F, face.end_of_depth);
     glUniform4i(shader.location(Uniform::Raster), raster.x, raster.y, raster.z, raster.w);
 }
 

@@ -26,13 +26,14 @@ struct Lit {
     const Raster& raster;
     std::span<const TorchPicture> torches; ///< one for each of the plan's
 };
-enum class Contents { All, Layers };
 /// The shader of its own parts; otherwise the one for any content. Null: neither was prepared.
 [[nodiscard]] const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key,
                                        const scene::TorchLight& light);
-/// True if the torch's content is among `contents`.
-[[nodiscard]] bool takes(Contents contents, const scene::TorchLight& light);
+/// True if the content has other colours of the surface, which only the surface's own draws know.
+[[nodiscard]] bool shows_layer(const scene::TorchLight& light);
 void bind(unsigned unit, unsigned texture);
+/// The colour or the depth of the framebuffer that is drawn into, which must be a texture.
+[[nodiscard]] unsigned texture_of_framebuffer(unsigned attachment);
 
 /// Texture units of torch_shader.h.
 inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8;
@@ -42,6 +43,8 @@ void set_torch(const Shader& shader, const scene::TorchLight& light, const Torch
 /// Of a face and how its places are found by nearness.
 void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scene::TorchLight& light,
                   int face, const glm::ivec4& raster);
+/// Of a face and how its places are found by depth.
+void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::ivec4& raster);
 /// Of a draw on its face.
 void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
                   const Raster& raster);

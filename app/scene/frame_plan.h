@@ -207,6 +207,19 @@ struct TorchDraw {
     PixelRectangle bounds;           ///< contains every pixel that it lights
     IndexRange range;                ///< of a mesh that shows a layer: the triangles that meet the beam
 };
+/// A torch's light on a face of the prop.
+struct TorchFace {
+    std::size_t torch = 0,
+                draw =
+                    0; ///< indices into FramePlan::torches, FramePlan::draws: one of the draws that it lights
+    int face = 0;      ///< index into FramePlan::faces
+    LitTiles lit;      ///< contain every pixel that it lights there
+    /// Torch's frame: the place at depth z, in normalised device coordinates, along the ideal ray (x, y, 1) is eye +
+    /// from_ray (x, y, 1) / (z - end_of_depth).
+    glm::mat3 from_ray{0.0F};
+    glm::vec3 eye{0.0F};
+    float end_of_depth = 0.0F;
+};
 /// Pixels along each side of the torch's own picture, in which its shadows are found.
 inline constexpr int torch_picture_px = 512;
 
@@ -231,6 +244,7 @@ struct FramePlan {
     std::size_t relief_draw_count = 0;
     std::vector<TorchLight> torches;    ///< that may light some of the draws in the prop
     std::vector<TorchDraw> torch_draws; ///< torch by torch
+    std::vector<TorchFace> torch_faces; ///< torch by torch
     /// What each of `torches` sees, for its shadows; of the frame are as many as there are torches.
     std::vector<FramePlan> torch_views;
     std::vector<Part> casters;   ///< the parts of a torch's own picture

@@ -68,20 +68,29 @@ IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, c
     return {first, static_cast<std::uint32_t>(indices.size()) - first};
 }
 
-/// The pixels that a beam may light of a level: around those of its box's small parts that meet the beam.
-PixelRectangle lit_pixels(const PlacedLevel& level, const glm::dmat4& clip_from_placed,
-                          const BeamPlanes& planes, const geometry::Pinhole& pinhole) {
-    constexpr int parts = 6; // along each edge
+/// Along an edge of a level's box: parts of about a centimetre.
+glm::ivec3 parts_of_box(const glm::dvec3& size_m) {
+    constexpr double part_m = 0.01;
+    constexpr double max_parts = 12.0;
+    return glm::ivec3(glm::clamp(glm::ceil(size_m / part_m), glm::dvec3(1.0), glm::dvec3(max_parts)));
+}
+
+/// The pixels that a beam may light of a level, within `draw`: around those of its box's small parts that meet the beam. Adds
+/// them to `tiles`, and returns the rectangle around them.
+PixelRectangle light_pixels(const PlacedLevel& level, const Draw& draw, const BeamPlanes& planes,
+                            const geometry::Pinhole& pinhole, LitTiles& tiles) {
     const geometry::Box box = level.placed_box();
-    const glm::dvec3 size = (box.high - box.low) / static_cast<double>(parts);
     double scale = 0.0; // of the pose
     for (int axis = 0; axis < 3; ++axis) {
         scale = std::max(scale, glm::length(glm::dvec3(level.prop_from_placed[axis])));
     }
+    const glm::ivec3 parts = parts_of_box(scale * (box.high - box.low));
+    const glm::dvec3 size = (box.high - box.low) / glm::dvec3(parts);
     const double radius = 0.5 * scale * glm::length(size);
     PixelRectangle lit;
-    for (int k = 0; k < parts * parts * parts; ++k) {
-        const glm::dvec3 low = box.low + size * glm::dvec3(k % parts, k / parts % parts, k / parts / parts);
+    for (int k = 0; k < parts.x * parts.y * parts.z; ++k) {
+        const glm::ivec3 place(k % parts.x, k / parts.x % parts.y, k / parts.x / parts.y);
+        const glm::dvec3 low = box.low + size * glm::dvec3(place);
         const glm::dvec3 middle(level.prop_from_placed * glm::dvec4(low + 0.5 * size, 1.0));
         if (!may_light(planes, middle, radius)) {
             continue;
@@ -89,11 +98,48 @@ PixelRectangle lit_pixels(const PlacedLevel& level, const glm::dmat4& clip_from_
         std::array<glm::dvec4, 8> corners{};
         for (unsigned corner = 0; corner < corners.size(); ++corner) {
             const glm::dvec3 share(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U);
-            corners[corner] = clip_from_placed * glm::dvec4(low + size * share, 1.0);
+            corners[corner] = draw.clip_from_placed * glm::dvec4(low + size * share, 1.0);
         }
-        lit = united(lit, pixels_around(corners, pinhole));
+        const PixelRectangle part = intersected(draw.bounds, pixels_around(corners, pinhole));
+        tiles.light(part);
+        lit = united(lit, part);
     }
     return lit;
+}
+
+/// How a pixel's depth tells the place. Clip coordinates are linear in the place, and only the depth of what lies on one ray
+/// differs: the inverse map's last row has no x and no y.
+void find_places(const glm::dmat4& torch_from_placed, const Draw& draw, const geometry::Pinhole& pinhole,
+                 TorchFace& face) {
+    const glm::dmat4 torch_from_clip = torch_from_placed * glm::inverse(draw.clip_from_placed);
+    const double per_depth = torch_from_clip[2].w;
+    const glm::dvec3 eye = glm::dvec3(torch_from_clip[2]) / per_depth; // infinitely deep
+    const double end = -torch_from_clip[3].w / per_depth;
+    const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
+    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
+    const glm::dvec2 scale = focal / half; // from a ray to normalised device coordinates
+    const glm::dvec2 offset = glm::dvec2(pinhole.cx, pinhole.cy) / half - 1.0;
+    const glm::dvec3 x = glm::dvec3(torch_from_clip[0]) / per_depth;
+    const glm::dvec3 y = glm::dvec3(torch_from_clip[1]) / per_depth;
+    const glm::dvec3 rest = glm::dvec3(torch_from_clip[3]) / per_depth + end * eye;
+    face.from_ray = glm::mat3(glm::dmat3(scale.x * x, scale.y * y, offset.x * x + offset.y * y + rest));
+    face.eye = glm::vec3(eye);
+    face.end_of_depth = static_cast<float>(end);
+}
+
+/// The torch's entry for a face, which is the last torch.
+TorchFace& face_of(FramePlan& plan, std::size_t torch, int face) {
+    const auto found =
+        std::find_if(plan.torch_faces.begin(), plan.torch_faces.end(),
+                     [&](const TorchFace& each) { return each.torch == torch && each.face == face; });
+    if (found != plan.torch_faces.end()) {
+        return *found;
+    }
+    TorchFace& added = plan.torch_faces.emplace_back();
+    added.torch = torch;
+    added.face = face;
+    added.lit.begin(plan.projector.width, plan.projector.height);
+    return added;
 }
 
 constexpr std::array<glm::dvec2, 4> square{glm::dvec2(-1, 1), glm::dvec2(1, 1), glm::dvec2(1, -1),
@@ -197,6 +243,7 @@ TorchLight light_of(const PlacedTorch& torch, const PlanView& view) {
 void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts) {
     plan.torches.reserve(torch::max_torches);
     plan.torch_draws.reserve(torch::max_torches * parts * faces);
+    plan.torch_faces.reserve(torch::max_torches * faces);
     plan.indices.reserve((1 + torch::max_torches) * faces * indices);
     plan.torch_views.clear();
     const geometry::PropShape surface = square_shape();
@@ -211,6 +258,7 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
                   FramePlan& plan) {
     plan.torches.clear();
     plan.torch_draws.clear();
+    plan.torch_faces.clear();
     if (plan.faces.empty()) {
         return;
     }
@@ -234,17 +282,24 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
                 continue;
             }
             const PlacedLevel& level = parts[draw.part].level;
+            TorchFace& face = face_of(plan, number, draw.face);
             TorchDraw lit{.draw = k, .torch = number, .bounds = {}, .range = {}};
-            lit.bounds =
-                intersected(draw.bounds, lit_pixels(level, draw.clip_from_placed, planes, plan.projector));
-            if (level.triangles && !lit.bounds.empty() &&
-                ((parts_of(torch) & torch::LayerPart) != 0 || plan.samples == 1)) {
+            lit.bounds = light_pixels(level, draw, planes, plan.projector, face.lit);
+            if (lit.bounds.empty()) {
+                continue;
+            }
+            face.draw = k;
+            find_places(torch_from_prop.matrix() * level.prop_from_placed, draw, plan.projector, face);
+            if (level.triangles && (parts_of(torch) & torch::LayerPart) != 0) {
                 lit.range = lit_triangles(
                     *level.triangles, draw.range,
                     planes_of(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);
             }
-            if (!lit.bounds.empty()) {
-                plan.torch_draws.push_back(lit);
+            plan.torch_draws.push_back(lit);
+        }
+        for (TorchFace& face : plan.torch_faces) {
+            if (face.torch == number) {
+                face.lit.finish();
             }
         }
         TorchLight light = light_of(torch, view);

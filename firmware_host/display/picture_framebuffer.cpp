@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace frustumscreen::display {
 
 Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
     GLint limit = 0;
-    GLint renderbuffer_limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer_limit);
-    limit = std::min(limit, renderbuffer_limit);
     if (width < 1 || height < 1 || width > limit || height > limit) {
         return fail(ErrorKind::BadConfiguration, "display.picture_size",
                     "display: a picture of {} x {} pixels; this driver draws 1 to {} on each side", width,
@@ -38,10 +33,12 @@ PictureFramebuffer::PictureFramebuffer(int width, int height) : width_(width), h
     glBindTexture(GL_TEXTURE_2D, colour_.get());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, width, height);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.get(), 0);
-    glBindRenderbuffer(GL_RENDERBUFFER, depth_stencil_.get());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              depth_stencil_.get());
+    glBindTexture(GL_TEXTURE_2D, depth_stencil_.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH24_STENCIL8, width, height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_stencil_.get(),
+                           0);
 }
 
 } // namespace frustumscreen::display

@@ -1,7 +1,7 @@
 /// The framebuffer object that the renderer draws the exhibit's picture into, for every kind of display.
 ///
-/// Colour   a texture, SRGB8_ALPHA8: shaders write linear light, a read-back gives sRGB codes; depth 24,
-///          stencil 8. Row 0 is the picture's top row. Initially black.
+/// Colour   a texture, SRGB8_ALPHA8: shaders write linear light, a read-back gives sRGB codes; depth 24 and
+///          stencil 8 in another, so that a torch's light may ask a pixel's depth. Row 0 is the picture's top row. Initially black.
 /// Threads  the creating context is current.
 /// Errors   a picture larger than the driver allows.
 #pragma once
@@ -27,7 +27,7 @@ private:
     int height_;
     gl::GlFramebuffer framebuffer_ = gl::GlFramebuffer::generate();
     gl::GlTexture colour_ = gl::GlTexture::generate();
-    gl::GlRenderbuffer depth_stencil_ = gl::GlRenderbuffer::generate();
+    gl::GlTexture depth_stencil_ = gl::GlTexture::generate();
 };
 
 } // namespace frustumscreen::display

@@ -75,13 +75,17 @@ public:
         }
         return {};
     }
-    void measure_errors(const Truth& truth, int count, const std::function<void(double)>& progress) {
+    void measure_errors(int count, const std::function<void(double)>& progress) {
         const std::size_t frames = std::min(sweep_.size(), static_cast<std::size_t>(count));
         image::Image8 drawn;
+        const DrawnSurface drawn_surface(scene_.drawn.parts);
+        const DrawnSurface polygons(scene_.polygons.parts);
         for (std::size_t k = 0; k < frames; ++k) {
             const std::size_t frame = (2 * k + 1) * sweep_.size() / (2 * frames);
             const geometry::RigidTransform prop_from_torch =
                 sweep_[frame].pose.table_from_prop.inverse() * sweep_[frame].table_from_torch;
+            const glm::dvec3 eye_m =
+                sweep_[frame].pose.table_from_prop.inverse().point(sweep_[frame].pose.eye_m);
             std::array<std::optional<TorchTruth>, 2> truths; // of the scene, and of its polygons
             for (Timed& timed : timed_) {
                 TorchTechnique& technique = *timed.technique;
@@ -90,11 +94,12 @@ public:
                 }
                 technique.draw(sweep_[frame], frame, true);
                 set_.cells().read_colour_into(drawn);
-                std::optional<TorchTruth>& own =
-                    truths.at(technique.way().kind == TorchWay::Kind::Paper ? 1 : 0);
+                const bool is_paper = technique.way().kind == TorchWay::Kind::Paper;
+                std::optional<TorchTruth>& own = truths.at(is_paper ? 1 : 0);
                 if (!own) {
                     own =
-                        cast_torch(truth, set_.cells().hit_points(technique.plan()), prop_from_torch, beam_);
+                        cast_torch(is_paper ? polygons : drawn_surface,
+                                   set_.cells().hit_points(technique.plan()), eye_m, prop_from_torch, beam_);
                 }
                 timed.error.add(*own, drawn);
             }
@@ -144,7 +149,7 @@ double mean_of(const std::vector<double>& values) {
                : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Result<std::vector<TorchRow>> measure_scene(TorchSet& set, const TorchScene& scene, const Truth& truth,
+Result<std::vector<TorchRow>> measure_scene(TorchSet& set, const TorchScene& scene,
                                             const std::vector<TorchFrame>& sweep, const TorchOptions& options,
                                             const TorchProgress& progress) {
     const auto step = [&](const char* what) {
@@ -177,7 +182,7 @@ Result<std::vector<TorchRow>> measure_scene(TorchSet& set, const TorchScene& sce
     TRY_VOID(run.steer(steered_ms));
     TRY_VOID(run.add(paper_way("paper_fixed", sweep.size(), mean_of(run.rows().back().way.tolerances))));
     run.time(steered, step("a steered tolerance"));
-    run.measure_errors(truth, options.errors, step("errors"));
+    run.measure_errors(options.errors, step("errors"));
     return run.rows();
 }
 
@@ -193,13 +198,12 @@ double TorchRow::tolerance_mm() const {
     return way.by == torch::Splitting::By::Length ? 1e3 * mean_of(way.tolerances) : 0.0;
 }
 
-Result<TorchResult> measure_torch(TorchSet& set, const Truth& truth, const TorchOptions& options,
-                                  const TorchProgress& progress) {
+Result<TorchResult> measure_torch(TorchSet& set, const TorchOptions& options, const TorchProgress& progress) {
     TRY(const std::vector<TorchFrame> sweep,
         draw_sweep(set.settings(), set.prop(), set.box(), options.frames, options.seed));
     TorchResult result;
     for (const TorchScene& scene : set.scenes()) {
-        TRY(const std::vector<TorchRow> rows, measure_scene(set, scene, truth, sweep, options, progress));
+        TRY(const std::vector<TorchRow> rows, measure_scene(set, scene, sweep, options, progress));
         for (const TorchRow& row : rows) {
             (row.way.samples > 1 ? result.samples : result.rows).push_back(row);
         }

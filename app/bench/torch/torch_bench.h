@@ -46,9 +46,8 @@ struct TorchResult {
 
 using TorchProgress = std::function<void(const std::string& step, double done)>;
 
-/// `truth`: of the set's artifact.
-[[nodiscard]] Result<TorchResult> measure_torch(TorchSet& set, const Truth& truth,
-                                                const TorchOptions& options, const TorchProgress& progress);
+[[nodiscard]] Result<TorchResult> measure_torch(TorchSet& set, const TorchOptions& options,
+                                                const TorchProgress& progress);
 
 [[nodiscard]] std::string torch_csv(const TorchResult& result);
 /// The cost of the light at one sample a pixel, and at the pack's own number of samples.

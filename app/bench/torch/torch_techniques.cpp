@@ -43,6 +43,12 @@ void TorchTechnique::draw(const TorchFrame& frame, std::size_t number, bool in_b
         view.torches = {&torch, 1};
     }
     scene::plan_frame(set_.prop(), in_black ? surface_.black : surface_.parts, view, plan_);
+    if (way_.samples == 1) { // the plan adds samples where a face is seen slantingly
+        plan_.samples = 1;
+        for (scene::ReliefDraw& relief_draw : plan_.relief_draws) {
+            relief_draw.samples = 1;
+        }
+    }
     const render::RenderTarget target = set_.cells().target();
     set_.cells().renderer().draw(plan_, target, render::Redraw::Everything);
     if (is_paper(way_)) {

@@ -6,18 +6,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace frustumscreen::bench {
 
 namespace {
 
-constexpr double slack_m = 0.001;
+constexpr double slack_m = 2e-5;
+constexpr double same_point_m = 1e-4;
+constexpr double edge_on = 0.0175; ///< cosine: one degree
 
 class Caster {
 public:
-    Caster(const Truth& truth, const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam)
-        : truth_(truth), prop_from_torch_(prop_from_torch), torch_from_prop_(prop_from_torch.inverse()),
-          beam_(beam), half_extent_(torch::half_extent(beam)), reach_m_(torch::reach_m(beam)) {}
+    Caster(const DrawnSurface& surface, const glm::dvec3& eye_m,
+           const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam)
+        : surface_(surface), eye_m_(eye_m), prop_from_torch_(prop_from_torch),
+          torch_from_prop_(prop_from_torch.inverse()), beam_(beam), half_extent_(torch::half_extent(beam)),
+          reach_m_(torch::reach_m(beam)) {}
 
     [[nodiscard]] TorchPlace place_of(const glm::dvec3& point_m, double& intensity) const {
         const glm::dvec3 point = torch_from_prop_.point(point_m);
@@ -25,23 +30,30 @@ public:
             return TorchPlace::Outside;
         }
         intensity = torch::intensity_at(beam_, point);
-        const glm::dvec2 step = 2.0 * half_extent_ * point.z / static_cast<double>(scene::torch_picture_px);
-        const double way_m = glm::length(point);
-        const std::array beside{glm::dvec2(0.0), glm::dvec2(1.0, 0.0), glm::dvec2(-1.0, 0.0),
-                                glm::dvec2(0.0, 1.0), glm::dvec2(0.0, -1.0)};
+        const DrawnSurface::Hit seen = surface_.first_hit(eye_m_, point_m - eye_m_);
+        if (!seen.hit || glm::distance(seen.point_m, point_m) > same_point_m) {
+            return TorchPlace::Unclear;
+        }
+        const glm::dvec3 to_torch = glm::normalize(prop_from_torch_.translation - point_m);
+        const double cosine = glm::dot(seen.normal, to_torch);
+        if (std::abs(cosine) < edge_on) {
+            return TorchPlace::Unclear;
+        }
+        const bool turned_away = cosine * glm::dot(seen.normal, eye_m_ - point_m) < 0.0;
+        const glm::dvec3 normal = cosine > 0.0 ? seen.normal : -seen.normal; // towards the torch
         int lit = 0;
         int shadow = 0;
-        for (const glm::dvec2& each : beside) {
-            const glm::dvec3 at(glm::dvec2(point) + each * step, point.z);
+        for (int k = 0; k < rays; ++k) {
+            const glm::dvec3 at = beside(point, k);
             if (!torch::place_in_content(beam_, at) || !torch::place_in_content(beam_, 1.01 * at)) {
                 return TorchPlace::Unclear;
             }
-            const double met_m = way_to_surface(at);
-            lit += met_m >= way_m - slack_m ? 1 : 0;
-            shadow += met_m < way_m - 3.0 * slack_m ? 1 : 0;
+            const Light light = light_at(point_m, normal, at);
+            lit += light == Light::Full ? 1 : 0;
+            shadow += light == Light::None ? 1 : 0;
         }
-        constexpr int all = 5;
-        return lit == all ? TorchPlace::Lit : shadow == all ? TorchPlace::Shadow : TorchPlace::Unclear;
+        const bool is_shadow = shadow == rays || (turned_away && lit == rays);
+        return is_shadow ? TorchPlace::Shadow : lit == rays ? TorchPlace::Lit : TorchPlace::Unclear;
     }
 
 private:
@@ -53,16 +65,33 @@ private:
         const glm::dvec2 at = glm::abs(glm::dvec2(point)) / (point.z * half_extent_);
         return beam_.shape == torch::Shape::Round ? glm::length(at) < wider : std::max(at.x, at.y) < wider;
     }
-    /// Infinite if the ray meets nothing.
-    [[nodiscard]] double way_to_surface(const glm::dvec3& at) const {
-        Truth::Hit hit;
-        const glm::dvec3 origin = prop_from_torch_.translation;
-        return truth_.first_hit(origin, prop_from_torch_.direction(at), hit)
-                   ? glm::distance(origin, hit.point_m)
-                   : std::numeric_limits<double>::infinity();
+    /// The point, torch's frame, and eight around it, one pixel of the torch's own picture away.
+    [[nodiscard]] glm::dvec3 beside(const glm::dvec3& point, int ray) const {
+        const double angle = 0.25 * std::numbers::pi * ray;
+        const glm::dvec2 pixel = 2.0 * half_extent_ * point.z / static_cast<double>(scene::torch_picture_px);
+        return ray == 0 ? point
+                        : point + glm::dvec3(pixel * glm::dvec2(std::cos(angle), std::sin(angle)), 0.0);
+    }
+    enum class Light : std::uint8_t { Full, Unsure, None };
+    /// Of the ray through `at`, torch's frame, on the plane through a point.
+    [[nodiscard]] Light light_at(const glm::dvec3& point_m, const glm::dvec3& normal,
+                                 const glm::dvec3& at) const {
+        const glm::dvec3 direction = prop_from_torch_.direction(at);
+        const DrawnSurface::Hit met = surface_.first_hit(prop_from_torch_.translation, direction);
+        if (!met.hit || glm::dot(normal, met.point_m - point_m) < slack_m) {
+            return Light::Full;
+        }
+        const double plane =
+            glm::dot(normal, point_m - prop_from_torch_.translation) / glm::dot(normal, direction);
+        const double z = torch_from_prop_.point(met.point_m).z;
+        const double pixel =
+            2.0 * std::max(half_extent_.x, half_extent_.y) / static_cast<double>(scene::torch_picture_px);
+        return plane > 0.0 && z < plane * at.z * (1.0 - pixel) ? Light::None : Light::Unsure;
     }
 
-    const Truth& truth_;
+    static constexpr int rays = 9;
+    const DrawnSurface& surface_;
+    glm::dvec3 eye_m_;
     geometry::RigidTransform prop_from_torch_, torch_from_prop_;
     torch::Beam beam_;
     glm::dvec2 half_extent_;
@@ -71,11 +100,11 @@ private:
 
 } // namespace
 
-TorchTruth cast_torch(const Truth& truth, const image::ImageFloat& points_m,
+TorchTruth cast_torch(const DrawnSurface& surface, const image::ImageFloat& points_m, const glm::dvec3& eye_m,
                       const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam) {
     TorchTruth result{.place = {points_m.width, points_m.height},
                       .intensity = {points_m.width, points_m.height}};
-    const Caster caster(truth, prop_from_torch, beam);
+    const Caster caster(surface, eye_m, prop_from_torch, beam);
     const auto width = static_cast<std::size_t>(points_m.width);
     parallel_for(static_cast<std::size_t>(points_m.height), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin * width; k < end * width; ++k) {
@@ -102,12 +131,19 @@ void IntensityError::add(const TorchTruth& truth, const image::Image8& drawn) {
         } else if (place == TorchPlace::Shadow) {
             ++shadow_;
             leaks_ += seen > 0.5 * torch::min_intensity ? 1 : 0;
+        } else if (place == TorchPlace::Unclear) {
+            ++unclear_;
         }
     }
 }
 
 double IntensityError::rmse() const {
     return pixels_ > 0 ? 100.0 * std::sqrt(squares_ / static_cast<double>(pixels_)) : 0.0;
+}
+
+double IntensityError::unclear() const {
+    const std::size_t all = pixels_ + shadow_ + unclear_;
+    return all > 0 ? 100.0 * static_cast<double>(unclear_) / static_cast<double>(all) : 0.0;
 }
 
 double IntensityError::leak() const {

@@ -3,16 +3,20 @@
 ///
 /// Point    the one that the drawn surface shows through the pixel's centre, so that a surface's own error, which other
 ///          commands measure, is no error of the light.
-/// Shadows  by rays against the source mesh, so the surface that is drawn and the one that is cast differ by the level's error: 1 mm
-///          is allowed. A pixel counts as lit, or as in shadow, if five rays say so: through its point, and one
-///          pixel of the torch's own picture beside it on four sides. Other pixels are left out, and so are those within
-///          one such pixel of the beam's edge, and within 1 % of its reach.
+/// Shadows  by rays against the drawn surface. A pixel counts as lit, or as in shadow, if nine rays say so: through its point, and
+///          on a circle of one pixel of the torch's own picture around it; the surface beside the point is taken as flat.
+///          What lies less than 0.02 mm before that plane is part of it. Clearly in shadow is what lies farther behind
+///          the caster than one such pixel is wide, and a surface that the torch meets from behind. Within a degree of
+///          edge-on it is unclear.
+/// Left out others, those within one such pixel of the beam's edge and within 1 % of its reach, and the points that
+///          another surface hides from the eye's ray, which happens to roundings on outlines. IntensityError counts them.
 /// Frames   prop.
 /// Threads  `cast` uses every core inside; one call at a time.
 /// Errors   none.
 #pragma once
 
-#include "app/bench/truth/truth.h"
+#include "app/bench/torch/drawn_surface.h"
+#include "app/image/image.h"
 #include "app/torch/torch.h"
 
 namespace frustumscreen::bench {
@@ -31,8 +35,9 @@ struct TorchTruth {
 };
 
 /// `points_m`: each pixel's point in the prop; NaN: none.
-[[nodiscard]] TorchTruth cast_torch(const Truth& truth, const image::ImageFloat& points_m,
-                                    const geometry::RigidTransform& prop_from_torch, const torch::Beam& beam);
+[[nodiscard]] TorchTruth cast_torch(const DrawnSurface& surface, const image::ImageFloat& points_m,
+                                    const glm::dvec3& eye_m, const geometry::RigidTransform& prop_from_torch,
+                                    const torch::Beam& beam);
 
 /// The error of the intensity over the lit pixels of some pictures, per cent of the full intensity.
 class IntensityError {
@@ -45,10 +50,12 @@ public:
     [[nodiscard]] std::size_t pixels() const { return pixels_; }
     /// Per cent of the pixels in shadow that show light.
     [[nodiscard]] double leak() const;
+    /// Per cent of the pixels in the beam, or at its edge, that are left out.
+    [[nodiscard]] double unclear() const;
 
 private:
     double squares_ = 0.0, max_ = 0.0;
-    std::size_t pixels_ = 0, shadow_ = 0, leaks_ = 0;
+    std::size_t pixels_ = 0, shadow_ = 0, leaks_ = 0, unclear_ = 0;
 };
 
 } // namespace frustumscreen::bench

@@ -52,13 +52,11 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
     }
     TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
     TRY_VOID(write_all(arguments.out, {}));
-    TRY(const std::shared_ptr<const bake::SourceMesh> mesh,
-        given_or_board(arguments.out, arguments.artifact, progress));
+    TRY_VOID(without_value(given_or_board(arguments.out, arguments.artifact, progress)));
     TRY(const std::unique_ptr<bench::TorchSet> set,
         bench::TorchSet::open(*settings, arguments.artifact.pack));
-    TRY(const bench::Truth truth, bench::Truth::build(mesh, set->prop_from_artifact()));
     TRY(const bench::TorchResult result,
-        bench::measure_torch(*set, truth, arguments.options,
+        bench::measure_torch(*set, arguments.options,
                              [&](const std::string& step, double done) { progress.show(step, done); }));
     progress.clear();
     fmt::print("{}\n{}", bench::torch_table(result), bench::torch_verdicts(result));

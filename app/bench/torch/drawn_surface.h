@@ -1,0 +1,45 @@
+/// The surface that a scene of `frustumscreen-bench torch` draws, for rays: its levels' triangles, and its reliefs as they are
+/// rasterized.
+///
+/// So a shadow is held against the surface that casts it and the one that it falls on. How far those lie from the source,
+/// other commands measure.
+///
+/// Frames   prop. Set-up in 64-bit; Embree (float, robust) only finds the hit.
+/// Threads  const; any.
+/// Errors   none.
+#pragma once
+
+#include "app/geometry/collineation.h"
+#include "app/scene/frame_plan.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::bench {
+
+class DrawnSurface {
+public:
+    /// `parts`: their levels must outlive the surface.
+    explicit DrawnSurface(std::span<const scene::Part> parts);
+    ~DrawnSurface();
+    DrawnSurface(DrawnSurface&&) noexcept;
+    DrawnSurface& operator=(DrawnSurface&&) = delete;
+
+    struct Hit {
+        bool hit = false;
+        double way_m = 0.0;
+        glm::dvec3 point_m{0.0};
+        glm::dvec3 normal{0.0}; ///< unit, outward
+    };
+    /// First hit of origin + t direction, t > 0. Triangles stop a ray from both sides, reliefs from before, as they are drawn.
+    [[nodiscard]] Hit first_hit(const glm::dvec3& origin, const glm::dvec3& direction) const;
+
+private:
+    struct Solid;
+    std::vector<std::unique_ptr<const Solid>> solids_;
+};
+
+} // namespace frustumscreen::bench
