@@ -300,8 +300,8 @@ StabilityResult patches(const StabilityOptions&) {
 
 } // namespace
 
-std::vector<StabilityCase> window_cases() {
-    constexpr std::string_view theme = "window";
+std::vector<StabilityCase> layered_depth_cases() {
+    constexpr std::string_view theme = "layered depth";
     std::vector<StabilityCase> cases;
     const auto add = [&](std::string name, StabilityResult (*measure)(const StabilityOptions&)) {
         cases.push_back({std::string(theme), std::move(name), FloatingPoint::Strict, measure});
