@@ -26,6 +26,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 [[nodiscard]] std::vector<StabilityCase> calibration_cases();
 [[nodiscard]] std::vector<StabilityCase> layered_depth_cases();
+[[nodiscard]] std::vector<StabilityCase> patch_relief_cases();
 /// These draw in a context of their own.
 [[nodiscard]] std::vector<StabilityCase> driver_cases();
 

@@ -1,0 +1,50 @@
+/// Worlds with shapes and colours for tests of patch reliefs, a ray cast that tries every triangle, and a patch drawn for an
+/// eye.
+///
+/// Frames   window (app/ldi/triangle_world.h). Units: metres.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/image/image.h"
+#include "app/ldi/hemisphere.h"
+#include "app/ldi/patch_relief.h"
+#include "app/ldi/triangle_world.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace frustumscreen::ldi {
+
+inline constexpr double half_window_m = 0.1;
+inline constexpr double eye_distance_m = 0.5;
+
+/// Ground, hills and houses behind a window, and a post that reaches before it. Colours change slowly on each surface.
+[[nodiscard]] TriangleWorld town(unsigned seed);
+/// Hills alone, with shades as of a photograph.
+[[nodiscard]] TriangleWorld hills();
+/// A wall all across the window, 0.1 m behind it, and before it posts a few tenths of a millimetre wide.
+[[nodiscard]] TriangleWorld wires_before_a_wall();
+
+/// A seeded eye in the patch, at the frozen distance.
+[[nodiscard]] glm::dvec3 seeded_eye(const Hemisphere& hemisphere, std::size_t patch, std::mt19937& random);
+
+/// What an eye sees through the window, in pixels from the upper left; NaN and alpha 0 where there is nothing.
+struct SeenWindow {
+    int px = 0;
+    std::vector<glm::vec3> points;
+    image::Image8 colours;
+
+    [[nodiscard]] bool hit(int x, int y) const;
+    [[nodiscard]] const glm::vec3& point(int x, int y) const {
+        return points[static_cast<std::size_t>(y) * static_cast<std::size_t>(px) +
+                      static_cast<std::size_t>(x)];
+    }
+};
+[[nodiscard]] SeenWindow ray_cast(const TriangleWorld& world, const glm::dvec3& eye, int px);
+/// Drawn as a relief on a prop with one face, the window.
+[[nodiscard]] SeenWindow drawn(const PatchRelief& patch, const glm::dvec3& eye, int px, int samples = 1);
+
+} // namespace frustumscreen::ldi
