@@ -255,6 +255,41 @@ TEST(LayeredDepth, ShowsFromEveryEyeOfItsPatchWhatTheWorldShows) {
                           [&](std::size_t patch, DepthPicture& picture) { splat(patches[patch], picture); });
 }
 
+TEST(LayeredDepth, OnABorderTheImagesOfBothPatchesShowTheSame) {
+    // Else a window would flicker for an eye that crosses it, or differ for two eyes on its sides.
+    const Hemisphere& hemisphere = seen_spheres().hemisphere;
+    std::vector<LayeredDepth> patches;
+    for (std::size_t patch = 0; patch < patch_count; ++patch) {
+        patches.push_back(seen_spheres().patch(patch));
+    }
+    std::size_t differ = 0;
+    std::size_t compared = 0;
+    const auto compare_at = [&](double polar_rad, double azimuth_rad, std::size_t a, std::size_t b) {
+        const glm::dvec3 eye =
+            radius_m * glm::dvec3(std::sin(polar_rad) * std::cos(azimuth_rad),
+                                  std::sin(polar_rad) * std::sin(azimuth_rad), std::cos(polar_rad));
+        DepthPicture of_a = empty_picture(eye);
+        DepthPicture of_b = of_a;
+        splat(patches[a], of_a);
+        splat(patches[b], of_b);
+        for (const Difference& difference : {compare(of_a, of_b, 2), compare(of_b, of_a, 2)}) {
+            differ += difference.holes + difference.strangers;
+            compared += difference.compared;
+        }
+    };
+    for (std::size_t patch = 1; patch < patch_count; ++patch) {
+        const PatchDirections& ring = hemisphere.directions_of(patch);
+        const double end = ring.middle_azimuth_rad + ring.half_width_rad;
+        for (const double share : {0.2, 0.5, 0.8}) {
+            compare_at(std::lerp(ring.min_polar_rad, ring.max_polar_rad, share), end, patch, patch % 8 + 1);
+            compare_at(ring.min_polar_rad,
+                       ring.middle_azimuth_rad + (2.0 * share - 1.0) * ring.half_width_rad, 0, patch);
+        }
+    }
+    EXPECT_LT(differ, compared / 200);
+    EXPECT_EQ(compared, std::size_t{2 * 48 * 128 * 128});
+}
+
 TEST(LayeredDepth, DepthIsThatOfTheWorld) {
     std::mt19937 random(6);
     TriangleWorld wall;

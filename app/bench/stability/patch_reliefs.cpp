@@ -170,11 +170,11 @@ StabilityResult nothing_seen(const StabilityOptions&) {
 std::vector<StabilityCase> patch_relief_cases() {
     const auto strict = FloatingPoint::Strict;
     return {
-        {"window", "patch as a relief: an eye on the window's plane and behind it", strict,
+        {"layered depth", "patch as a relief: an eye on the window's plane and behind it", strict,
          on_the_plane_and_behind},
-        {"window", "patch as a relief: on the borders of patches", strict, borders},
-        {"window", "patch as a relief: depths that differ a millionfold", strict, depths},
-        {"window", "patch as a relief: worlds of which nothing is seen", FloatingPoint::Free, nothing_seen}};
+        {"layered depth", "patch as a relief: on the borders of patches", strict, borders},
+        {"layered depth", "patch as a relief: depths that differ a millionfold", strict, depths},
+        {"layered depth", "patch as a relief: worlds of which nothing is seen", FloatingPoint::Free, nothing_seen}};
 }
 
 } // namespace frustumscreen::bench

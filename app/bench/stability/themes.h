@@ -10,8 +10,6 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> eye_cases();
 [[nodiscard]] std::vector<StabilityCase> two_eyes_cases();
 [[nodiscard]] std::vector<StabilityCase> room_cases();
-[[nodiscard]] std::vector<StabilityCase> layered_depth_cases();
-[[nodiscard]] std::vector<StabilityCase> patch_relief_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_plan_cases();
 [[nodiscard]] std::vector<StabilityCase> window_cases();
@@ -28,6 +26,8 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> motion_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 [[nodiscard]] std::vector<StabilityCase> calibration_cases();
+[[nodiscard]] std::vector<StabilityCase> layered_depth_cases();
+[[nodiscard]] std::vector<StabilityCase> patch_relief_cases();
 /// These draw in a context of their own.
 [[nodiscard]] std::vector<StabilityCase> driver_cases();
 
