@@ -1,0 +1,204 @@
+#include "app/ldi/triangle_rasterizer.h"
+
+#include "app/ldi/surface_colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen::ldi {
+
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr float steps_per_pixel = 1024.0F;
+constexpr float guard_px =
+    8191.0F; ///< with `steps_per_pixel` 23 bits, so differences of corners are exact in 32 bits
+constexpr double min_farness = 1e-6;
+
+float rounded(double pixels) {
+    return std::nearbyint(static_cast<float>(pixels) * steps_per_pixel) / steps_per_pixel;
+}
+int floor_of(float pixels) { // within the guard band; quicker than std::floor without SSE4.1
+    const int toward_zero = static_cast<int>(pixels);
+    return toward_zero - (pixels < static_cast<float>(toward_zero) ? 1 : 0);
+}
+
+/// Homogeneous places of a triangle that is cut by planes: each adds a corner at most.
+struct Polygon {
+    std::array<glm::dvec3, 8> places{};
+    std::size_t count = 0;
+};
+
+/// The part where the product with `plane` is not negative.
+Polygon cut(const Polygon& polygon, const glm::dvec3& plane) {
+    Polygon kept;
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        const glm::dvec3& from = polygon.places[k];
+        const glm::dvec3& to = polygon.places[(k + 1) % polygon.count];
+        const double from_side = glm::dot(plane, from);
+        const double to_side = glm::dot(plane, to);
+        if (from_side >= 0.0) {
+            kept.places[kept.count++] = from;
+        }
+        if ((from_side < 0.0) != (to_side < 0.0)) {
+            kept.places[kept.count++] = from + from_side / (from_side - to_side) * (to - from);
+        }
+    }
+    return kept;
+}
+
+} // namespace
+
+struct TriangleRasterizer::Target {
+    const TriangleWorld& world;
+    const PictureMap& map;
+    DepthPicture& picture;
+};
+
+void TriangleRasterizer::place_corners(const TriangleWorld& world, const PictureMap& map) {
+    corners_.resize(world.positions.size());
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+        const glm::dvec3 place = map.homogeneous(glm::dvec3(world.positions[k]));
+        const double nearness = 1.0 / place.z;
+        const double x = place.x * nearness;
+        const double y = place.y * nearness;
+        const bool within = place.z >= min_farness && std::fabs(x) < guard_px && std::fabs(y) < guard_px;
+        corners_[k] = within ? Corner{rounded(x), rounded(y), static_cast<float>(nearness)} : Corner{};
+    }
+}
+
+void TriangleRasterizer::draw_triangle(const Target& target, const Corner& a, const Corner& b,
+                                       const Corner& c, std::uint32_t triangle) {
+    const PictureCamera& camera = target.picture.camera;
+    // Pixels whose middle lies in the box of the corners.
+    const int left = std::max(0, 1 + floor_of(std::min({a.x, b.x, c.x}) - 0.50048828125F));
+    const int right = std::min(camera.width - 1, floor_of(std::max({a.x, b.x, c.x}) - 0.5F));
+    const int top = std::max(0, 1 + floor_of(std::min({a.y, b.y, c.y}) - 0.50048828125F));
+    const int bottom = std::min(camera.height - 1, floor_of(std::max({a.y, b.y, c.y}) - 0.5F));
+    if (left > right || top > bottom) {
+        return;
+    }
+    struct Edge {
+        double per_x, per_y, at;
+        Edge(const Corner& from, const Corner& to, double sign, double x, double y)
+            : per_x(sign * static_cast<double>(from.y - to.y)),
+              per_y(sign * static_cast<double>(to.x - from.x)),
+              at(per_x * (x - static_cast<double>(from.x)) + per_y * (y - static_cast<double>(from.y))) {}
+        /// A place on the edge belongs to one of the two triangles.
+        [[nodiscard]] double lowest() const {
+            return per_x > 0.0 || (per_x == 0.0 && per_y > 0.0) ? 0.0 : 0x1p-22;
+        }
+    };
+    const double area = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
+                        static_cast<double>(c.x - a.x) * static_cast<double>(b.y - a.y);
+    if (area == 0.0) {
+        return;
+    }
+    const double sign = area > 0.0 ? 1.0 : -1.0;
+    const double x0 = left + 0.5;
+    const double y0 = top + 0.5;
+    const Edge bc(b, c, sign, x0, y0);
+    const Edge ca(c, a, sign, x0, y0);
+    const Edge ab(a, b, sign, x0, y0);
+    const double bc_lowest = bc.lowest();
+    const double ca_lowest = ca.lowest();
+    const double ab_lowest = ab.lowest();
+    const double scale = sign / area;
+    for (int y = top; y <= bottom; ++y) {
+        const double down = y - top;
+        for (int x = left; x <= right; ++x) {
+            const double across = x - left;
+            const double of_a = bc.at + across * bc.per_x + down * bc.per_y;
+            const double of_b = ca.at + across * ca.per_x + down * ca.per_y;
+            const double of_c = ab.at + across * ab.per_x + down * ab.per_y;
+            if (of_a < bc_lowest || of_b < ca_lowest || of_c < ab_lowest) {
+                continue;
+            }
+            const auto nearness = static_cast<float>(scale * (of_a * static_cast<double>(a.nearness) +
+                                                              of_b * static_cast<double>(b.nearness) +
+                                                              of_c * static_cast<double>(c.nearness)));
+            const std::size_t pixel = target.picture.at(x, y);
+            if (nearness > target.picture.nearness[pixel] &&
+                (!target.world.cut_out || is_solid(surface_colour(target.world, triangle, target.map.eye(),
+                                                                  target.map.ray(x + 0.5, y + 0.5))))) {
+                target.picture.nearness[pixel] = nearness;
+                seen_[pixel] = triangle;
+            }
+        }
+    }
+}
+
+void TriangleRasterizer::draw_cut(const Target& target, std::uint32_t triangle) {
+    Polygon polygon;
+    polygon.count = 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t index = target.world.indices[3 * std::size_t{triangle} + k];
+        if (index >= target.world.positions.size()) {
+            return;
+        }
+        polygon.places[k] = target.map.homogeneous(glm::dvec3(target.world.positions[index]));
+        if (!std::isfinite(polygon.places[k].x + polygon.places[k].y + polygon.places[k].z)) {
+            return;
+        }
+    }
+    constexpr double guard = guard_px - 1.0F;
+    // The first four go through the eye, so they keep their sense behind it.
+    polygon = cut(polygon, {0.0, 0.0, 1.0});
+    for (const glm::dvec3& plane : {glm::dvec3(1.0, 0.0, guard), glm::dvec3(-1.0, 0.0, guard),
+                                    glm::dvec3(0.0, 1.0, guard), glm::dvec3(0.0, -1.0, guard)}) {
+        polygon = cut(polygon, plane);
+    }
+    std::array<Corner, 8> corners{};
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        const double nearness = 1.0 / std::max(min_farness, polygon.places[k].z);
+        corners[k] = {rounded(std::clamp(polygon.places[k].x * nearness, -guard, guard)),
+                      rounded(std::clamp(polygon.places[k].y * nearness, -guard, guard)),
+                      static_cast<float>(nearness)};
+    }
+    for (std::size_t k = 2; k < polygon.count; ++k) {
+        draw_triangle(target, corners[0], corners[k - 1], corners[k], triangle);
+    }
+}
+
+void TriangleRasterizer::find_colours(const Target& target) {
+    std::size_t pixel = 0;
+    for (int y = 0; y < target.picture.camera.height; ++y) {
+        for (int x = 0; x < target.picture.camera.width; ++x, ++pixel) {
+            if (seen_[pixel] != none) {
+                const glm::u8vec4 colour = surface_colour(target.world, seen_[pixel], target.map.eye(),
+                                                          target.map.ray(x + 0.5, y + 0.5));
+                target.picture.colours[pixel] = {colour.r, colour.g, colour.b, 255};
+            }
+        }
+    }
+}
+
+void TriangleRasterizer::draw(const TriangleWorld& world, DepthPicture& picture) {
+    const PictureMap map(picture.camera);
+    if (!map.usable()) {
+        return;
+    }
+    const Target target{world, map, picture};
+    seen_.assign(picture.camera.pixel_count(), none);
+    place_corners(world, map);
+    const std::size_t count = world.triangle_count();
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t* indices = &world.indices[3 * k];
+        if (std::max({indices[0], indices[1], indices[2]}) >= corners_.size()) {
+            continue;
+        }
+        const Corner& a = corners_[indices[0]];
+        const Corner& b = corners_[indices[1]];
+        const Corner& c = corners_[indices[2]];
+        if (std::min({a.nearness, b.nearness, c.nearness}) > 0.0F) {
+            draw_triangle(target, a, b, c, static_cast<std::uint32_t>(k));
+        } else {
+            draw_cut(target, static_cast<std::uint32_t>(k));
+        }
+    }
+    find_colours(target);
+}
+
+} // namespace frustumscreen::ldi

@@ -1,0 +1,45 @@
+/// Draws triangles into depth pictures, on the processor, with a z-buffer.
+///
+/// Frames   the world's, which the picture's camera shares.
+/// Errors   none: what is not finite is not drawn; an eye that is not before its window leaves the picture as it is.
+/// Threads  each rasterizer one at a time. It keeps memory between calls: a second `draw` of no more positions and pixels
+///          allocates nothing.
+/// Method   corners are rounded to 1/1024 of a pixel, then each edge function is exact in 64 bits: triangles with a common
+///          edge neither overlap nor leave a gap. A nearer surface wins, the first of equal ones. Colours are found
+///          afterwards, for each pixel that is seen, where its ray meets its triangle, so they are correct in perspective.
+///          Nearer to the eye than a millionth of the rectangle nothing is drawn. A triangle that reaches more than 8000
+///          pixels beyond the picture, or behind the eye, is cut.
+#pragma once
+
+#include "app/ldi/depth_picture.h"
+#include "app/ldi/triangle_world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen::ldi {
+
+class TriangleRasterizer {
+public:
+    /// Adds to what the picture holds, by depth: also to one that was splatted (layered_depth.h). `DepthPicture::begin` comes
+    /// first.
+    void draw(const TriangleWorld& world, DepthPicture& picture);
+
+private:
+    /// A position in the picture. Nearness is at most 0 where the position needs cutting.
+    struct Corner {
+        float x = 0.0F, y = 0.0F, nearness = 0.0F;
+    };
+    struct Target;
+
+    void place_corners(const TriangleWorld& world, const PictureMap& map);
+    void draw_triangle(const Target& target, const Corner& a, const Corner& b, const Corner& c,
+                       std::uint32_t triangle);
+    void draw_cut(const Target& target, std::uint32_t triangle);
+    void find_colours(const Target& target);
+
+    std::vector<Corner> corners_;
+    std::vector<std::uint32_t> seen_; ///< triangle of each pixel, or `none`
+};
+
+} // namespace frustumscreen::ldi

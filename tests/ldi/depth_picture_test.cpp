@@ -1,0 +1,153 @@
+// Depth pictures against a ray cast that tries every triangle.
+#include "app/ldi/depth_picture.h"
+#include "app/ldi/triangle_rasterizer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace frustumscreen::ldi {
+namespace {
+
+TEST(DepthPicture, ProjectsAPointWhereItsRayPasses) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    for (int k = 0; k < 1000; ++k) {
+        const PictureCamera camera =
+            camera_through_window({u(random), u(random), 0.6 + 0.5 * u(random)}, {0.2, 0.15}, 64, 48);
+        const PictureMap map(camera);
+        const double x = 32.0 + 60.0 * u(random);
+        const double y = 24.0 + 60.0 * u(random);
+        const glm::dvec3 on_window(0.2 * (2.0 * x / 64.0 - 1.0), 0.15 * (1.0 - 2.0 * y / 48.0), 0.0);
+        const double share = 2.0 + u(random); // of the way to the window
+        const glm::dvec3 point = camera.eye + share * (on_window - camera.eye);
+        const auto place = map.project(point);
+        ASSERT_TRUE(place);
+        EXPECT_NEAR(place->x, x, 1e-10);
+        EXPECT_NEAR(place->y, y, 1e-10);
+        EXPECT_NEAR(place->nearness, 1.0 / share, 1e-12);
+        EXPECT_NEAR(glm::length(map.point(x, y, place->nearness) - point), 0.0, 1e-12);
+        EXPECT_FALSE(map.project(camera.eye - 0.3 * (on_window - camera.eye)));
+    }
+}
+
+/// A few hundred triangles behind and before a window, as nobody models them.
+TriangleWorld soup(unsigned seed, int triangles) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> u(-1.0F, 1.0F);
+    TriangleWorld world;
+    for (int k = 0; k < triangles; ++k) {
+        const glm::vec3 middle(0.3F * u(random), 0.3F * u(random), -0.25F + 0.35F * u(random));
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            world.indices.push_back(static_cast<std::uint32_t>(world.positions.size()));
+            world.positions.push_back(middle + 0.08F * glm::vec3(u(random), u(random), u(random)));
+            world.colours.emplace_back(
+                glm::vec3(127.0F) + 127.0F * glm::vec3(u(random), u(random), u(random)), 255);
+        }
+    }
+    return world;
+}
+
+struct Hit {
+    double way = std::numeric_limits<double>::infinity(); ///< in rays
+    double margin = 0.0; ///< least share of a corner: how far from the triangle's border
+    glm::dvec3 colour{0.0};
+};
+
+/// Möller and Trumbore for one triangle.
+bool meets(const TriangleWorld& world, std::size_t triangle, const glm::dvec3& eye, const glm::dvec3& ray,
+           Hit& hit) {
+    const glm::dvec3 a(world.positions[3 * triangle]);
+    const glm::dvec3 ab = glm::dvec3(world.positions[3 * triangle + 1]) - a;
+    const glm::dvec3 ac = glm::dvec3(world.positions[3 * triangle + 2]) - a;
+    const glm::dvec3 p = glm::cross(ray, ac);
+    const double determinant = glm::dot(ab, p);
+    const double u = glm::dot(eye - a, p) / determinant;
+    const glm::dvec3 q = glm::cross(eye - a, ab);
+    const double v = glm::dot(ray, q) / determinant;
+    const double way = glm::dot(ac, q) / determinant;
+    hit = {way, std::min({u, v, 1.0 - u - v}),
+           (1.0 - u - v) * glm::dvec3(world.colours[3 * triangle]) +
+               u * glm::dvec3(world.colours[3 * triangle + 1]) +
+               v * glm::dvec3(world.colours[3 * triangle + 2])};
+    return way > 0.0 && hit.margin > 0.0;
+}
+
+/// The nearest triangle of a ray. `doubtful`: within a thousandth of a pixel, as the corners are rounded, it might be another.
+Hit cast(const TriangleWorld& world, const PictureMap& map, double x, double y, bool& doubtful) {
+    Hit nearest;
+    doubtful = false;
+    std::vector<std::array<Hit, 5>> around;
+    for (std::size_t triangle = 0; triangle < world.triangle_count(); ++triangle) {
+        constexpr double shift_px = 2.0 / 1024.0;
+        std::array<Hit, 5> hits;
+        std::array<bool, 5> met{};
+        for (std::size_t k = 0; k < 5; ++k) {
+            const double right = k == 1 ? shift_px : k == 2 ? -shift_px : 0.0;
+            const double down = k == 3 ? shift_px : k == 4 ? -shift_px : 0.0;
+            met[k] = meets(world, triangle, map.eye(), map.ray(x + right, y + down), hits[k]);
+        }
+        if (met[0] && hits[0].way < nearest.way) {
+            nearest = hits[0];
+        }
+        if (met[0] || met[1] || met[2] || met[3] || met[4]) {
+            around.push_back(hits);
+            doubtful = doubtful || !(met[0] && met[1] && met[2] && met[3] && met[4]);
+        }
+    }
+    for (const std::array<Hit, 5>& hits : around) { // one surface passes through another
+        if (hits[0].way != nearest.way && std::fabs(1.0 / hits[0].way - 1.0 / nearest.way) < 1e-3) {
+            doubtful = true;
+        }
+    }
+    return nearest;
+}
+
+TEST(DepthPicture, EqualsARayCastOfEveryTriangleInHitDepthAndColour) {
+    TriangleRasterizer rasterizer;
+    DepthPicture picture;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    std::size_t hits = 0;
+    std::size_t empty = 0;
+    std::size_t doubts = 0;
+    for (unsigned pose = 0; pose < 12; ++pose) {
+        const TriangleWorld world = soup(100 + pose, 300);
+        picture.begin(camera_through_window({0.5 * u(random), 0.5 * u(random), 0.5 + 0.2 * u(random)},
+                                            {0.2, 0.15}, 64, 48));
+        rasterizer.draw(world, picture);
+        const PictureMap map(picture.camera);
+        for (int y = 0; y < 48; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                bool doubtful = false;
+                const Hit hit = cast(world, map, x + 0.5, y + 0.5, doubtful);
+                const float nearness = picture.nearness[picture.at(x, y)];
+                const glm::u8vec4 colour = picture.colours[picture.at(x, y)];
+                if (doubtful) {
+                    ++doubts;
+                    continue;
+                }
+                ASSERT_EQ(nearness > 0.0F, std::isfinite(hit.way)) << pose << ": " << x << ", " << y;
+                ASSERT_EQ(colour.a, nearness > 0.0F ? 255 : 0);
+                if (nearness > 0.0F) {
+                    ++hits;
+                    EXPECT_NEAR(glm::length(glm::dvec3(colour) - hit.colour), 0.0, 0.9)
+                        << x << ", " << y; // sqrt(3) / 2
+                } else {
+                    ++empty;
+                }
+            }
+        }
+    }
+    EXPECT_GT(hits, 15'000U);
+    EXPECT_GT(empty, 500U);
+    EXPECT_LT(doubts, 8'000U);
+}
+
+} // namespace
+} // namespace frustumscreen::ldi
