@@ -145,6 +145,7 @@ private:
                 strip({left, low_of(row)}, {right - left, square_m});
             }
         }
+        builder_.base(half_side_m);
         const std::array<glm::dvec2, 4> corners{glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1),
                                                 glm::dvec2(-1, 1)};
         for (std::size_t k = 0; k < corners.size(); ++k) {

@@ -78,6 +78,7 @@ private:
             [&](double u, double v) { return on_ground(half_side_m * (2.0 * glm::dvec2(u, v) - 1.0)); },
             {side, side},
             {.material = SiteMaterial::Grass, .mottle = 0.25, .brightness = 1.0, .paint = paint}, 90, 90);
+        builder_.base(half_side_m);
         const std::array<glm::dvec2, 4> corners{glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1),
                                                 glm::dvec2(-1, 1)};
         for (std::size_t k = 0; k < corners.size(); ++k) { // the cut through the ground
@@ -206,7 +207,8 @@ private:
         const auto at = [&](double u, double v) {
             const double row = v * rows - std::floor(v * rows);
             const double wave = 0.06 * std::sin(turn * u * glm::length(along) / 1.1);
-            const double raised = v < 1.0 && u > 0.0 && u < 1.0 ? 0.16 * (1.0 - row) + wave : 0.0;
+            const bool inside = u > 0.0 && u < 1.0 && v > 0.0 && v < 1.0;
+            const double raised = inside ? 0.08 + 0.16 * (1.0 - row) + wave : 0.0;
             return eaves + u * along + v * up + raised * out;
         };
         builder_.patch(at, {glm::length(along), glm::length(up)}, look);
@@ -244,10 +246,9 @@ private:
         const glm::dvec3 slope_back = -0.5 * along_y + rise * up;
         const double longer = 1.0 + over / glm::length(slope);
         const glm::dvec3 wide = along_x + 2.0 * over * x;
-        const glm::dvec3 lift = 0.08 * up;
-        roof_half(ridge + lift - longer * slope - over * x, wide, longer * slope, roof);
-        roof_half(ridge + lift - longer * slope_back + (size.x + over) * x, -wide, longer * slope_back, roof);
-        // The undersides, so that the roof is seen from below too.
+        roof_half(ridge - longer * slope - over * x, wide, longer * slope, roof);
+        roof_half(ridge - longer * slope_back + (size.x + over) * x, -wide, longer * slope_back, roof);
+        // The undersides: together with the tiles they enclose the roof.
         builder_.quad(ridge - longer * slope + (size.x + over) * x, -wide, longer * slope,
                       {.material = SiteMaterial::Wood});
         builder_.quad(ridge - longer * slope_back - over * x, wide, longer * slope_back,

@@ -156,6 +156,12 @@ void SiteBuilder::quad(const glm::dvec3& corner, const glm::dvec3& along_u, cons
           {glm::length(along_u), glm::length(along_v)}, look);
 }
 
+void SiteBuilder::base(double half_side_m) {
+    const double h = half_side_m;
+    patch([h](double u, double v) { return glm::dvec3(h - 2.0 * h * u, 2.0 * h * v - h, 0.0); }, {0.0, 0.0},
+          {.material = SiteMaterial::Earth, .brightness = 0.7});
+}
+
 void SiteBuilder::box(const glm::dvec3& foot, const glm::dvec3& size, double yaw, const Look& look) {
     const glm::dvec3 x = size.x * glm::dvec3(std::cos(yaw), std::sin(yaw), 0.0);
     const glm::dvec3 y = size.y * glm::dvec3(-std::sin(yaw), std::cos(yaw), 0.0);

@@ -57,6 +57,8 @@ public:
     /// A flat one, from a corner along two edges.
     void quad(const glm::dvec3& corner, const glm::dvec3& along_u, const glm::dvec3& along_v,
               const Look& look);
+    /// The square on which the site stands, at z = 0, seen from below.
+    void base(double half_side_m);
     /// Without its bottom. `yaw`: about its middle.
     void box(const glm::dvec3& foot, const glm::dvec3& size, double yaw, const Look& look);
     /// A body of revolution about a vertical axis; `radius_at` of 0..1, from below to above, open below.
