@@ -1,0 +1,13 @@
+/// Techniques that the exhibit's own plan and renderer draw (window_technique.h).
+#pragma once
+
+#include "app/bench/ldi/window_set.h"
+#include "app/bench/ldi/window_technique.h"
+
+namespace frustumscreen::bench {
+
+[[nodiscard]] std::unique_ptr<WindowTechnique> make_window_geometry(WindowSet& set);
+[[nodiscard]] Result<std::unique_ptr<WindowTechnique>> make_window_lod(WindowSet& set);
+[[nodiscard]] std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set);
+
+} // namespace frustumscreen::bench
