@@ -41,7 +41,7 @@ class EndsOfDirection {
 public:
     EndsOfDirection(const BlockInput& input, const relief::ReliefGrid& grid) : input_(input), grid_(grid) {}
 
-    std::vector<SheetEnd> find() {
+    std::vector<relief::SheetEnd> find() {
         const std::vector<Edge> edges = facing_edges();
         for (std::size_t k = 0; k < edges.size();) {
             std::size_t end = k + 1;
@@ -53,8 +53,9 @@ public:
             }
             k = end;
         }
-        std::stable_sort(ends_.begin(), ends_.end(),
-                         [](const SheetEnd& a, const SheetEnd& b) { return a.cell() < b.cell(); });
+        std::stable_sort(
+            ends_.begin(), ends_.end(),
+            [](const relief::SheetEnd& a, const relief::SheetEnd& b) { return a.cell() < b.cell(); });
         return std::move(ends_);
     }
 
@@ -112,9 +113,9 @@ private:
             hit.u = weights[1];
             hit.v = weights[2];
             hit.point = (1.0F - in) * (from + along * (to - from)) + in * opposite;
-            const std::optional<Crossing> crossing = crossing_from(input_, grid_, hit);
+            const std::optional<relief::Crossing> crossing = crossing_from(input_, grid_, hit);
             if (crossing && crossing->own) {
-                const glm::dvec3 at = grid_from_box(grid_, hit.point, 1.0 / input_.texels);
+                const glm::dvec3 at = relief::grid_from_box(grid_, hit.point, 1.0 / input_.texels);
                 ends_.push_back({*crossing, static_cast<float>(at.x), static_cast<float>(at.y)});
             }
         }
@@ -122,12 +123,12 @@ private:
 
     const BlockInput& input_;
     const relief::ReliefGrid& grid_;
-    std::vector<SheetEnd> ends_;
+    std::vector<relief::SheetEnd> ends_;
 };
 
 } // namespace
 
-std::vector<SheetEnd> sheet_ends(const BlockInput& input, const relief::ReliefGrid& grid) {
+std::vector<relief::SheetEnd> sheet_ends(const BlockInput& input, const relief::ReliefGrid& grid) {
     return EndsOfDirection(input, grid).find();
 }
 

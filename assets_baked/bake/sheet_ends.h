@@ -6,7 +6,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "assets_baked/bake/grid_crossings.h"
+#include "assets_baked/bake/cross_grid.h"
 
 #include <vector>
 
@@ -14,6 +14,7 @@ namespace frustumscreen::bake {
 
 /// Points along these edges, a quarter of a texel apart, slightly inside their triangles, sorted by cells,
 /// row by row. Only points that no other direction sees clearly better.
-[[nodiscard]] std::vector<SheetEnd> sheet_ends(const BlockInput& input, const relief::ReliefGrid& grid);
+[[nodiscard]] std::vector<relief::SheetEnd> sheet_ends(const BlockInput& input,
+                                                       const relief::ReliefGrid& grid);
 
 } // namespace frustumscreen::bake

@@ -1,17 +1,18 @@
 /// The cells of a crossed grid: four corners wherever the surface continues from crossing to crossing.
 ///
 /// Frames   the direction's grid, texels.
-/// Threads  pure; any.
+/// Threads  a linker: one.
 #pragma once
 
-#include "assets_baked/bake/grid_crossings.h"
+#include "app/relief/cut_cells.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-namespace frustumscreen::bake {
+namespace frustumscreen::relief {
 
 inline constexpr std::uint32_t no_crossing = 0xFFFFFFFFU;
 
@@ -30,9 +31,21 @@ struct LinkedCell {
     }
 };
 
-/// All surfaces over one cell of which this direction owns at least one corner. A cell that lacks corners is
-/// cut where the surface ends; it may lack all four.
-[[nodiscard]] std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid,
-                                                 int column, int row);
+class CellLinker {
+public:
+    /// `grid` and `lines` must outlive it.
+    CellLinker(const GridCrossings& grid, const CellLines& lines) : grid_(grid), lines_(lines) {}
 
-} // namespace frustumscreen::bake
+    /// All surfaces over one cell of which this direction owns at least one corner. A cell that lacks corners is
+    /// cut where the surface ends; it may lack all four. Valid until the next call.
+    [[nodiscard]] std::span<const LinkedCell> link(int column, int row);
+
+private:
+    const GridCrossings& grid_;
+    const CellLines& lines_;
+    std::vector<LinkedCell> cells_;
+    std::vector<std::uint32_t> used_;
+    CutMemory cut_;
+};
+
+} // namespace frustumscreen::relief

@@ -7,12 +7,13 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "assets_baked/bake/grid_crossings.h"
+#include "app/relief/grid_crossings.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
-namespace frustumscreen::bake {
+namespace frustumscreen::relief {
 
 /// The heights of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), some known.
 struct CornerHeights {
@@ -25,9 +26,15 @@ struct CornerHeights {
 /// Ends within this distance belong to the surface, texels.
 inline constexpr float end_reach = 0.3F;
 
+/// What cutting needs from cell to cell, so that it allocates little.
+struct CutMemory {
+    CellCrossings crossings;
+    std::vector<glm::ivec2> front;
+};
+
 /// Bit 8 row + column: the surface reaches one of the corners of this part of the cell, or ends in it.
 /// Refines the guesses.
-[[nodiscard]] std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int column, int row,
-                                     CornerHeights& corners);
+[[nodiscard]] std::uint64_t cut_cell(const GridCrossings& grid, const CellLines& lines, int column, int row,
+                                     CornerHeights& corners, CutMemory& memory);
 
-} // namespace frustumscreen::bake
+} // namespace frustumscreen::relief

@@ -1,22 +1,25 @@
-#include "assets_baked/bake/linked_cells.h"
-
-#include "assets_baked/bake/cut_cells.h"
+#include "app/relief/linked_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace frustumscreen::bake {
+namespace frustumscreen::relief {
 
 namespace {
 
 class CellLinks {
 public:
-    CellLinks(const BlockInput& input, const GridCrossings& grid, int column, int row)
-        : input_(input), grid_(grid), column_(column), row_(row) {}
+    CellLinks(const GridCrossings& grid, const CellLines& lines, int column, int row,
+              std::vector<std::uint32_t>& used, CutMemory& cut)
+        : grid_(grid), lines_(lines), column_(column), row_(row), used_(used), cut_(cut) {}
 
-    std::vector<LinkedCell> find() {
-        std::vector<LinkedCell> cells;
+    void find(std::vector<LinkedCell>& cells) {
+        cells.clear();
+        used_.clear();
+        if (!may_own()) {
+            return;
+        }
         for (unsigned corner = 0; corner < 4; ++corner) {
             const std::size_t line = line_at(corner);
             for (std::uint32_t id = grid_.first[line]; id < grid_.first[line + 1]; ++id) {
@@ -40,10 +43,21 @@ public:
         cells.erase(std::remove_if(cells.begin(), cells.end(),
                                    [](const LinkedCell& cell) { return !cell.own || cell.cover == 0; }),
                     cells.end());
-        return cells;
     }
 
 private:
+    /// False if no surface over the cell can be kept.
+    [[nodiscard]] bool may_own() const {
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            const std::size_t line = line_at(corner);
+            for (std::uint32_t id = grid_.first[line]; id < grid_.first[line + 1]; ++id) {
+                if (grid_.crossings[id].own) {
+                    return true;
+                }
+            }
+        }
+        return !grid_.ends_in(column_, row_).empty();
+    }
     /// Distance along the line for half a texel across the surface.
     [[nodiscard]] static float half_texel_away(const LineCrossing& crossing) {
         return 0.5F *
@@ -117,7 +131,7 @@ private:
     }
 
     /// A surface that no corner's line crosses.
-    [[nodiscard]] LinkedCell cell_at(const SheetEnd& end) const {
+    [[nodiscard]] LinkedCell cell_at(const SheetEnd& end) {
         CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {
             corners.w[k] = end.w +
@@ -125,7 +139,7 @@ private:
                            end.slope_v * (static_cast<float>(row_) + static_cast<float>(k >> 1U) - end.v);
         }
         LinkedCell cell;
-        cell.cover = cut_cell(input_, grid_, column_, row_, corners);
+        cell.cover = cut_cell(grid_, lines_, column_, row_, corners, cut_);
         cell.w = corners.w;
         cell.colour = end.colour;
         cell.own = true;
@@ -133,7 +147,7 @@ private:
     }
 
     /// Sets the height of every corner and, if the cell is kept (`own`), cuts it where it lacks corners.
-    void complete(LinkedCell& cell) const {
+    void complete(LinkedCell& cell) {
         CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {
             corners.known[k] = cell.crossing[k] != no_crossing;
@@ -141,21 +155,23 @@ private:
                                ? grid_.crossings[cell.crossing[k]].w
                                : continued(cell, static_cast<float>(k & 1U), static_cast<float>(k >> 1U));
         }
-        cell.cover =
-            cell.whole() || !cell.own ? ~std::uint64_t{0} : cut_cell(input_, grid_, column_, row_, corners);
+        cell.cover = cell.whole() || !cell.own ? ~std::uint64_t{0}
+                                               : cut_cell(grid_, lines_, column_, row_, corners, cut_);
         cell.w = corners.w;
     }
 
-    const BlockInput& input_;
     const GridCrossings& grid_;
+    const CellLines& lines_;
     int column_, row_;
-    std::vector<std::uint32_t> used_;
+    std::vector<std::uint32_t>& used_;
+    CutMemory& cut_;
 };
 
 } // namespace
 
-std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid, int column, int row) {
-    return CellLinks(input, grid, column, row).find();
+std::span<const LinkedCell> CellLinker::link(int column, int row) {
+    CellLinks(grid_, lines_, column, row, used_, cut_).find(cells_);
+    return cells_;
 }
 
-} // namespace frustumscreen::bake
+} // namespace frustumscreen::relief

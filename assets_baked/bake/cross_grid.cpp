@@ -1,4 +1,4 @@
-#include "assets_baked/bake/grid_crossings.h"
+#include "assets_baked/bake/cross_grid.h"
 
 #include "app/image/image.h"
 #include "assets_baked/bake/sheet_ends.h"
@@ -70,7 +70,8 @@ void follow_line(const BlockInput& input, const relief::ReliefGrid& grid, const 
     }
 }
 
-LineCrossing crossing_of(const relief::ReliefGrid& grid, const SurfaceHit& hit, double w, double cosine) {
+relief::LineCrossing crossing_of(const relief::ReliefGrid& grid, const SurfaceHit& hit, double w,
+                                 double cosine) {
     return {static_cast<float>(w),
             static_cast<float>(-static_cast<double>(hit.normal[grid.axis[0]]) / cosine),
             static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine)};
@@ -87,53 +88,44 @@ bool is_own(const std::vector<glm::vec3>& normals, const SurfaceHit& hit, double
 
 } // namespace
 
-void cross_line(const BlockInput& input, const relief::ReliefGrid& grid, const glm::dvec2& at,
-                const glm::dvec2& range, std::vector<LineCrossing>& found) {
-    found.clear();
-    follow_line(input, grid, at, range, [&](const SurfaceHit& hit, double w, double cosine) {
-        found.push_back(crossing_of(grid, hit, w, cosine));
-    });
+void SceneLines::cross(int column, int row, const glm::dvec2& range, relief::CellCrossings& found) const {
+    using relief::CellCrossings;
+    found.crossings.clear();
+    for (int j = 0; j < CellCrossings::lines_along; ++j) {
+        for (int i = 0; i < CellCrossings::lines_along; ++i) {
+            const glm::dvec2 at(column + double(i) / CellCrossings::parts,
+                                row + double(j) / CellCrossings::parts);
+            found.first[CellCrossings::line(i, j)] = static_cast<std::uint32_t>(found.crossings.size());
+            follow_line(input_, grid_, at, range, [&](const SurfaceHit& hit, double w, double cosine) {
+                found.crossings.push_back(crossing_of(grid_, hit, w, cosine));
+            });
+        }
+    }
+    found.first.back() = static_cast<std::uint32_t>(found.crossings.size());
 }
 
-std::optional<Crossing> crossing_from(const BlockInput& input, const relief::ReliefGrid& grid,
-                                      const SurfaceHit& hit) {
+std::optional<relief::Crossing> crossing_from(const BlockInput& input, const relief::ReliefGrid& grid,
+                                              const SurfaceHit& hit) {
     const double cosine = grid.sign * static_cast<double>(hit.normal[grid.axis[2]]);
     if (!(cosine > min_cosine)) {
         return std::nullopt;
     }
-    const double w = grid_from_box(grid, hit.point, 1.0 / input.texels).z;
-    return Crossing{crossing_of(grid, hit, w, cosine), is_own(normals_of(input.directions), hit, cosine),
-                    codes_of(input.surface.colour(hit))};
+    const double w = relief::grid_from_box(grid, hit.point, 1.0 / input.texels).z;
+    return relief::Crossing{crossing_of(grid, hit, w, cosine),
+                            is_own(normals_of(input.directions), hit, cosine),
+                            codes_of(input.surface.colour(hit))};
 }
 
-glm::dvec3 grid_from_box(const relief::ReliefGrid& grid, const glm::dvec3& point, double texel_box) {
-    glm::dvec3 at;
-    for (int k = 0; k < 3; ++k) {
-        const int axis = grid.axis[static_cast<std::size_t>(k)];
-        at[k] = (k == 2 ? grid.sign : 1.0) * (point[axis] - grid.origin_box[axis]) / texel_box;
-    }
-    return at;
-}
-
-std::span<const SheetEnd> GridCrossings::ends_in(int column, int row) const {
-    const std::pair<int, int> cell(row, column);
-    const auto first = std::lower_bound(ends.begin(), ends.end(), cell,
-                                        [](const SheetEnd& end, const auto& of) { return end.cell() < of; });
-    const auto last = std::upper_bound(first, ends.end(), cell,
-                                       [](const auto& of, const SheetEnd& end) { return of < end.cell(); });
-    return {first, last};
-}
-
-GridCrossings cross_grid(const BlockInput& input, pack::ReliefDirection direction) {
+relief::GridCrossings cross_grid(const BlockInput& input, pack::ReliefDirection direction) {
     const DirectionFrame frame = frame_of(direction);
     const double texel_box = 1.0 / input.texels;
-    GridCrossings grid;
+    relief::GridCrossings grid;
     grid.grid = grid_of(frame, input.box_size, texel_box);
     grid.columns = lines_for(input.box_size[frame.axis_u], texel_box);
     grid.rows = lines_for(input.box_size[frame.axis_v], texel_box);
     const std::vector<glm::vec3> normals = normals_of(input.directions);
     const double top = input.box_size[frame.axis_n] / texel_box + 4.0; // above the whole box
-    std::vector<std::vector<Crossing>> rows(static_cast<std::size_t>(grid.rows));
+    std::vector<std::vector<relief::Crossing>> rows(static_cast<std::size_t>(grid.rows));
     grid.first.assign(static_cast<std::size_t>(grid.columns) * rows.size() + 1, 0);
     parallel_for(rows.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
@@ -154,7 +146,7 @@ GridCrossings cross_grid(const BlockInput& input, pack::ReliefDirection directio
         for (int column = 0; column < grid.columns; ++column) {
             grid.first[grid.line(column, row) + 1] += before;
         }
-        const std::vector<Crossing>& found = rows[static_cast<std::size_t>(row)];
+        const std::vector<relief::Crossing>& found = rows[static_cast<std::size_t>(row)];
         grid.crossings.insert(grid.crossings.end(), found.begin(), found.end());
         before = static_cast<std::uint32_t>(grid.crossings.size());
     }

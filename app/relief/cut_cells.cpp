@@ -1,35 +1,28 @@
-#include "assets_baked/bake/cut_cells.h"
+#include "app/relief/cut_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace frustumscreen::bake {
+namespace frustumscreen::relief {
 
 namespace {
 
-constexpr int parts = 8; ///< per side of a cell
-constexpr int lines_along = parts + 1;
-constexpr std::size_t lines = std::size_t{lines_along} * lines_along;
-
-constexpr std::size_t line_at(int i, int j) {
-    return static_cast<std::size_t>(j) * lines_along + static_cast<std::size_t>(i);
-}
+constexpr int parts = CellCrossings::parts;
+constexpr int lines_along = CellCrossings::lines_along;
+constexpr std::size_t lines_of_cell = std::size_t{lines_along} * lines_along;
 
 /// The surface, followed along a cell's lines.
 class Sheet {
 public:
-    Sheet(const BlockInput& input, const GridCrossings& grid, int column, int row,
-          const CornerHeights& corners) {
+    Sheet(const GridCrossings& grid, const CellLines& lines, int column, int row,
+          const CornerHeights& corners, CutMemory& memory)
+        : crossings_(memory.crossings), front_(memory.front) {
         constexpr double beyond = 3.0; // texels above and below the corners: the surface may bend
         const auto [low, high] = std::minmax_element(corners.w.begin(), corners.w.end());
         const glm::dvec2 range(static_cast<double>(*low) - beyond, static_cast<double>(*high) + beyond);
-        for (int j = 0; j < lines_along; ++j) {
-            for (int i = 0; i < lines_along; ++i) {
-                const glm::dvec2 at(column + double(i) / parts, row + double(j) / parts);
-                cross_line(input, grid.grid, at, range, crossings_[line_at(i, j)]);
-            }
-        }
+        lines.cross(column, row, range, memory.crossings);
+        front_.clear();
         for (int k = 0; k < 4; ++k) {
             if (corners.known[static_cast<std::size_t>(k)]) {
                 begin_at((k & 1) * parts, (k >> 1) * parts, corners.w[static_cast<std::size_t>(k)]);
@@ -50,13 +43,15 @@ public:
         }
     }
 
-    [[nodiscard]] const std::optional<LineCrossing>& at(int i, int j) const { return found_[line_at(i, j)]; }
+    [[nodiscard]] const std::optional<LineCrossing>& at(int i, int j) const {
+        return found_[CellCrossings::line(i, j)];
+    }
     /// Parts in which the surface ends.
     [[nodiscard]] std::uint64_t end_parts() const { return end_parts_; }
 
 private:
     void take(int i, int j, const LineCrossing& crossing) {
-        found_[line_at(i, j)] = crossing;
+        found_[CellCrossings::line(i, j)] = crossing;
         front_.emplace_back(i, j);
     }
 
@@ -74,7 +69,7 @@ private:
     }
 
     void begin_at(int i, int j, float w, float the_same = 0.01F) {
-        for (const LineCrossing& crossing : crossings_[line_at(i, j)]) {
+        for (const LineCrossing& crossing : crossings_.of(i, j)) {
             if (!at(i, j) && std::abs(crossing.w - w) < the_same) {
                 take(i, j, crossing);
             }
@@ -95,7 +90,7 @@ private:
         const LineCrossing& here = *at(from.x, from.y);
         const LineCrossing* best = nullptr;
         float least = 0.0F;
-        for (const LineCrossing& there : crossings_[line_at(to.x, to.y)]) {
+        for (const LineCrossing& there : crossings_.of(to.x, to.y)) {
             const float sum = slope(here) + slope(there);
             const float bend = std::abs(slope(here) - slope(there));
             const float miss = std::abs(there.w - here.w - 0.5F * length * sum);
@@ -111,9 +106,9 @@ private:
         }
     }
 
-    std::array<std::vector<LineCrossing>, lines> crossings_;
-    std::array<std::optional<LineCrossing>, lines> found_;
-    std::vector<glm::ivec2> front_;
+    const CellCrossings& crossings_;
+    std::vector<glm::ivec2>& front_;
+    std::array<std::optional<LineCrossing>, lines_of_cell> found_;
     std::uint64_t end_parts_ = 0;
 };
 
@@ -163,9 +158,9 @@ float height_over(const CornerHeights& corners, const SheetEnd& end) {
            glm::mix(glm::mix(corners.w[0], corners.w[1], u), glm::mix(corners.w[2], corners.w[3], u), v);
 }
 
-std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int column, int row,
-                       CornerHeights& corners) {
-    const Sheet sheet(input, grid, column, row, corners);
+std::uint64_t cut_cell(const GridCrossings& grid, const CellLines& lines, int column, int row,
+                       CornerHeights& corners, CutMemory& memory) {
+    const Sheet sheet(grid, lines, column, row, corners, memory);
     fit_corners(sheet, corners);
     std::uint64_t cover = sheet.end_parts();
     for (int j = 0; j < parts; ++j) {
@@ -178,4 +173,4 @@ std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int c
     return cover;
 }
 
-} // namespace frustumscreen::bake
+} // namespace frustumscreen::relief
