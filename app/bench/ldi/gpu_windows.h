@@ -44,7 +44,7 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-/// Five sides of a cube around a place below the window's middle, each of the window's pixels.
+/// Five sides of a cube around the window's middle, each of the window's pixels.
 [[nodiscard]] Result<std::unique_ptr<WindowTechnique>> make_cube_depth(WindowSet& set);
 /// One picture through the window from the frozen eye.
 [[nodiscard]] Result<std::unique_ptr<WindowTechnique>> make_view_depth(WindowSet& set);

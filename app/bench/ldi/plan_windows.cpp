@@ -76,12 +76,14 @@ std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set) {
     }
     const bake::SourceScene surface(*of.mesh, points, bake::Sides::Front);
     using Direction = pack::ReliefDirection;
-    const auto relief = std::make_shared<const relief::BlockRelief>(bake::bake_blocks(
-        {.surface = surface,
-         .box_size = of.box_size,
-         .directions = {Direction::PlusX, Direction::MinusX, Direction::PlusY, Direction::MinusY, Direction::PlusZ},
-         .texels = static_cast<int>(std::round(of.size_m / set.pixel_m()))}));
-    const scene::PlacedLevel placed{.box_size = of.box_size,
+    const auto relief = std::make_shared<const relief::BlockRelief>(
+        bake::bake_blocks({.surface = surface,
+                           .box_size = of.box_size,
+                           .directions = {Direction::PlusX, Direction::MinusX, Direction::PlusY,
+                                          Direction::MinusY, Direction::PlusZ},
+                           .texels = static_cast<int>(std::round(of.size_m / set.pixel_m()))}));
+    const scene::PlacedLevel placed{.triangles = nullptr,
+                                    .box_size = of.box_size,
                                     .metres_per_box = of.size_m,
                                     .drawable = set.renderer().store().keep(relief),
                                     .samples = 1,

@@ -82,7 +82,8 @@ WindowScene make_window_scene(std::size_t triangles, std::uint64_t seed) {
 scene::FlatScreen window_screen(int pixels) {
     constexpr double half = 0.5 * window_side_m;
     return scene::flat_screen(
-        {glm::dvec3(-half, half, 0.0), {half, half, 0.0}, {half, -half, 0.0}, {-half, -half, 0.0}}, pixels, pixels);
+        {glm::dvec3(-half, half, 0.0), {half, half, 0.0}, {half, -half, 0.0}, {-half, -half, 0.0}}, pixels,
+        pixels);
 }
 
 std::vector<WindowFrame> window_path(int frames, std::uint64_t seed) {
@@ -98,7 +99,8 @@ std::vector<WindowFrame> window_path(int frames, std::uint64_t seed) {
         for (std::size_t window = 0; window < begins.size(); ++window) {
             const glm::dvec3 phase = turn * (begins.at(window) + share * glm::dvec3(1.0, 1.0, 3.0));
             const double polar = degree * (31.0 - 26.0 * std::cos(2.0 * phase.x)); // 5 to 57
-            frame.eyes_m.at(window) = eye_at(polar, phase.y, frozen_from_m * (1.025 + 0.175 * std::sin(phase.z)));
+            frame.eyes_m.at(window) =
+                eye_at(polar, phase.y, frozen_from_m * (1.025 + 0.175 * std::sin(phase.z)));
         }
     }
     return path;
@@ -111,8 +113,7 @@ std::vector<glm::dvec3> eyes_in_patch(const ldi::Hemisphere& hemisphere, std::si
     std::vector<glm::dvec3> eyes;
     for (int k = 0; k < count; ++k) { // even over the solid angle
         const double cosine = draw.between(std::cos(of.max_polar_rad), std::cos(of.min_polar_rad));
-        const double azimuth =
-            of.middle_azimuth_rad + of.half_width_rad * draw.between(-1.0, 1.0);
+        const double azimuth = of.middle_azimuth_rad + of.half_width_rad * draw.between(-1.0, 1.0);
         eyes.push_back(eye_at(std::acos(cosine), azimuth, hemisphere.radius_m() * draw.between(0.85, 1.2)));
     }
     return eyes;

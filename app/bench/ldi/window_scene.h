@@ -22,8 +22,9 @@
 namespace frustumscreen::bench {
 
 inline constexpr double window_side_m = 0.12;
-inline constexpr double frozen_from_m = 0.5; ///< the eye's distance from the window's middle when it is frozen
-inline constexpr int max_windows = 4;        ///< as in the report's Fig. 8
+inline constexpr double frozen_from_m =
+    0.5;                              ///< the eye's distance from the window's middle when it is frozen
+inline constexpr int max_windows = 4; ///< as in the report's Fig. 8
 
 struct WindowScene {
     std::size_t triangles = 0;

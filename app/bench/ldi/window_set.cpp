@@ -26,7 +26,8 @@ WindowSet::WindowSet(settings::Settings settings, WindowScene scene, int pixels)
     settings_.projector.pinhole = settings_.projector.pinhole.ideal();
 }
 
-Result<std::unique_ptr<WindowSet>> WindowSet::open(settings::Settings settings, WindowScene scene, int pixels) {
+Result<std::unique_ptr<WindowSet>> WindowSet::open(settings::Settings settings, WindowScene scene,
+                                                   int pixels) {
     std::unique_ptr<WindowSet> made(new WindowSet(std::move(settings), std::move(scene), pixels));
     const geometry::Pinhole& pinhole = made->settings_.projector.pinhole;
     TRY(made->display_, display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
@@ -45,7 +46,8 @@ Result<std::unique_ptr<WindowSet>> WindowSet::open(settings::Settings settings, 
     return made;
 }
 
-Result<WindowSet::Uploaded> WindowSet::upload(render::Renderer& renderer, const bake::SourceMesh& mesh) const {
+Result<WindowSet::Uploaded> WindowSet::upload(render::Renderer& renderer,
+                                              const bake::SourceMesh& mesh) const {
     bake::ChartedMesh charted;
     charted.atlas_width = charted.atlas_height = 1;
     charted.uv_texels = mesh.uvs;

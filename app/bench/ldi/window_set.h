@@ -24,8 +24,8 @@ namespace frustumscreen::bench {
 
 class WindowSet {
 public:
-    [[nodiscard]] static Result<std::unique_ptr<WindowSet>> open(settings::Settings settings, WindowScene scene,
-                                                                 int pixels);
+    [[nodiscard]] static Result<std::unique_ptr<WindowSet>> open(settings::Settings settings,
+                                                                 WindowScene scene, int pixels);
     WindowSet(const WindowSet&) = delete;
     WindowSet& operator=(const WindowSet&) = delete;
 

@@ -7,7 +7,7 @@
 /// multi_ldi_paper  the report's: a layered depth image for each patch, splatted in McMillan's order.
 /// single_ldi       all 29 cameras in one layered depth image.
 /// ibo              an image-based object: layered depth images for the sides of a cube, up to three of which are splatted.
-/// cube_depth       a cube of pictures with depth around a place in the window, each drawn by the GPU as a grid of triangles.
+/// cube_depth       a cube of pictures with depth around the window's middle, each drawn by the GPU as a grid of triangles.
 /// view_depth       the same of one picture, from where the window was frozen.
 /// points           the depth pixels of the patch's layered depth image, drawn by the GPU as points.
 ///
