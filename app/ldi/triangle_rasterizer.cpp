@@ -12,17 +12,21 @@ namespace frustumscreen::ldi {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr float steps_per_pixel = 1024.0F;
-constexpr float guard_px =
-    8191.0F; ///< with `steps_per_pixel` 23 bits, so differences of corners are exact in 32 bits
+/// With ten bits behind the point 23 bits, so differences of corners are exact in 32 bits.
+constexpr double guard_px = 8191.0;
 constexpr double min_farness = 1e-6;
+constexpr std::uint16_t needs_cutting = 0x8000; ///< a column
 
+/// To 1/1024: the last bit of doubles of this size.
 float rounded(double pixels) {
-    return std::nearbyint(static_cast<float>(pixels) * steps_per_pixel) / steps_per_pixel;
+    constexpr double size = 0x1.8p42;
+    return static_cast<float>(pixels + size - size);
 }
-int floor_of(float pixels) { // within the guard band; quicker than std::floor without SSE4.1
-    const int toward_zero = static_cast<int>(pixels);
-    return toward_zero - (pixels < static_cast<float>(toward_zero) ? 1 : 0);
+/// First of the pixels 0 to `count` whose middle is not before `place`.
+int first_pixel(float place, int count) {
+    const float from_middle = std::clamp(place - 0.5F, -1.0F, static_cast<float>(count));
+    const int toward_zero = static_cast<int>(from_middle);
+    return std::max(0, toward_zero + (from_middle > static_cast<float>(toward_zero) ? 1 : 0));
 }
 
 /// Homogeneous places of a triangle that is cut by planes: each adds a corner at most.
@@ -31,14 +35,14 @@ struct Polygon {
     std::size_t count = 0;
 };
 
-/// The part where the product with `plane` is not negative.
-Polygon cut(const Polygon& polygon, const glm::dvec3& plane) {
+/// The part where the product with `plane` is at least `least`.
+Polygon cut(const Polygon& polygon, const glm::dvec3& plane, double least) {
     Polygon kept;
     for (std::size_t k = 0; k < polygon.count; ++k) {
         const glm::dvec3& from = polygon.places[k];
         const glm::dvec3& to = polygon.places[(k + 1) % polygon.count];
-        const double from_side = glm::dot(plane, from);
-        const double to_side = glm::dot(plane, to);
+        const double from_side = glm::dot(plane, from) - least;
+        const double to_side = glm::dot(plane, to) - least;
         if (from_side >= 0.0) {
             kept.places[kept.count++] = from;
         }
@@ -49,6 +53,24 @@ Polygon cut(const Polygon& polygon, const glm::dvec3& plane) {
     return kept;
 }
 
+/// A triangle that one side of the picture, or the eye, has outside.
+bool is_beside(const Polygon& triangle, const PictureCamera& camera) {
+    bool left = true;
+    bool right = true;
+    bool above = true;
+    bool below = true;
+    bool behind = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3& place = triangle.places[k];
+        left = left && place.x < 0.0;
+        right = right && place.x > camera.width * place.z;
+        above = above && place.y < 0.0;
+        below = below && place.y > camera.height * place.z;
+        behind = behind && place.z < min_farness;
+    }
+    return left || right || above || below || behind;
+}
+
 } // namespace
 
 struct TriangleRasterizer::Target {
@@ -57,26 +79,34 @@ struct TriangleRasterizer::Target {
     DepthPicture& picture;
 };
 
-void TriangleRasterizer::place_corners(const TriangleWorld& world, const PictureMap& map) {
+void TriangleRasterizer::place_corners(const TriangleWorld& world, const PictureMap& map,
+                                       const PictureCamera& camera) {
     corners_.resize(world.positions.size());
+    cells_.resize(world.positions.size());
     for (std::size_t k = 0; k < corners_.size(); ++k) {
         const glm::dvec3 place = map.homogeneous(glm::dvec3(world.positions[k]));
         const double nearness = 1.0 / place.z;
         const double x = place.x * nearness;
         const double y = place.y * nearness;
-        const bool within = place.z >= min_farness && std::fabs(x) < guard_px && std::fabs(y) < guard_px;
-        corners_[k] = within ? Corner{rounded(x), rounded(y), static_cast<float>(nearness)} : Corner{};
+        if (place.z >= min_farness && std::fabs(x) < guard_px && std::fabs(y) < guard_px) {
+            const Corner corner{rounded(x), rounded(y), static_cast<float>(nearness)};
+            corners_[k] = corner;
+            cells_[k] = {static_cast<std::uint16_t>(first_pixel(corner.x, camera.width)),
+                         static_cast<std::uint16_t>(first_pixel(corner.y, camera.height))};
+        } else {
+            cells_[k] = {needs_cutting, 0};
+        }
     }
 }
 
 void TriangleRasterizer::draw_triangle(const Target& target, const Corner& a, const Corner& b,
                                        const Corner& c, std::uint32_t triangle) {
     const PictureCamera& camera = target.picture.camera;
-    // Pixels whose middle lies in the box of the corners.
-    const int left = std::max(0, 1 + floor_of(std::min({a.x, b.x, c.x}) - 0.50048828125F));
-    const int right = std::min(camera.width - 1, floor_of(std::max({a.x, b.x, c.x}) - 0.5F));
-    const int top = std::max(0, 1 + floor_of(std::min({a.y, b.y, c.y}) - 0.50048828125F));
-    const int bottom = std::min(camera.height - 1, floor_of(std::max({a.y, b.y, c.y}) - 0.5F));
+    // A middle on the right or lower border of the corners' box is not covered.
+    const int left = first_pixel(std::min({a.x, b.x, c.x}), camera.width);
+    const int right = first_pixel(std::max({a.x, b.x, c.x}), camera.width) - 1;
+    const int top = first_pixel(std::min({a.y, b.y, c.y}), camera.height);
+    const int bottom = first_pixel(std::max({a.y, b.y, c.y}), camera.height) - 1;
     if (left > right || top > bottom) {
         return;
     }
@@ -143,12 +173,14 @@ void TriangleRasterizer::draw_cut(const Target& target, std::uint32_t triangle) 
             return;
         }
     }
-    constexpr double guard = guard_px - 1.0F;
-    // The first four go through the eye, so they keep their sense behind it.
-    polygon = cut(polygon, {0.0, 0.0, 1.0});
+    if (is_beside(polygon, target.picture.camera)) {
+        return;
+    }
+    constexpr double guard = guard_px - 1.0;
+    polygon = cut(polygon, {0.0, 0.0, 1.0}, min_farness);
     for (const glm::dvec3& plane : {glm::dvec3(1.0, 0.0, guard), glm::dvec3(-1.0, 0.0, guard),
                                     glm::dvec3(0.0, 1.0, guard), glm::dvec3(0.0, -1.0, guard)}) {
-        polygon = cut(polygon, plane);
+        polygon = cut(polygon, plane, 0.0);
     }
     std::array<Corner, 8> corners{};
     for (std::size_t k = 0; k < polygon.count; ++k) {
@@ -163,12 +195,33 @@ void TriangleRasterizer::draw_cut(const Target& target, std::uint32_t triangle) 
 }
 
 void TriangleRasterizer::find_colours(const Target& target) {
+    // Pixels ask for triangles in any order, so what they need is fetched some pixels ahead.
+    constexpr std::size_t indices_ahead = 24;
+    constexpr std::size_t corners_ahead = 12;
+    const TriangleWorld& world = target.world;
+    const auto indices_of = [&](std::size_t pixel) {
+        return pixel < seen_.size() && seen_[pixel] != none ? &world.indices[3 * std::size_t{seen_[pixel]}]
+                                                            : nullptr;
+    };
     std::size_t pixel = 0;
     for (int y = 0; y < target.picture.camera.height; ++y) {
         for (int x = 0; x < target.picture.camera.width; ++x, ++pixel) {
+            if (const std::uint32_t* far = indices_of(pixel + indices_ahead)) {
+                __builtin_prefetch(far);
+            }
+            if (const std::uint32_t* near = indices_of(pixel + corners_ahead)) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    __builtin_prefetch(&world.positions[near[k]]);
+                    if (!world.colours.empty()) {
+                        __builtin_prefetch(world.colours.data() + near[k]);
+                    } else if (!world.texture_places.empty()) {
+                        __builtin_prefetch(world.texture_places.data() + near[k]);
+                    }
+                }
+            }
             if (seen_[pixel] != none) {
-                const glm::u8vec4 colour = surface_colour(target.world, seen_[pixel], target.map.eye(),
-                                                          target.map.ray(x + 0.5, y + 0.5));
+                const glm::u8vec4 colour =
+                    surface_colour(world, seen_[pixel], target.map.eye(), target.map.ray(x + 0.5, y + 0.5));
                 target.picture.colours[pixel] = {colour.r, colour.g, colour.b, 255};
             }
         }
@@ -182,20 +235,28 @@ void TriangleRasterizer::draw(const TriangleWorld& world, DepthPicture& picture)
     }
     const Target target{world, map, picture};
     seen_.assign(picture.camera.pixel_count(), none);
-    place_corners(world, map);
+    place_corners(world, map, picture.camera);
+    constexpr std::size_t triangles_ahead = 24;
     const std::size_t count = world.triangle_count();
     for (std::size_t k = 0; k < count; ++k) {
         const std::uint32_t* indices = &world.indices[3 * k];
-        if (std::max({indices[0], indices[1], indices[2]}) >= corners_.size()) {
+        if (k + triangles_ahead < count) { // a mesh in no order of places asks for any
+            for (std::size_t j = 0; j < 3; ++j) {
+                __builtin_prefetch(cells_.data() + indices[3 * triangles_ahead + j]);
+            }
+        }
+        if (std::max({indices[0], indices[1], indices[2]}) >= cells_.size()) {
             continue;
         }
-        const Corner& a = corners_[indices[0]];
-        const Corner& b = corners_[indices[1]];
-        const Corner& c = corners_[indices[2]];
-        if (std::min({a.nearness, b.nearness, c.nearness}) > 0.0F) {
-            draw_triangle(target, a, b, c, static_cast<std::uint32_t>(k));
-        } else {
+        const Cell a = cells_[indices[0]];
+        const Cell b = cells_[indices[1]];
+        const Cell c = cells_[indices[2]];
+        if (((a.column | b.column | c.column) & needs_cutting) != 0) {
             draw_cut(target, static_cast<std::uint32_t>(k));
+        } else if (((a.column ^ b.column) | (a.column ^ c.column)) != 0 &&
+                   ((a.row ^ b.row) | (a.row ^ c.row)) != 0) {
+            draw_triangle(target, corners_[indices[0]], corners_[indices[1]], corners_[indices[2]],
+                          static_cast<std::uint32_t>(k));
         }
     }
     find_colours(target);

@@ -26,19 +26,25 @@ public:
     void draw(const TriangleWorld& world, DepthPicture& picture);
 
 private:
-    /// A position in the picture. Nearness is at most 0 where the position needs cutting.
+    /// A position in the picture.
     struct Corner {
         float x = 0.0F, y = 0.0F, nearness = 0.0F;
     };
+    /// The first column and row whose pixels' middles are not left of a corner and not above it, within the picture. A
+    /// triangle whose corners share column or row covers no pixel, and most triangles of a large world do.
+    struct Cell {
+        std::uint16_t column = 0, row = 0;
+    };
     struct Target;
 
-    void place_corners(const TriangleWorld& world, const PictureMap& map);
+    void place_corners(const TriangleWorld& world, const PictureMap& map, const PictureCamera& camera);
     void draw_triangle(const Target& target, const Corner& a, const Corner& b, const Corner& c,
                        std::uint32_t triangle);
     void draw_cut(const Target& target, std::uint32_t triangle);
     void find_colours(const Target& target);
 
     std::vector<Corner> corners_;
+    std::vector<Cell> cells_;         ///< of the corners
     std::vector<std::uint32_t> seen_; ///< triangle of each pixel, or `none`
 };
 
