@@ -91,6 +91,11 @@ void WindowSet::draw(std::span<const scene::Part> parts, const glm::dvec3& eye_m
     windows_->draw(plan, target(), render::Redraw::Everything);
 }
 
+void WindowSet::show(std::span<const glm::u8vec4> codes) {
+    glBindTexture(GL_TEXTURE_2D, target_.colour.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pixels_, pixels_, GL_RGBA, GL_UNSIGNED_BYTE, codes.data());
+}
+
 image::ImageFloat WindowSet::hit_points(const scene::FramePlan& plan) {
     return hit_points_->draw(plan, windows_->store());
 }

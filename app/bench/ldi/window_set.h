@@ -41,6 +41,8 @@ public:
     [[nodiscard]] render::RenderTarget target() const { return {target_.framebuffer.get(), 0}; }
     /// Plans and draws a window's whole picture.
     void draw(std::span<const scene::Part> parts, const glm::dvec3& eye_m, scene::FramePlan& plan);
+    /// Puts a picture from main memory into the target: sRGB codes, row by row, the top one first.
+    void show(std::span<const glm::u8vec4> codes);
     [[nodiscard]] image::ImageFloat hit_points(const scene::FramePlan& plan);
     [[nodiscard]] image::Image8 read_colour() const;
     /// The picture of the scene alone.
