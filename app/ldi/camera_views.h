@@ -1,0 +1,70 @@
+/// What the cameras of a hemisphere see of a world: which places are hidden from all of them.
+///
+/// Frames   window (triangle_world.h). Units: metres.
+/// Threads  one at a time.
+/// Memory   one number a pixel for each camera that was drawn; one picture with its colours while it is drawn.
+#pragma once
+
+#include "app/ldi/depth_picture.h"
+#include "app/ldi/hemisphere.h"
+#include "app/ldi/triangle_rasterizer.h"
+#include "app/ldi/triangle_world.h"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::ldi {
+
+/// One camera's depths.
+class CameraView {
+public:
+    /// Keeps of each pixel the farthest surface in the 3 x 3 around it: what lies a pixel beside a nearer surface counts as seen.
+    explicit CameraView(const DepthPicture& picture);
+
+    enum class Sight { Seen, Hidden, Beside };
+    /// Beside: outside of the picture, or behind the camera. `tolerance_m`: farther than the surface, along the window's normal.
+    [[nodiscard]] Sight sight(const glm::dvec3& point, double tolerance_m) const;
+    [[nodiscard]] std::uint64_t bytes() const { return nearness_.size() * sizeof(float); }
+
+private:
+    PictureCamera camera_;
+    PictureMap map_;
+    double per_metre_; ///< farness
+    std::vector<float> nearness_;
+};
+
+class CameraViews {
+public:
+    /// `width`, `height`: pixels of a camera's picture of the whole window. `world` and `hemisphere` must outlive it.
+    CameraViews(const TriangleWorld& world, const Hemisphere& hemisphere, const glm::dvec2& half_extent_m,
+                int width, int height);
+
+    /// Draws a part of the picture of the first of `cameras` that lacks one: at most `triangles`. False if none lacks one.
+    bool draw_part(std::span<const std::size_t> cameras, std::size_t triangles);
+    /// Null before it is drawn.
+    [[nodiscard]] const CameraView* of(std::size_t camera) const {
+        return views_[camera] ? &*views_[camera] : nullptr;
+    }
+    [[nodiscard]] std::uint64_t bytes() const;
+
+private:
+    const TriangleWorld& world_;
+    const Hemisphere& hemisphere_;
+    glm::dvec2 half_extent_m_;
+    int width_, height_;
+    std::array<std::optional<CameraView>, camera_count> views_;
+    std::size_t drawing_ = camera_count; ///< the camera whose picture is begun
+    std::size_t next_triangle_ = 0;
+    DepthPicture picture_;
+    TriangleRasterizer rasterizer_;
+};
+
+/// True if one of `cameras`, all drawn, sees the place, or none looks there.
+[[nodiscard]] bool may_be_seen(const CameraViews& views, std::span<const std::size_t> cameras,
+                               const glm::dvec3& point, double tolerance_m);
+
+} // namespace frustumscreen::ldi
