@@ -2,6 +2,7 @@
 
 #include "app/bench/ldi/gpu_windows.h"
 #include "app/bench/ldi/plan_windows.h"
+#include "app/bench/ldi/splat_windows.h"
 #include "app/bench/measures/timing.h"
 #include "app/bench/truth/truth.h"
 #include "firmware_host/base/quantile.h"
@@ -159,6 +160,11 @@ Result<Techniques> window_techniques(WindowSet& set) {
     techniques.push_back(make_window_geometry(set));
     TRY(techniques.emplace_back(), make_window_lod(set));
     techniques.push_back(make_window_relief(set));
+    techniques.push_back(make_window_ours(set));
+    techniques.push_back(make_multi_ldi(set));
+    techniques.push_back(make_single_ldi(set));
+    techniques.push_back(make_image_based_object(set));
+    TRY(techniques.emplace_back(), make_window_points(set));
     TRY(techniques.emplace_back(), make_cube_depth(set));
     TRY(techniques.emplace_back(), make_view_depth(set));
     return techniques;

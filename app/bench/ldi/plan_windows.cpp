@@ -2,6 +2,7 @@
 
 #include "app/bench/measures/timing.h"
 #include "app/bench/techniques/level_of_detail.h"
+#include "app/ldi/patch_maker.h"
 #include "assets_baked/bake/block_relief.h"
 
 #include <array>
@@ -50,6 +51,58 @@ std::optional<LevelOfDetail> coarsest_within(const bake::SourceMesh& mesh, doubl
     return std::nullopt;
 }
 
+/// One plan and one part for each patch of the hemisphere.
+class Ours final : public WindowTechnique {
+public:
+    explicit Ours(WindowSet& set) : set_(set) {
+        const double begun_ms = cpu_now_ms();
+        ldi::PatchMaker maker(set.scene().world, ldi::Hemisphere(frozen_from_m),
+                              {.half_extent_m = glm::dvec2(0.5 * window_side_m), .texel_m = set.pixel_m()});
+        while (maker.step()) {
+        }
+        hemisphere_ = maker.hemisphere();
+        for (std::size_t number = 0; number < ldi::patch_count; ++number) {
+            const std::shared_ptr<const ldi::PatchRelief> patch = maker.patch(number);
+            const std::shared_ptr<const relief::BlockRelief> relief(patch, &patch->relief);
+            bytes_ += relief::bytes_of(*relief);
+            Patch& made = patches_.emplace_back();
+            made.part.level = {.triangles = nullptr,
+                               .box_size = patch->box_size,
+                               .metres_per_box = 1.0,
+                               .drawable = set.renderer().store().keep(relief),
+                               .samples = 1,
+                               .relief = relief,
+                               .prop_from_placed = patch->window_from_box};
+            made.plan = scene::make_plan(set.screen().surface, made.part.level);
+        }
+        make_ms_ = cpu_now_ms() - begun_ms;
+    }
+    [[nodiscard]] std::string name() const override { return "ours"; }
+    void draw(const glm::dvec3& eye_m) override {
+        Patch& patch = patch_for(eye_m);
+        set_.draw({&patch.part, 1}, eye_m, patch.plan);
+    }
+    [[nodiscard]] image::ImageFloat hit_points(const glm::dvec3& eye_m) override {
+        draw(eye_m);
+        return set_.hit_points(patch_for(eye_m).plan);
+    }
+    [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+    [[nodiscard]] double make_ms() const override { return make_ms_; }
+
+private:
+    struct Patch {
+        scene::Part part;
+        scene::FramePlan plan;
+    };
+    Patch& patch_for(const glm::dvec3& eye_m) { return patches_[nearest_patch(hemisphere_, eye_m)]; }
+
+    WindowSet& set_;
+    ldi::Hemisphere hemisphere_{frozen_from_m};
+    std::vector<Patch> patches_;
+    std::uint64_t bytes_ = 0;
+    double make_ms_ = 0.0;
+};
+
 } // namespace
 
 std::unique_ptr<WindowTechnique> make_window_geometry(WindowSet& set) {
@@ -90,6 +143,10 @@ std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set) {
                                     .relief = relief,
                                     .prop_from_placed = of.window_from_site};
     return std::make_unique<Planned>(set, "relief_pack", placed, bytes_of(*relief), cpu_now_ms() - begun_ms);
+}
+
+std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set) {
+    return std::make_unique<Ours>(set);
 }
 
 } // namespace frustumscreen::bench

@@ -43,20 +43,6 @@ std::vector<ldi::LayeredDepth> all_patches(const WindowSet& set, const ldi::Hemi
     }
     return patches;
 }
-/// Beyond the cap, the nearest in the ring.
-std::size_t patch_for(const ldi::Hemisphere& hemisphere, const glm::dvec3& eye_m) {
-    if (const std::optional<std::size_t> patch = hemisphere.patch_of(eye_m)) {
-        return *patch;
-    }
-    std::size_t nearest = 0;
-    for (std::size_t patch = 1; patch < ldi::patch_count; ++patch) {
-        if (glm::dot(hemisphere.middle_of(patch), eye_m) > glm::dot(hemisphere.middle_of(nearest), eye_m)) {
-            nearest = patch;
-        }
-    }
-    return nearest;
-}
-
 class Splatted final : public WindowTechnique {
 public:
     using Splat = std::function<void(const glm::dvec3& eye_m, ldi::DepthPicture& picture)>;
@@ -71,7 +57,8 @@ public:
     [[nodiscard]] image::ImageFloat hit_points(const glm::dvec3& eye_m) override {
         draw(eye_m);
         const ldi::PictureMap map(picture_.camera);
-        image::ImageFloat points(set_.pixels(), set_.pixels(), glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+        image::ImageFloat points(set_.pixels(), set_.pixels(),
+                                 glm::vec3(std::numeric_limits<float>::quiet_NaN()));
         for (int y = 0; y < points.height; ++y) {
             for (int x = 0; x < points.width; ++x) {
                 const float nearness = picture_.nearness[picture_.at(x, y)];
@@ -126,9 +113,9 @@ public:
     Points(ldi::Hemisphere hemisphere, std::vector<GpuWindow> patches, double make_ms)
         : hemisphere_(std::move(hemisphere)), patches_(std::move(patches)), make_ms_(make_ms) {}
     [[nodiscard]] std::string name() const override { return "points"; }
-    void draw(const glm::dvec3& eye_m) override { patches_[patch_for(hemisphere_, eye_m)].draw(eye_m); }
+    void draw(const glm::dvec3& eye_m) override { patches_[nearest_patch(hemisphere_, eye_m)].draw(eye_m); }
     [[nodiscard]] image::ImageFloat hit_points(const glm::dvec3& eye_m) override {
-        return patches_[patch_for(hemisphere_, eye_m)].hit_points(eye_m);
+        return patches_[nearest_patch(hemisphere_, eye_m)].hit_points(eye_m);
     }
     [[nodiscard]] std::uint64_t bytes() const override { return sum_of_bytes(patches_); }
     [[nodiscard]] double make_ms() const override { return make_ms_; }
@@ -149,7 +136,7 @@ std::unique_ptr<WindowTechnique> make_multi_ldi(WindowSet& set) {
     return std::make_unique<Splatted>(
         set, "multi_ldi_paper",
         [hemisphere, patches](const glm::dvec3& eye_m, ldi::DepthPicture& picture) {
-            ldi::splat((*patches)[patch_for(hemisphere, eye_m)], picture);
+            ldi::splat((*patches)[nearest_patch(hemisphere, eye_m)], picture);
         },
         sum_of_bytes(*patches), make_ms);
 }
@@ -158,13 +145,13 @@ std::unique_ptr<WindowTechnique> make_single_ldi(WindowSet& set) {
     const double begun_ms = cpu_now_ms();
     const ldi::Hemisphere hemisphere(frozen_from_m);
     const std::vector<ldi::DepthPicture> pictures = camera_pictures(set, hemisphere);
-    auto layers =
-        std::make_shared<const ldi::LayeredDepth>(ldi::single_ldi(hemisphere, all_of(pictures), view_of(set)));
+    auto layers = std::make_shared<const ldi::LayeredDepth>(
+        ldi::single_ldi(hemisphere, all_of(pictures), view_of(set)));
     const double make_ms = cpu_now_ms() - begun_ms;
     return std::make_unique<Splatted>(
         set, "single_ldi",
-        [layers](const glm::dvec3&, ldi::DepthPicture& picture) { ldi::splat(*layers, picture); }, layers->bytes(),
-        make_ms);
+        [layers](const glm::dvec3&, ldi::DepthPicture& picture) { ldi::splat(*layers, picture); },
+        layers->bytes(), make_ms);
 }
 
 std::unique_ptr<WindowTechnique> make_image_based_object(WindowSet& set) {

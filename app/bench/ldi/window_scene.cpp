@@ -106,6 +106,19 @@ std::vector<WindowFrame> window_path(int frames, std::uint64_t seed) {
     return path;
 }
 
+std::size_t nearest_patch(const ldi::Hemisphere& hemisphere, const glm::dvec3& eye_m) {
+    if (const std::optional<std::size_t> patch = hemisphere.patch_of(eye_m)) {
+        return *patch;
+    }
+    std::size_t nearest = 0;
+    for (std::size_t patch = 1; patch < ldi::patch_count; ++patch) {
+        if (glm::dot(hemisphere.middle_of(patch), eye_m) > glm::dot(hemisphere.middle_of(nearest), eye_m)) {
+            nearest = patch;
+        }
+    }
+    return nearest;
+}
+
 std::vector<glm::dvec3> eyes_in_patch(const ldi::Hemisphere& hemisphere, std::size_t patch, int count,
                                       std::uint64_t seed) {
     const ldi::PatchDirections& of = hemisphere.directions_of(patch);

@@ -15,6 +15,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -47,6 +48,8 @@ struct WindowFrame {
 /// Each eye goes through the centre and round the ring of its window's hemisphere, steadily, at 0.85 to 1.2 times the distance
 /// of the frozen eye; where it begins is drawn.
 [[nodiscard]] std::vector<WindowFrame> window_path(int frames, std::uint64_t seed);
+/// The patch that the eye is in; beyond the cap, the one whose middle is nearest.
+[[nodiscard]] std::size_t nearest_patch(const ldi::Hemisphere& hemisphere, const glm::dvec3& eye_m);
 /// Eyes in one patch, spread over its directions.
 [[nodiscard]] std::vector<glm::dvec3> eyes_in_patch(const ldi::Hemisphere& hemisphere, std::size_t patch,
                                                     int count, std::uint64_t seed);
