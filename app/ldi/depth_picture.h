@@ -65,13 +65,18 @@ public:
     [[nodiscard]] double farness(const glm::dvec3& point) const {
         return glm::dot(toward_plane_, point - eye_);
     }
-    /// Homogeneous: (x, y) times farness, and farness.
-    [[nodiscard]] glm::dvec3 homogeneous(const glm::dvec3& point) const {
-        const glm::dvec3 from_eye = point - eye_;
-        const double far = glm::dot(toward_plane_, from_eye);
-        return {glm::dot(columns_, from_eye) + far * first_column_,
-                glm::dot(rows_, from_eye) + far * first_row_, far};
+    /// Homogeneous: (x, y) times farness, and farness. Linear in the vector from the eye.
+    [[nodiscard]] glm::dvec3 homogeneous_from_eye(const glm::dvec3& vector) const {
+        const double far = glm::dot(toward_plane_, vector);
+        return {glm::dot(columns_, vector) + far * first_column_, glm::dot(rows_, vector) + far * first_row_,
+                far};
     }
+    [[nodiscard]] glm::dvec3 homogeneous(const glm::dvec3& point) const {
+        return homogeneous_from_eye(point - eye_);
+    }
+    /// Of rays, from a pixel to the next one.
+    [[nodiscard]] const glm::dvec3& per_column() const { return per_column_; }
+    [[nodiscard]] const glm::dvec3& per_row() const { return per_row_; }
 
 private:
     bool usable_ = false;

@@ -1,0 +1,206 @@
+#include "app/ldi/layered_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen::ldi {
+
+namespace {
+
+constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
+/// A picture's larger differences, as a share of the nearness, are steps between surfaces: for a pixel of a 500th of the
+/// distance, a slant of more than 88.9 degrees.
+constexpr double max_slope_share = 0.1;
+
+/// A picture's pixel is put into the pixels of the image whose middles it covers, but not into farther ones.
+constexpr double max_half_box_px = 1.5;
+
+/// The step to a neighbour on the same surface, along x or y: the smaller of the two, 0 where there is none.
+double slope_at(const DepthPicture& picture, std::size_t pixel, std::size_t stride, bool has_before,
+                bool has_after) {
+    const double here = static_cast<double>(picture.nearness[pixel]);
+    const double limit = max_slope_share * here;
+    double least = std::numeric_limits<double>::infinity();
+    if (has_before && picture.nearness[pixel - stride] > 0.0F) {
+        least = here - static_cast<double>(picture.nearness[pixel - stride]);
+    }
+    if (has_after && picture.nearness[pixel + stride] > 0.0F) {
+        const double after = static_cast<double>(picture.nearness[pixel + stride]) - here;
+        least = std::fabs(after) < std::fabs(least) ? after : least;
+    }
+    return std::fabs(least) <= limit ? least : 0.0;
+}
+
+/// The point of a picture's pixel, and the ways on its surface's plane to the next pixels.
+struct SurfacePoint {
+    glm::dvec3 point, across, down;
+};
+
+SurfacePoint surface_at(const DepthPicture& picture, const PictureMap& map, int x, int y) {
+    const std::size_t pixel = picture.at(x, y);
+    const double nearness = static_cast<double>(picture.nearness[pixel]);
+    const double across = slope_at(picture, pixel, 1, x > 0, x + 1 < picture.camera.width);
+    const double down = slope_at(picture, pixel, static_cast<std::size_t>(picture.camera.width), y > 0,
+                                 y + 1 < picture.camera.height);
+    const glm::dvec3 point = map.point(x + 0.5, y + 0.5, nearness);
+    return {point, map.point(x + 1.5, y + 0.5, nearness + across) - point,
+            map.point(x + 0.5, y + 1.5, nearness + down) - point};
+}
+
+/// Half the size of the box in the image that holds the picture's pixel.
+glm::dvec2 half_box(const PictureMap& map, const SurfacePoint& surface, const PictureMap::Place& place) {
+    const glm::dvec3 across = map.homogeneous_from_eye(surface.across);
+    const glm::dvec3 down = map.homogeneous_from_eye(surface.down);
+    const glm::dvec2 at(place.x, place.y);
+    const glm::dvec2 size =
+        glm::abs(glm::dvec2(across) - at * across.z) + glm::abs(glm::dvec2(down) - at * down.z);
+    return glm::min(0.5 * place.nearness * size, glm::dvec2(max_half_box_px));
+}
+
+/// Along the surface in the image, at most `limit` in length.
+glm::dvec2 slope_in(const PictureMap& map, const SurfacePoint& surface, double limit) {
+    const glm::dvec3 normal = glm::cross(surface.across, surface.down);
+    const double through = glm::dot(normal, surface.point - map.eye());
+    const glm::dvec2 slope(glm::dot(normal, map.per_column()), glm::dot(normal, map.per_row()));
+    const double size = glm::length(slope);
+    if (size > limit * std::fabs(through)) { // also edge on, where `through` is 0
+        return size > 0.0 && std::isfinite(size) ? std::copysign(limit, through) / size * slope
+                                                 : glm::dvec2(0.0);
+    }
+    return through == 0.0 ? glm::dvec2(0.0) : slope / through;
+}
+
+} // namespace
+
+LayerMerger::LayerMerger(const PictureCamera& camera, double tolerance_steps)
+    : camera_(camera), map_(camera), tolerance_steps_(tolerance_steps),
+      heads_(camera.pixel_count(), no_node) {
+    if (map_.usable()) {
+        // Depth is distance / nearness; a step of pitch / nearness in it changes the nearness by this share.
+        const double distance =
+            -1.0 / map_.farness(map_.eye() + glm::normalize(glm::cross(camera.half_right, camera.half_up)));
+        step_share_ = std::max(glm::length(map_.per_column()), glm::length(map_.per_row())) / distance;
+    }
+}
+
+void LayerMerger::add(const DepthPicture& picture) {
+    const PictureMap from(picture.camera);
+    if (!map_.usable() || !from.usable()) {
+        return;
+    }
+    for (int y = 0; y < picture.camera.height; ++y) {
+        for (int x = 0; x < picture.camera.width; ++x) {
+            const std::size_t pixel = picture.at(x, y);
+            if (!(picture.nearness[pixel] > 0.0F)) {
+                continue;
+            }
+            const SurfacePoint surface = surface_at(picture, from, x, y);
+            if (const auto place = map_.project(surface.point)) {
+                const glm::dvec2 slope =
+                    slope_in(map_, surface, max_slope_steps * step_share_ * place->nearness);
+                add_box(*place, half_box(map_, surface, *place),
+                        {0.0F, glm::vec2(slope), picture.colours[pixel]});
+            }
+        }
+    }
+}
+
+void LayerMerger::add_box(const PictureMap::Place& place, const glm::dvec2& half, DepthPixel added) {
+    if (!(std::fabs(place.x) < 2.0 * max_picture_side && std::fabs(place.y) < 2.0 * max_picture_side)) {
+        return;
+    }
+    const auto column = static_cast<int>(std::floor(place.x));
+    const auto row = static_cast<int>(std::floor(place.y));
+    for (int y = std::max(0, row - 1); y <= std::min(row + 1, camera_.height - 1); ++y) {
+        for (int x = std::max(0, column - 1); x <= std::min(column + 1, camera_.width - 1); ++x) {
+            const glm::dvec2 to_middle(x + 0.5 - place.x, y + 0.5 - place.y);
+            const bool covered = std::fabs(to_middle.x) <= half.x && std::fabs(to_middle.y) <= half.y;
+            added.nearness =
+                static_cast<float>(place.nearness + glm::dot(glm::dvec2(added.slope), to_middle));
+            if ((covered || (x == column && y == row)) && added.nearness > 0.0F &&
+                std::isfinite(added.nearness)) {
+                insert(static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
+                           static_cast<std::size_t>(x),
+                       added);
+            }
+        }
+    }
+}
+
+void LayerMerger::insert(std::size_t pixel, const DepthPixel& added) {
+    std::uint32_t before = no_node;
+    std::uint32_t after = heads_[pixel];
+    for (std::uint32_t node = heads_[pixel]; node != no_node; node = nodes_[node].next) {
+        const DepthPixel& other = nodes_[node].pixel;
+        const auto apart = static_cast<double>(std::fabs(other.nearness - added.nearness));
+        if (apart <=
+            tolerance_steps_ * step_share_ * static_cast<double>(std::max(other.nearness, added.nearness))) {
+            return;
+        }
+        if (other.nearness < added.nearness) {
+            before = node;
+            after = nodes_[node].next;
+        }
+    }
+    const auto number = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({added, after});
+    (before == no_node ? heads_[pixel] : nodes_[before].next) = number;
+}
+
+LayeredDepth LayerMerger::take() const {
+    LayeredDepth layers;
+    layers.camera = camera_;
+    layers.firsts.reserve(heads_.size() + 1);
+    layers.pixels.reserve(nodes_.size());
+    for (const std::uint32_t head : heads_) {
+        layers.firsts.push_back(static_cast<std::uint32_t>(layers.pixels.size()));
+        for (std::uint32_t node = head; node != no_node; node = nodes_[node].next) {
+            layers.pixels.push_back(nodes_[node].pixel);
+        }
+    }
+    layers.firsts.push_back(static_cast<std::uint32_t>(layers.pixels.size()));
+    return layers;
+}
+
+PictureCamera camera_around(std::span<const DepthPicture* const> pictures, const glm::dvec3& eye,
+                            const PixelGrid& grid) {
+    // One pixel in the grid's middle; all others go on from it.
+    PictureCamera unit{eye, grid.middle, 0.5 * grid.pitch_m * grid.right, 0.5 * grid.pitch_m * grid.up, 1, 1};
+    const PictureMap map(unit);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(infinity);
+    glm::dvec2 high(-infinity);
+    for (const DepthPicture* picture : pictures) {
+        const PictureMap from(picture->camera);
+        for (int y = 0; from.usable() && map.usable() && y < picture->camera.height; ++y) {
+            for (int x = 0; x < picture->camera.width; ++x) {
+                const auto nearness = static_cast<double>(picture->nearness[picture->at(x, y)]);
+                if (nearness > 0.0) {
+                    if (const auto place = map.project(from.point(x + 0.5, y + 0.5, nearness))) {
+                        low = glm::min(low, glm::dvec2(place->x, place->y));
+                        high = glm::max(high, glm::dvec2(place->x, place->y));
+                    }
+                }
+            }
+        }
+    }
+    if (!(low.x <= high.x)) {
+        unit.width = 0;
+        unit.height = 0;
+        return unit;
+    }
+    const double side = std::clamp(grid.max_side, 1, max_picture_side);
+    low = glm::max(glm::floor(low), glm::dvec2(-std::floor(0.5 * side)));
+    high = glm::max(low + 1.0, glm::min(glm::floor(high) + 1.0, low + side));
+    const glm::dvec2 middle = 0.5 * (low + high) - 0.5; // from the grid's middle, to the right and down
+    const glm::dvec2 size = high - low;
+    return {eye,
+            grid.middle + grid.pitch_m * (middle.x * grid.right - middle.y * grid.up),
+            0.5 * grid.pitch_m * size.x * grid.right,
+            0.5 * grid.pitch_m * size.y * grid.up,
+            static_cast<int>(size.x),
+            static_cast<int>(size.y)};
+}
+
+} // namespace frustumscreen::ldi
